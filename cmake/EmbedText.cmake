@@ -1,0 +1,14 @@
+# overt_embed_text(TARGET HEADER FILES…): makes each text file a `constexpr std::string_view NAME` (its name with dots as
+# underscores) in namespace overt::embedded, in a header generated at build time. Shaders travel in the executable this way.
+function(overt_embed_text target header)
+    set(output ${CMAKE_CURRENT_BINARY_DIR}/generated/${header})
+    list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE inputs)
+    string(REPLACE ";" "," joined "${inputs}")
+    add_custom_command(
+        OUTPUT ${output}
+        COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DINPUTS=${joined} -P ${CMAKE_SOURCE_DIR}/cmake/EmbedTextScript.cmake
+        DEPENDS ${inputs} ${CMAKE_SOURCE_DIR}/cmake/EmbedTextScript.cmake
+        VERBATIM)
+    target_sources(${target} PRIVATE ${output})
+    target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/generated)
+endfunction()

@@ -1,0 +1,12 @@
+# Run by overt_embed_text at build time.
+string(REPLACE "," ";" INPUTS "${INPUTS}")
+set(text "#pragma once\n#include <string_view>\nnamespace overt::embedded {\n")
+foreach(input IN LISTS INPUTS)
+    get_filename_component(name ${input} NAME)
+    string(REPLACE "." "_" name ${name})
+    string(REPLACE "-" "_" name ${name})
+    file(READ ${input} content)
+    string(APPEND text "inline constexpr std::string_view ${name} = R\"overt_text(${content})overt_text\";\n")
+endforeach()
+string(APPEND text "} // namespace overt::embedded\n")
+file(WRITE ${OUTPUT} "${text}")

@@ -1,0 +1,106 @@
+#include "experiment/animation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "experiment/error.h"
+
+namespace overt {
+
+namespace {
+
+/// sin(pi h / n) for a whole h, with the symmetries of the sine applied to the whole numbers first: equal
+/// values come out bit-identical, and there is no negative zero.
+double sine_of_half_turns(int h, int n) {
+    h %= 2 * n;
+    if (h < 0)
+        h += 2 * n;
+    const bool negative = h > n;
+    if (negative)
+        h -= n;
+    h = std::min(h, n - h);
+    if (h == 0)
+        return 0.0;
+    const double sine = std::sin(std::numbers::pi * h / n);
+    return negative ? -sine : sine;
+}
+
+} // namespace
+
+Degrees Animation::angle_of(AnimationFrameIndex frame) const {
+    OVERT_EXPECTS(frame.value >= 0 && frame.value < frame_count);
+    const int intervals = std::max(frame_count - 1, 1);
+    switch (playback) {
+    case Playback::cycle:
+        return {amplitude.value * sine_of_half_turns(2 * frame.value, intervals)};
+    case Playback::ping_pong:
+        // -cos(pi k / n) = sin(pi (2k - n) / 2n)
+        return {amplitude.value * sine_of_half_turns(2 * frame.value - intervals, 2 * intervals)};
+    }
+    return {};
+}
+
+int Animation::shown_frame_count() const { return static_cast<int>(std::lround(duration_s * frame_rate_hz)); }
+
+int Animation::steps_per_period() const {
+    const int intervals = std::max(frame_count - 1, 1);
+    return playback == Playback::cycle ? intervals : 2 * intervals;
+}
+
+AnimationFrameIndex Animation::frame_at_step(int step) const {
+    OVERT_EXPECTS(step >= 0);
+    const int intervals = std::max(frame_count - 1, 1);
+    const int in_period = step % steps_per_period();
+    if (frame_count == 1)
+        return {0};
+    // The closing frame of a cycle is the first of the next.
+    return {in_period <= intervals ? in_period : 2 * intervals - in_period};
+}
+
+PoseTable distinct_poses(const Animation& animation) {
+    PoseTable poses;
+    for (int frame = 0; frame < animation.frame_count; ++frame) {
+        const Degrees angle = animation.angle_of({frame});
+        auto known = std::find(poses.angles.begin(), poses.angles.end(), angle);
+        if (known == poses.angles.end())
+            known = poses.angles.insert(known, angle);
+        poses.of_frame.push_back({static_cast<int>(known - poses.angles.begin())});
+    }
+    return poses;
+}
+
+const PageCycleEntry& PageCycle::entry_at(int refresh) const {
+    OVERT_EXPECTS(refresh >= 0 && refresh < total_refreshes);
+    const std::size_t in_period = static_cast<std::size_t>(refresh) % entry_of_refresh.size();
+    return entries[entry_of_refresh[in_period]];
+}
+
+int refreshes_per_frame(double frame_rate_hz, double refresh_hz) {
+    const double ratio = refresh_hz / frame_rate_hz;
+    const double nearest = std::round(ratio);
+    return nearest >= 1.0 && std::abs(ratio - nearest) <= 1e-3 * nearest ? static_cast<int>(nearest) : 0;
+}
+
+PageCycle make_page_cycle(const Animation& animation, double refresh_hz) {
+    const int held = refreshes_per_frame(animation.frame_rate_hz, refresh_hz);
+    if (held == 0) {
+        throw InputError(
+            fmt::format("a refresh rate of {} Hz is no whole multiple of the frame rate of {} Hz: "
+                        "frames would be lit for unequal times",
+                        refresh_hz, animation.frame_rate_hz));
+    }
+    const PoseTable poses = distinct_poses(animation);
+    PageCycle cycle;
+    for (int step = 0; step < animation.steps_per_period(); ++step) {
+        const AnimationFrameIndex frame = animation.frame_at_step(step);
+        cycle.entry_of_refresh.insert(cycle.entry_of_refresh.end(), static_cast<std::size_t>(held),
+                                      static_cast<std::uint16_t>(cycle.entries.size()));
+        cycle.entries.push_back({frame, poses.pose_of(frame), held});
+    }
+    cycle.total_refreshes = held * animation.shown_frame_count();
+    return cycle;
+}
+
+} // namespace overt

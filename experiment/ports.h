@@ -1,0 +1,164 @@
+/// What a session needs from the outside world. render/ and devices/ implement these; experiment/ only calls
+/// them. Unless a function says otherwise, all of one session's ports are used from the session's thread.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "experiment/flip_report.h"
+#include "experiment/gaze.h"
+#include "experiment/session_time.h"
+#include "experiment/trial.h"
+#include "experiment/units.h"
+
+namespace overt {
+
+/// The session clock. Real: steady time since the session began. Virtual: stands still until somebody waits.
+/// now() may be called from any thread.
+class Clock {
+  public:
+    virtual ~Clock() = default;
+    virtual SessionTime now() const noexcept = 0;
+    /// Returns at `time` or, if that is past, at once.
+    virtual void wait_until(SessionTime time) noexcept = 0;
+};
+
+/// A screen that is not a stimulus.
+struct Screen {
+    enum class Kind : std::uint8_t { blank, text, drift_target };
+    Kind kind = Kind::blank;
+    std::string text; ///< UTF-8, for Kind::text; paragraphs split by newlines
+};
+
+/// How the display shows things: known once the presenter is open.
+struct DisplayTiming {
+    double refresh_hz = 0.0; ///< nominal
+    VblankSource source = VblankSource::virtual_display;
+};
+
+/// Shows pictures at refreshes of the display. Loading may take long and throw; flipping does neither.
+class Presenter {
+  public:
+    virtual ~Presenter() = default;
+
+    virtual DisplayTiming timing() const = 0;
+
+    /// Puts the pages of a stimulus into the frame store, replacing those loaded before. Throws GraphicsError
+    /// or InputError.
+    virtual void load_pages(const Condition& condition) = 0;
+
+    /// Draws a screen and shows it at the next refresh; it stays until the next call. Lays out text, so not
+    /// for use between a presentation's first and last flip.
+    virtual FlipReport show(const Screen& screen) = 0;
+
+    /// Shows a loaded page at the next refresh and returns when that refresh has begun. Allocates, opens and
+    /// throws nothing.
+    virtual FlipReport flip(PoseIndex page) noexcept = 0;
+
+    /// The window was closed or the display went away. The session ends the trial and then itself.
+    virtual bool closed() const noexcept = 0;
+};
+
+/// Sees what the observer sees: a simulated observer, or the operator's view. Called at each flip, on the
+/// session's thread, between a presentation's first and last flip too: allocates and throws nothing.
+class DisplayWitness {
+  public:
+    virtual ~DisplayWitness() = default;
+    /// A presentation of this trial begins with the next flip.
+    virtual void presentation_begins(const Trial& trial) noexcept = 0;
+    virtual void saw(const FlipRecord& flip) noexcept = 0;
+    virtual void saw_screen(const Screen& screen, SessionTime onset) noexcept = 0;
+};
+
+struct TrackerDescription {
+    std::string name;
+    double sample_rate_hz = 0.0;
+    Eye eye = Eye::right;
+};
+
+/// Accuracy reached by a calibration, from its validation.
+struct ValidationResult {
+    Degrees mean_error;
+    Degrees max_error;
+};
+
+class EyeTracker {
+  public:
+    virtual ~EyeTracker() = default;
+    virtual TrackerDescription description() const = 0;
+
+    /// Calibrates and validates. Throws DeviceError if the tracker is lost.
+    virtual ValidationResult calibrate() = 0;
+
+    /// Measured distance between the gaze and a target that is shown now, or nothing if no eye was found
+    /// within the tracker's own time limit.
+    virtual std::optional<Degrees> drift_check(ScreenPoint target) = 0;
+
+    /// Reads both clocks at once, as tightly as the link allows.
+    virtual ClockPair read_clocks() noexcept = 0;
+
+    virtual void start_recording() = 0;
+    virtual void stop_recording() = 0;
+
+    /// Takes samples that have arrived, oldest first; gives their number. Call until it gives less than the
+    /// span holds. Allocates and throws nothing.
+    virtual std::size_t poll(std::span<GazeSample> into) noexcept = 0;
+
+    virtual bool lost() const noexcept = 0;
+};
+
+/// A key or button with which the observer or the operator answers.
+struct ResponsePress {
+    enum class Key : std::uint8_t { next, abort };
+    Key key = Key::next;
+    SessionTime pressed_at;
+};
+
+class ResponsePanel {
+  public:
+    virtual ~ResponsePanel() = default;
+    /// Tells the panel that an answer to a question is awaited from now on. Forgets earlier presses.
+    virtual void await_response(const Trial& trial, SessionTime since) = 0;
+    /// The next press, if there was one.
+    virtual std::optional<ResponsePress> poll() noexcept = 0;
+    /// What was said or typed in answer, once the press has come; empty if the panel takes none.
+    virtual std::string answer() = 0;
+};
+
+/// What happened, besides flips and samples.
+struct SessionEvent {
+    SessionTime at;
+    int trial = -1; ///< -1: outside of trials
+    std::string_view kind;
+    std::string detail;
+};
+
+/// How a trial went.
+struct TrialOutcome {
+    enum class Status : std::uint8_t { completed, aborted };
+    Status status = Status::completed;
+    SessionTime task_screen_onset, presentation_onset, presentation_end, response_screen_onset, responded_at;
+    int shown_refreshes = 0;
+    int missed_refreshes = 0;
+    std::optional<Degrees> drift;
+    std::string answer;
+};
+
+/// Where a session writes itself down. flip() and sample() allocate, open and throw nothing and may wait for
+/// the disk only where time is virtual; the others may throw RecordError.
+class SessionLog {
+  public:
+    virtual ~SessionLog() = default;
+    virtual void flip(const FlipRecord& flip) noexcept = 0;
+    virtual void sample(int trial, const GazeSample& sample) noexcept = 0;
+    virtual void clock_pair(const ClockPair& pair) noexcept = 0;
+    virtual void event(const SessionEvent& event) = 0;
+    virtual void trial_started(const Trial& trial, SessionTime at) = 0;
+    /// All of the trial's rows are on disk when this returns.
+    virtual void trial_finished(const Trial& trial, const TrialOutcome& outcome) = 0;
+};
+
+} // namespace overt

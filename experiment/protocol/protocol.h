@@ -1,0 +1,167 @@
+/// An experiment as its file states it: plain values, with the defaults that a key left out has. Which keys
+/// there are, with their units, ranges and explanations, is in protocol_keys.cpp; how a file becomes this is
+/// in protocol_reader.h.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "experiment/animation.h"
+#include "experiment/units.h"
+
+namespace overt {
+
+/// Packing of 16-bit light into the video signal.
+enum class OutputMode : std::uint8_t { native_8bit, mono_plus_plus, color_plus_plus };
+
+/// [display]: the screen in front of the observer. Defaults: a Display++ as in the paper; its 698 mm are the
+/// active width.
+struct DisplaySettings {
+    int width_px = 1920;
+    int height_px = 1080;
+    double refresh_hz = 120.0;
+    double width_mm = 698.4;
+    double height_mm = 392.9;
+    double viewing_distance_mm = 1750.0;
+    OutputMode output = OutputMode::color_plus_plus;
+    double gamma = 1.0; ///< exponent between wire value and light; 1 for a display that linearises itself
+    double latency_ms = 0.0; ///< from vertical blank to the first row's light
+    double background = 0.0; ///< linear grey, 0 … 1 of the display's white
+};
+
+enum class TrackerKind : std::uint8_t { simulated };
+
+/// [tracker]
+struct TrackerSettings {
+    TrackerKind kind = TrackerKind::simulated;
+    double rate_hz = 2000.0;
+    std::string eye = "right";    ///< "left" or "right"
+    double drift_limit_deg = 2.0; ///< a drift check beyond this is noted as failed
+    // How the simulated tracker differs from a perfect one.
+    double simulated_noise_deg = 0.05;       ///< standard deviation of each sample
+    double simulated_accuracy_deg = 0.3;     ///< standard deviation of a trial's constant offset
+    double simulated_clock_drift_ppm = 40.0; ///< rate of its clock against the session's
+};
+
+/// [view]: image and camera, the same for all stimuli.
+struct ViewSettings {
+    int width_px = 1024;
+    int height_px = 1024;
+    /// Full angle over the height. Left out: the angle under which the observer sees the image on the screen.
+    std::optional<double> vertical_fov_deg;
+    double margin = 0.06;                      ///< share of the image left free where the camera is fitted
+    std::optional<glm::dvec3> camera_position; ///< left out: fitted for each sculpture
+    std::optional<glm::dvec3> camera_target;   ///< left out: the centre of the bounding box
+};
+
+/// [light]: what surrounds the object.
+struct LightSettings {
+    std::string probe =
+        "overcast";            ///< "overcast", or a latitude-longitude EXR or HDR file, linear Rec.709, +y up
+    double exposure = 1.0;     ///< factor from the probe's radiance to the display's white
+    double rotation_deg = 0.0; ///< turns the probe about the vertical
+};
+
+/// [schedule]
+struct ScheduleSettings {
+    int observers = 12;                ///< planned number
+    std::optional<std::uint64_t> seed; ///< left out: drawn for each session, and recorded
+    int max_sculpture_run = 2;         ///< longest run of trials with the same sculpture; 0: no limit
+    int max_task_run = 0;              ///< longest run of trials with the same task; 0: no limit
+};
+
+/// [screens]: what is shown between the animations.
+struct ScreenSettings {
+    double task_min_s = 1.0;     ///< before a key goes on
+    double drift_target_s = 1.0; ///< how long the drift target is shown
+    double recording_lead_s =
+        0.1; ///< recording before the first and after the last refresh of a presentation
+    double response_min_s = 1.0;
+    double response_max_s = 60.0; ///< goes on without an answer
+    double text_height_deg = 0.5;
+    double text_grey = 0.6; ///< linear, 0 … 1 of the display's white
+    std::string response_text = "Please answer now.\nPress a key when you have finished.";
+    std::string welcome_text = "Welcome.\nPress a key to begin.";
+    std::string farewell_text = "Thank you. This is the end.";
+};
+
+/// Which stimuli a task is asked for.
+enum class TaskCoverage : std::uint8_t { every_stimulus, once_per_sculpture };
+
+/// [[task]]
+struct Task {
+    std::string id;
+    std::string question;
+    TaskCoverage stimuli = TaskCoverage::every_stimulus;
+    double simulated_head_share =
+        0.4; ///< share of a simulated observer's fixations that go to the part "head"
+};
+
+/// [[sculpture]]
+struct SculptureSettings {
+    std::string id;
+    std::string title;
+    std::string shipped;        ///< name of a sculpture that overt makes itself, or empty
+    std::filesystem::path mesh; ///< PLY, OBJ or STL, or empty; resolved against the protocol's folder
+    std::string up = "z";       ///< axis of the file that points up: x, y, z, -x, -y, -z
+    double scale = 1.0;
+    // The part "head" in the file's coordinates: inside any sphere and on the positive side of all planes.
+    std::vector<std::array<double, 4>> head_spheres; ///< x, y, z, radius
+    std::vector<std::array<double, 6>> head_planes;  ///< point and normal
+};
+
+enum class MaterialKind : std::uint8_t { smooth_conductor, rough_conductor, coated_conductor, diffuse };
+
+/// [[material]]
+struct MaterialSettings {
+    std::string id;
+    std::string title;
+    MaterialKind kind = MaterialKind::smooth_conductor;
+    std::string metal = "Au"; ///< "Au" or "Ag"
+    double roughness = 0.13;  ///< GGX alpha of rough_conductor
+    double coat_ior = 1.4;
+    std::array<double, 3> coat_absorbance{0.0, 0.10,
+                                          0.75}; ///< red, green, blue, for one pass of the nominal thickness
+    double coat_bump = 0.01; ///< height of the coat's bumps as share of half the object's height
+    std::array<double, 3> reflectance{0.5, 0.5, 0.5}; ///< of diffuse
+};
+
+/// Encoding of ready-made frames.
+enum class FrameEncoding : std::uint8_t { linear, srgb };
+
+/// [[frames]]: a ready-made animation for one sculpture in one material, instead of rendering it.
+struct FrameSequenceSettings {
+    std::string sculpture;
+    std::string material;
+    std::string
+        files; ///< path with # for the digits of the frame number; resolved against the protocol's folder
+    int first_number = 0; ///< number of animation frame 0
+    FrameEncoding encoding = FrameEncoding::linear;
+};
+
+struct Protocol {
+    std::string name;
+    std::string title;
+    DisplaySettings display;
+    TrackerSettings tracker;
+    ViewSettings view;
+    LightSettings light;
+    Animation animation;
+    ScheduleSettings schedule;
+    ScreenSettings screens;
+    std::vector<Task> tasks;
+    std::vector<SculptureSettings> sculptures;
+    std::vector<MaterialSettings> materials;
+    std::vector<FrameSequenceSettings> frames;
+
+    std::filesystem::path file; ///< where it was read
+    std::string text;           ///< the file, byte for byte
+};
+
+} // namespace overt

@@ -1,0 +1,132 @@
+#include "experiment/scene/viewing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "experiment/error.h"
+
+namespace overt {
+
+namespace {
+
+constexpr glm::dvec3 up{0.0, 0.0, 1.0};
+
+struct CameraAxes {
+    glm::dvec3 right, upward, forward;
+};
+
+CameraAxes axes_of(const Camera& camera) {
+    const glm::dvec3 forward = glm::normalize(camera.target - camera.position);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
+    return {right, glm::cross(right, forward), forward};
+}
+
+/// Half the image's height, seen at distance 1.
+double half_height_at_unit_distance(const Camera& camera) {
+    return std::tan(0.5 * to_radians(camera.vertical_fov).value);
+}
+
+} // namespace
+
+glm::dmat4 TurntablePose::world_from_object() const {
+    const double angle_rad = to_radians(angle).value;
+    return glm::translate(glm::dmat4(1.0), axis_point) * glm::rotate(glm::dmat4(1.0), angle_rad, up) *
+           glm::translate(glm::dmat4(1.0), -axis_point);
+}
+
+glm::dmat4 View::view_from_world() const { return glm::lookAt(camera.position, camera.target, up); }
+
+glm::dmat4 View::clip_from_view(double near, double far) const {
+    const double aspect = static_cast<double>(image_px.x) / image_px.y;
+    return glm::perspective(to_radians(camera.vertical_fov).value, aspect, near, far);
+}
+
+Ray View::ray_through(glm::dvec2 image_point_px) const {
+    const CameraAxes axes = axes_of(camera);
+    const double scale = 2.0 * half_height_at_unit_distance(camera) / image_px.y;
+    const glm::dvec2 offset = (image_point_px - 0.5 * glm::dvec2(image_px)) * scale;
+    return {camera.position, glm::normalize(axes.forward + offset.x * axes.right - offset.y * axes.upward)};
+}
+
+glm::dvec2 View::project(glm::dvec3 world_point) const {
+    const CameraAxes axes = axes_of(camera);
+    const glm::dvec3 from_camera = world_point - camera.position;
+    const double depth = glm::dot(from_camera, axes.forward);
+    const double scale = image_px.y / (2.0 * half_height_at_unit_distance(camera) * depth);
+    return 0.5 * glm::dvec2(image_px) +
+           scale * glm::dvec2(glm::dot(from_camera, axes.right), -glm::dot(from_camera, axes.upward));
+}
+
+double View::depth_of(glm::dvec3 world_point) const {
+    return glm::dot(world_point - camera.position, axes_of(camera).forward);
+}
+
+Ray to_object(const Ray& world_ray, const TurntablePose& pose) {
+    TurntablePose back = pose;
+    back.angle.value = -pose.angle.value;
+    const glm::dmat4 object_from_world = back.world_from_object();
+    return {glm::dvec3(object_from_world * glm::dvec4(world_ray.origin, 1.0)),
+            glm::dvec3(object_from_world * glm::dvec4(world_ray.direction, 0.0))};
+}
+
+Camera fit_camera(const Mesh& mesh, Degrees vertical_fov, glm::ivec2 image_px, Degrees amplitude,
+                  double margin) {
+    OVERT_EXPECTS(margin >= 0.0 && margin <= 0.45);
+    const glm::dvec3 centre = mesh.bounds().centre();
+    const double half_height = std::tan(0.5 * to_radians(vertical_fov).value) * (1.0 - 2.0 * margin);
+    const double half_width = half_height * image_px.x / image_px.y;
+    const double amplitude_rad = std::min(std::abs(to_radians(amplitude).value), std::numbers::pi);
+
+    // A point at angle phi and radius r about the axis passes every angle phi ± amplitude. Seen from (0, -d,
+    // 0) it needs |x| <= half_width (d + y) and |z| <= half_height (d + y) at each of them, which is a lower
+    // bound on d. The bounds are extreme at the ends of the arc or at their stationary points, which lie at
+    // fixed angles.
+    const auto needed_distance = [&](double radius, double phi, double height) {
+        const double x = radius * std::cos(phi), y = radius * std::sin(phi);
+        return std::max(std::abs(x) / half_width, std::abs(height) / half_height) - y;
+    };
+    const double side = std::atan(half_width); // where |x|/w - y is stationary: tan = -w from the x axis
+    const double stationary[] = {-side, -std::numbers::pi + side, -0.5 * std::numbers::pi};
+    double distance = 0.0;
+    for (const glm::vec3& position : mesh.positions) {
+        const glm::dvec3 from_axis = glm::dvec3(position) - centre;
+        const double radius = std::hypot(from_axis.x, from_axis.y);
+        const double phi = std::atan2(from_axis.y, from_axis.x);
+        distance = std::max({distance, needed_distance(radius, phi - amplitude_rad, from_axis.z),
+                             needed_distance(radius, phi + amplitude_rad, from_axis.z)});
+        for (const double angle : stationary) {
+            const double away = std::remainder(angle - phi, 2.0 * std::numbers::pi);
+            if (std::abs(away) <= amplitude_rad) {
+                distance = std::max(distance, needed_distance(radius, angle, from_axis.z));
+            }
+        }
+    }
+    return {centre - glm::dvec3(0.0, distance, 0.0), centre, vertical_fov};
+}
+
+DepthRange depth_range(const Bounds& bounds, const View& view) {
+    // The turning object stays inside a cylinder about its axis; its points lie within this distance of the
+    // centre.
+    const glm::dvec3 half = 0.5 * bounds.extent();
+    const double radius = glm::length(half);
+    const double depth = view.depth_of(bounds.centre());
+    const double near = depth - radius, far = depth + radius;
+    const glm::dvec3 from_axis = view.camera.position - bounds.centre();
+    const bool inside_sweep =
+        std::hypot(from_axis.x, from_axis.y) <= std::hypot(half.x, half.y) && std::abs(from_axis.z) <= half.z;
+    if (inside_sweep) {
+        throw InputError(fmt::format("the camera at ({:.6g}, {:.6g}, {:.6g}) stands inside the space that "
+                                     "the turning object sweeps: move "
+                                     "it away or leave camera position out, and it is fitted",
+                                     view.camera.position.x, view.camera.position.y, view.camera.position.z));
+    }
+    if (far <= 0.0)
+        throw InputError("the object lies behind the camera: turn the camera's target towards it");
+    const double widened = 1e-3 * radius;
+    return {std::max(near - widened, 1e-3 * far), far + widened};
+}
+
+} // namespace overt

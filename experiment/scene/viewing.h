@@ -1,0 +1,74 @@
+/// Where the camera stands, how the object is turned, and what that makes of points and pixels. All of it in
+/// double: the graphics card gets these matrices, the gaze is projected with them, and both must agree.
+///
+/// World: right-handed, +z up, in the mesh's unit. The object turns about the vertical through the centre of
+/// its bounding box. Image: continuous pixels, origin top left, y down, pixel centres at +0.5.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "experiment/scene/mesh.h"
+#include "experiment/units.h"
+
+namespace overt {
+
+/// A pinhole camera with square pixels; up is +z.
+struct Camera {
+    glm::dvec3 position{0.0, -1.0, 0.0};
+    glm::dvec3 target{0.0};
+    Degrees vertical_fov{12.0}; ///< full angle over the image's height
+};
+
+/// Turn of the object about the vertical through `axis_point`, counter-clockwise seen from above.
+struct TurntablePose {
+    glm::dvec3 axis_point{0.0};
+    Degrees angle;
+
+    glm::dmat4 world_from_object() const;
+};
+
+struct Ray {
+    glm::dvec3 origin{0.0};
+    glm::dvec3 direction{0.0, 1.0, 0.0}; ///< unit length
+};
+
+/// A camera with an image of a given size.
+struct View {
+    Camera camera;
+    glm::ivec2 image_px{1024, 1024};
+
+    glm::dmat4 view_from_world() const;
+
+    /// OpenGL's clip space (y up, depth -1 … 1) for distances near … far along the viewing direction, 0 <
+    /// near < far.
+    glm::dmat4 clip_from_view(double near, double far) const;
+
+    /// Ray in the world through a continuous image point.
+    Ray ray_through(glm::dvec2 image_point_px) const;
+
+    /// Image point of a world point in front of the camera.
+    glm::dvec2 project(glm::dvec3 world_point) const;
+
+    /// Distance along the viewing direction; positive in front of the camera.
+    double depth_of(glm::dvec3 world_point) const;
+};
+
+/// The same ray seen from the object: its coordinates before the turn.
+Ray to_object(const Ray& world_ray, const TurntablePose& pose);
+
+/// A camera in front of the object (on its -y side), level with its centre, as near as the object allows when
+/// it turns up to `amplitude` to each side: every point of the mesh stays inside the image with `margin`
+/// (share of the image, 0 … 0.45) left free on all sides.
+Camera fit_camera(const Mesh& mesh, Degrees vertical_fov, glm::ivec2 image_px, Degrees amplitude,
+                  double margin);
+
+/// Nearest and farthest distance along the viewing direction that any turn of the mesh can reach, slightly
+/// widened.
+struct DepthRange {
+    double near = 0.0;
+    double far = 0.0;
+};
+/// Throws InputError if the camera stands inside the volume that the mesh sweeps.
+DepthRange depth_range(const Bounds& bounds, const View& view);
+
+} // namespace overt

@@ -1,0 +1,39 @@
+/// What one observer does in one sitting: trials, each a question about one stimulus.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace overt {
+
+/// A sculpture in a material: what the observer looks at. Indices into the protocol's lists.
+struct Condition {
+    int sculpture = 0;
+    int material = 0;
+    friend constexpr auto operator<=>(const Condition&, const Condition&) = default;
+};
+
+/// One presentation under one task.
+struct Trial {
+    int index = 0; ///< position in the observer's order, from 0
+    int task = 0;  ///< index into the protocol's tasks
+    Condition condition;
+    friend constexpr bool operator==(const Trial&, const Trial&) = default;
+};
+
+/// Who sits there. `number` counts observers from 1 and decides the rotation of materials; `label` is what
+/// files are named by.
+struct Observer {
+    std::string label;
+    int number = 1;
+};
+
+/// The order of one observer's trials, and the seed from which it can be made again.
+struct Schedule {
+    Observer observer;
+    std::uint64_t seed = 0;
+    std::vector<Trial> trials;
+};
+
+} // namespace overt
