@@ -20,7 +20,8 @@ class FileDescriptor {
     explicit FileDescriptor(const std::filesystem::path& path)
         : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
     ~FileDescriptor() {
-        if (number_ >= 0) ::close(number_);
+        if (number_ >= 0)
+            ::close(number_);
     }
     FileDescriptor(const FileDescriptor&) = delete;
     FileDescriptor& operator=(const FileDescriptor&) = delete;
@@ -37,24 +38,32 @@ std::string reason(int error_number) { return std::generic_category().message(er
 MeshSource::MeshSource(std::filesystem::path path) : path_(std::move(path)) {
     const FileDescriptor file(path_);
     if (file.number() < 0) {
-        if (errno == ENOENT) fail("there is no such mesh file.");
+        if (errno == ENOENT)
+            fail("there is no such mesh file.");
         fail(fmt::format("this mesh file cannot be opened: {}.", reason(errno)));
     }
     struct ::stat status {};
-    if (::fstat(file.number(), &status) != 0) fail(fmt::format("cannot be examined: {}.", reason(errno)));
-    if (S_ISDIR(status.st_mode)) fail("this is a folder; name the mesh file in it.");
-    if (!S_ISREG(status.st_mode)) fail("this is not a regular file; a mesh is read from one.");
+    if (::fstat(file.number(), &status) != 0)
+        fail(fmt::format("cannot be examined: {}.", reason(errno)));
+    if (S_ISDIR(status.st_mode))
+        fail("this is a folder; name the mesh file in it.");
+    if (!S_ISREG(status.st_mode))
+        fail("this is not a regular file; a mesh is read from one.");
 
     const std::size_t expected = static_cast<std::size_t>(status.st_size);
     bytes_ = std::make_unique_for_overwrite<char[]>(expected);
     while (size_ < expected) {
         const ::ssize_t got = ::read(file.number(), bytes_.get() + size_, expected - size_);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) fail_at_byte(size_, fmt::format("reading stopped: {}.", reason(errno)));
-        if (got == 0) break;
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            fail_at_byte(size_, fmt::format("reading stopped: {}.", reason(errno)));
+        if (got == 0)
+            break;
         size_ += static_cast<std::size_t>(got);
     }
-    if (size_ == 0) fail("this mesh file is empty.");
+    if (size_ == 0)
+        fail("this mesh file is empty.");
 }
 
 void MeshSource::fail(std::string_view message) const {

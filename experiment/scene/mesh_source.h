@@ -39,7 +39,8 @@ class MeshSource {
 template <class T> T stored_value(const char* bytes, std::endian order) {
     std::array<char, sizeof(T)> copy;
     std::memcpy(copy.data(), bytes, sizeof(T));
-    if (order != std::endian::native) std::reverse(copy.begin(), copy.end());
+    if (order != std::endian::native)
+        std::reverse(copy.begin(), copy.end());
     return std::bit_cast<T>(copy);
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <string>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -16,7 +15,8 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' |
 
 // std::from_chars knows no plus sign.
 std::string_view without_plus(std::string_view word) {
-    if (word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+') word.remove_prefix(1);
+    if (word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+')
+        word.remove_prefix(1);
     return word;
 }
 
@@ -24,7 +24,8 @@ template <class Number> std::optional<Number> parsed(std::string_view word, std:
     Number value{};
     const auto [stop, code] = std::from_chars(word.data(), word.data() + word.size(), value);
     error = code;
-    if (code == std::errc::invalid_argument || stop != word.data() + word.size()) return std::nullopt;
+    if (code == std::errc::invalid_argument || stop != word.data() + word.size())
+        return std::nullopt;
     return value;
 }
 
@@ -38,9 +39,12 @@ MeshText::MeshText(const MeshSource& source, std::size_t from_byte, std::size_t 
 std::size_t MeshText::offset() const { return static_cast<std::size_t>(at_ - source_.bytes().data()); }
 
 std::size_t MeshText::joint_length() const {
-    if (joining_ == LineJoining::none || *at_ != '\\') return 0;
-    if (end_ - at_ >= 2 && at_[1] == '\n') return 2;
-    if (end_ - at_ >= 3 && at_[1] == '\r' && at_[2] == '\n') return 3;
+    if (joining_ == LineJoining::none || *at_ != '\\')
+        return 0;
+    if (end_ - at_ >= 2 && at_[1] == '\n')
+        return 2;
+    if (end_ - at_ >= 3 && at_[1] == '\r' && at_[2] == '\n')
+        return 3;
     return 0;
 }
 
@@ -66,26 +70,30 @@ std::string_view MeshText::next_in_line() {
     skip_blanks();
     place_ = {line_, static_cast<std::size_t>(at_ - line_begin_) + 1};
     const char* const begin = at_;
-    while (at_ < end_ && *at_ != '\n' && !is_blank(*at_) && joint_length() == 0) ++at_;
+    while (at_ < end_ && *at_ != '\n' && !is_blank(*at_) && joint_length() == 0)
+        ++at_;
     return {begin, static_cast<std::size_t>(at_ - begin)};
 }
 
 std::string_view MeshText::next() {
     while (true) {
         const std::string_view word = next_in_line();
-        if (!word.empty() || at_ == end_) return word;
+        if (!word.empty() || at_ == end_)
+            return word;
         to_next_line();
     }
 }
 
 std::string_view MeshText::rest_of_line() {
-    if (at_ < end_ && is_blank(*at_) && *at_ != '\r') ++at_;
+    if (at_ < end_ && is_blank(*at_) && *at_ != '\r')
+        ++at_;
     place_ = {line_, static_cast<std::size_t>(at_ - line_begin_) + 1};
     const char* const begin = at_;
     const void* const line_end = std::memchr(at_, '\n', remaining_bytes());
     at_ = line_end ? static_cast<const char*>(line_end) : end_;
     std::string_view rest(begin, static_cast<std::size_t>(at_ - begin));
-    if (!rest.empty() && rest.back() == '\r') rest.remove_suffix(1);
+    if (!rest.empty() && rest.back() == '\r')
+        rest.remove_suffix(1);
     return rest;
 }
 
@@ -98,25 +106,28 @@ bool MeshText::to_next_line() {
             ++at_;
         }
     }
-    if (at_ == end_) return false;
+    if (at_ == end_)
+        return false;
     ++at_;
     begin_line();
     return true;
 }
 
-void MeshText::fail(std::string_view message) const {
-    source_.fail_at(place_.line, place_.column, message);
-}
+void MeshText::fail(std::string_view message) const { source_.fail_at(place_.line, place_.column, message); }
 
 std::optional<float> MeshText::number_in(std::string_view word) {
     word = without_plus(word);
     std::errc error{};
     const std::optional<float> value = parsed<float>(word, error);
-    if (error != std::errc::result_out_of_range) return value;
-    // Outside float's range: the wider type tells too small from too large, and beyond it the exponent's sign.
+    if (error != std::errc::result_out_of_range)
+        return value;
+    // Outside float's range: the wider type tells too small from too large, and beyond it the exponent's
+    // sign.
     const std::optional<double> wide = parsed<double>(word, error);
-    if (!wide) return std::nullopt;
-    if (error != std::errc::result_out_of_range) return static_cast<float>(*wide);
+    if (!wide)
+        return std::nullopt;
+    if (error != std::errc::result_out_of_range)
+        return static_cast<float>(*wide);
     const bool tiny = word.find("e-") != word.npos || word.find("E-") != word.npos;
     return tiny ? 0.0f : std::numeric_limits<float>::infinity();
 }
@@ -127,12 +138,25 @@ std::optional<std::int64_t> MeshText::integer_in(std::string_view word) {
     return error == std::errc{} ? value : std::nullopt;
 }
 
+std::string MeshText::quoted(std::string_view word) {
+    constexpr std::size_t longest = 40;
+    std::string text(word.substr(0, longest));
+    for (char& c : text) {
+        if (c < ' ' || c > '~')
+            c = '?';
+    }
+    return fmt::format("'{}{}'", text, word.size() > longest ? "..." : "");
+}
+
 bool MeshText::is_finite(float value) { return std::isfinite(value); }
 
 void MeshText::refuse_coordinate(std::string_view word, char axis, std::string_view owner) const {
-    if (word.empty()) fail(fmt::format("{} has no {} coordinate.", owner, axis));
-    if (!number_in(word)) fail(fmt::format("{} of {} is '{}', which is no number.", axis, owner, word));
-    fail(fmt::format("{} of {} is '{}'; coordinates must be finite and fit a 32-bit float.", axis, owner, word));
+    if (word.empty())
+        fail(fmt::format("{} has no {} coordinate.", owner, axis));
+    if (!number_in(word))
+        fail(fmt::format("{} of {} is {}, which is no number.", axis, owner, quoted(word)));
+    fail(fmt::format("{} of {} is {}; coordinates must be finite and fit a 32-bit float.", axis, owner,
+                     quoted(word)));
 }
 
 } // namespace overt

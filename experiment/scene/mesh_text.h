@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "experiment/scene/mesh_source.h"
@@ -47,12 +48,13 @@ class MeshText {
     [[noreturn]] void fail(std::string_view message) const;
 
     /// Takes the next word of this line as a finite coordinate; throws InputError at its place if it is
-    /// missing, no number, or no finite float. `owner` says whose coordinate it is ("vertex 7"), and is called
-    /// only for the message.
+    /// missing, no number, or no finite float. `owner` says whose coordinate it is ("vertex 7"), and is
+    /// called only for the message.
     template <class Owner> float coordinate(char axis, const Owner& owner) {
         const std::string_view word = next_in_line();
         const std::optional<float> value = number_in(word);
-        if (!value || !is_finite(*value)) refuse_coordinate(word, axis, owner());
+        if (!value || !is_finite(*value))
+            refuse_coordinate(word, axis, owner());
         return *value;
     }
 
@@ -61,6 +63,9 @@ class MeshText {
     static std::optional<float> number_in(std::string_view word);
     /// The whole word as an integer; nullopt if it is none or does not fit.
     static std::optional<std::int64_t> integer_in(std::string_view word);
+
+    /// The word for a message: in quotes, cut when long, with a ? for each byte that does not print.
+    static std::string quoted(std::string_view word);
 
   private:
     static bool is_finite(float value);
