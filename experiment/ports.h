@@ -46,9 +46,9 @@ class Presenter {
 
     virtual DisplayTiming timing() const = 0;
 
-    /// Puts the pages of a stimulus into the frame store, replacing those loaded before. Throws GraphicsError
-    /// or InputError.
-    virtual void load_pages(const Condition& condition) = 0;
+    /// Puts the frames of a stimulus into the frame store, replacing those loaded before. Throws
+    /// GraphicsError or InputError.
+    virtual void load_frames(const Condition& condition) = 0;
 
     /// Draws a screen and shows it at the next refresh; it stays until the next call. Lays out text, so not
     /// for use between a presentation's first and last flip.

@@ -53,6 +53,15 @@ struct View {
     double depth_of(glm::dvec3 world_point) const;
 };
 
+/// A sculpture on its turntable in front of the camera: what the stimulus, its hidden map and the gaze must
+/// agree on.
+struct SceneView {
+    View view;
+    Bounds bounds; ///< of the mesh; the turn is about the vertical through its centre
+
+    TurntablePose pose_at(Degrees angle) const { return {bounds.centre(), angle}; }
+};
+
 /// The same ray seen from the object: its coordinates before the turn.
 Ray to_object(const Ray& world_ray, const TurntablePose& pose);
 

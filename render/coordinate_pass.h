@@ -1,0 +1,28 @@
+/// The hidden pass: for each pixel the triangle that is nearest at its centre.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/mesh_buffers.h"
+#include "render/scene_view.h"
+#include "render/shader_program.h"
+
+namespace overt {
+
+class CoordinatePass {
+  public:
+    CoordinatePass(const GlContext& context, glm::ivec2 image_px);
+
+    /// Triangle index + 1 for each pixel, top row first; 0 where there is no surface. Both sides of a
+    /// triangle count.
+    std::vector<std::uint32_t> draw(const MeshBuffers& mesh, const SceneView& scene, Degrees angle);
+
+  private:
+    const GlContext* context_;
+    ShaderProgram program_;
+    Texture2D triangle_codes_;
+    Framebuffer target_;
+};
+
+} // namespace overt

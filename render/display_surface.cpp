@@ -1,0 +1,78 @@
+#include "render/display_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace overt {
+
+SessionTime VirtualRefresh::time_of(std::int64_t refresh) const noexcept {
+    return SessionTime(SessionDuration(std::llround(static_cast<double>(refresh) * 1e9 / refresh_hz_)));
+}
+
+FlipReport VirtualRefresh::next(SessionTime requested) noexcept {
+    const SessionTime now = clock_->now();
+    auto refresh = static_cast<std::int64_t>(std::floor(to_seconds(now) * refresh_hz_)) + 1;
+    // Rounded to nanoseconds, a refresh may lie a hair to either side of the quotient.
+    while (time_of(refresh - 1) > now)
+        --refresh;
+    while (time_of(refresh) <= now)
+        ++refresh;
+    FlipReport report;
+    report.requested = requested;
+    report.swapped = now;
+    report.refresh = {refresh};
+    report.vertical_blank = time_of(refresh);
+    report.source = VblankSource::virtual_display;
+    report.missed_refreshes = static_cast<int>(std::min<std::int64_t>(refresh - last_ - 1, 1 << 30));
+    clock_->wait_until(report.vertical_blank);
+    last_ = refresh;
+    return report;
+}
+
+FlipReport VirtualDisplay::present(const Framebuffer&) noexcept {
+    const SessionTime requested = clock_->now();
+    // What a display would show must have been drawn by the time it is lit.
+    context_->gl().Finish();
+    return refresh_.next(requested);
+}
+
+WindowDisplay::WindowDisplay(WindowContext& window, Clock& clock, double refresh_hz, bool virtual_time)
+    : window_(&window), clock_(&clock), virtual_time_(virtual_time), virtual_refresh_(clock, refresh_hz) {
+    window.set_swap_interval(virtual_time ? 0 : 1);
+}
+
+DisplayTiming WindowDisplay::timing() const {
+    return {virtual_refresh_.refresh_hz(),
+            virtual_time_ ? VblankSource::virtual_display : VblankSource::swap_return};
+}
+
+FlipReport WindowDisplay::present(const Framebuffer& canvas) noexcept {
+    const SessionTime requested = clock_->now();
+    const GladGLContext& gl = window_->gl();
+    const glm::ivec2 size = canvas.size_px();
+    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, canvas.name());
+    gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    // The canvas holds its top row first, the window its bottom row: turned round here and nowhere else.
+    gl.BlitFramebuffer(0, 0, size.x, size.y, 0, size.y, size.x, 0, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    window_->swap_buffers();
+    window_->poll_events();
+    if (virtual_time_)
+        return virtual_refresh_.next(requested);
+
+    FlipReport report;
+    report.requested = requested;
+    report.swapped = clock_->now();
+    gl.Finish();
+    report.vertical_blank = clock_->now();
+    report.source = VblankSource::swap_return;
+    const double elapsed = to_seconds(report.vertical_blank - last_blank_) * virtual_refresh_.refresh_hz();
+    const std::int64_t refreshes = std::max<std::int64_t>(1, std::llround(elapsed));
+    report.missed_refreshes = static_cast<int>(std::min<std::int64_t>(refreshes - 1, 1 << 30));
+    last_refresh_ += refreshes;
+    last_blank_ = report.vertical_blank;
+    report.refresh = {last_refresh_};
+    return report;
+}
+
+} // namespace overt

@@ -1,0 +1,71 @@
+/// Where finished screens go: a display that exists, or one that only keeps time.
+#pragma once
+
+#include "experiment/ports.h"
+#include "render/gl_objects.h"
+#include "render/window_context.h"
+
+namespace overt {
+
+class DisplaySurface {
+  public:
+    virtual ~DisplaySurface() = default;
+    virtual DisplayTiming timing() const = 0;
+
+    /// Makes the canvas visible at the next refresh and returns when that has begun. Allocates and throws
+    /// nothing.
+    virtual FlipReport present(const Framebuffer& canvas) noexcept = 0;
+    virtual bool closed() const noexcept = 0;
+};
+
+/// The refreshes of a display that is not there: the n-th begins at n / refresh_hz of the session clock. On a
+/// virtual clock none is ever missed; on a real one a late caller finds that refreshes went by.
+class VirtualRefresh {
+  public:
+    VirtualRefresh(Clock& clock, double refresh_hz) : clock_(&clock), refresh_hz_(refresh_hz) {}
+
+    /// Waits for the first refresh after now and reports it.
+    FlipReport next(SessionTime requested) noexcept;
+    double refresh_hz() const { return refresh_hz_; }
+
+  private:
+    SessionTime time_of(std::int64_t refresh) const noexcept;
+    Clock* clock_;
+    double refresh_hz_;
+    std::int64_t last_ = 0;
+};
+
+/// Headless: the canvas stays in memory.
+class VirtualDisplay final : public DisplaySurface {
+  public:
+    VirtualDisplay(const GlContext& context, Clock& clock, double refresh_hz)
+        : context_(&context), clock_(&clock), refresh_(clock, refresh_hz) {}
+    DisplayTiming timing() const override { return {refresh_.refresh_hz(), VblankSource::virtual_display}; }
+    FlipReport present(const Framebuffer& canvas) noexcept override;
+    bool closed() const noexcept override { return false; }
+
+  private:
+    const GlContext* context_;
+    Clock* clock_;
+    VirtualRefresh refresh_;
+};
+
+/// A window. In virtual time it shows everything as fast as it can and takes its times from the virtual
+/// clock.
+class WindowDisplay final : public DisplaySurface {
+  public:
+    WindowDisplay(WindowContext& window, Clock& clock, double refresh_hz, bool virtual_time);
+    DisplayTiming timing() const override;
+    FlipReport present(const Framebuffer& canvas) noexcept override;
+    bool closed() const noexcept override { return window_->close_requested(); }
+
+  private:
+    WindowContext* window_;
+    Clock* clock_;
+    bool virtual_time_;
+    VirtualRefresh virtual_refresh_;
+    SessionTime last_blank_{};
+    std::int64_t last_refresh_ = 0;
+};
+
+} // namespace overt

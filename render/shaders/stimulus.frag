@@ -1,0 +1,124 @@
+#version 330 core
+// Metals under a light probe, approximated for the graphics processor: one mirrored direction per point, looked up in a probe
+// blurred beforehand, dimmed where the figure itself is in the way, with one bounce of its own colour from there.
+in vec3 world_position;
+in vec3 world_normal;
+in vec3 object_position;
+in vec4 world_openness;
+
+layout(location = 0) out vec4 linear_light; // display RGB, alpha 1 on the object
+
+uniform vec3 camera_position;    // world, about the centre
+uniform sampler2D mirrored;      // the probe as this material mirrors it; for a diffuse one, irradiance / pi
+uniform sampler2D sharp;         // the probe itself, for the coat
+uniform vec3 surroundings;       // mean radiance of the probe
+uniform vec3 reflectance;        // at normal incidence (metals), or albedo
+uniform float lobe_radius;       // half-angle in radians over which the material gathers light
+uniform float exposure;
+uniform int is_diffuse;
+uniform int is_coated;
+uniform float coat_ior;
+uniform vec3 coat_absorbance;    // for one pass of the nominal thickness, at normal incidence
+uniform float bump_slope;        // greatest slope of the coat's bumps
+uniform float bump_scale;        // bumps per unit of length
+
+const float pi = 3.14159265358979;
+
+vec3 probe(sampler2D picture, vec3 direction) {
+    vec2 place = vec2(atan(direction.x, direction.y) / (2.0 * pi) + 0.5, acos(clamp(direction.z, -1.0, 1.0)) / pi);
+    return textureLod(picture, place, 0.0).rgb;
+}
+
+// Fresnel reflectance of a metal from its reflectance at normal incidence (Schlick 1994).
+vec3 metal_fresnel(vec3 at_normal, float cosine) {
+    return at_normal + (vec3(1.0) - at_normal) * pow(1.0 - cosine, 5.0);
+}
+
+// Exact Fresnel reflectance from air into a dielectric, unpolarised.
+float dielectric_fresnel(float cosine, float ior) {
+    float inside = sqrt(max(0.0, 1.0 - (1.0 - cosine * cosine) / (ior * ior)));
+    float parallel = (ior * cosine - inside) / (ior * cosine + inside);
+    float perpendicular = (cosine - ior * inside) / (cosine + ior * inside);
+    return 0.5 * (parallel * parallel + perpendicular * perpendicular);
+}
+
+// Share of a lobe about `direction` that leaves the figure: the open directions are taken as a cone.
+float openness_towards(vec3 direction) {
+    float open_radius = acos(sqrt(clamp(1.0 - world_openness.w, 0.0, 1.0)));
+    float away = acos(clamp(dot(direction, normalize(world_openness.xyz + 1e-4 * world_normal)), -1.0, 1.0));
+    float soft = max(lobe_radius, 0.2);
+    return 1.0 - smoothstep(open_radius - soft, open_radius + soft, away);
+}
+
+// Light from a direction: the probe where it is open, else the figure itself, lit by its surroundings.
+vec3 incoming(sampler2D picture, vec3 direction, vec3 tint) {
+    float open = openness_towards(direction);
+    return mix(tint * surroundings * (0.25 + 0.75 * world_openness.w), probe(picture, direction), open);
+}
+
+// Noise of Perlin's kind on a lattice, with its gradient; hashing after Jarzynski and Olano 2020 (pcg3d).
+uvec3 hashed(uvec3 v) {
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
+    v ^= v >> 16u;
+    v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
+    return v;
+}
+
+vec3 lattice_gradient(ivec3 corner) {
+    return vec3(hashed(uvec3(corner + 65536))) * (2.0 / 4294967295.0) - 1.0;
+}
+
+float noise(vec3 place) {
+    ivec3 cell = ivec3(floor(place));
+    vec3 f = place - vec3(cell);
+    vec3 s = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+    float corners[8];
+    for (int i = 0; i < 8; ++i) {
+        ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+        corners[i] = dot(lattice_gradient(cell + corner), f - vec3(corner));
+    }
+    return mix(mix(mix(corners[0], corners[1], s.x), mix(corners[2], corners[3], s.x), s.y),
+               mix(mix(corners[4], corners[5], s.x), mix(corners[6], corners[7], s.x), s.y), s.z);
+}
+
+vec3 bumpy_normal(vec3 normal) {
+    vec3 place = object_position * bump_scale;
+    const float step_size = 0.02;
+    float here = noise(place);
+    vec3 slope = vec3(noise(place + vec3(step_size, 0, 0)), noise(place + vec3(0, step_size, 0)),
+                      noise(place + vec3(0, 0, step_size))) - here;
+    slope *= bump_slope / step_size;
+    // The bumps live in object space; the turn about z is undone by the frame that world_normal came from.
+    return normalize(normal - (slope - normal * dot(slope, normal)));
+}
+
+void main() {
+    vec3 normal = normalize(world_normal);
+    vec3 to_camera = normalize(camera_position - world_position);
+    // Interpolated normals may lean away at the silhouette.
+    normal = normalize(normal + to_camera * max(0.0, 1e-3 - dot(normal, to_camera)));
+    vec3 light;
+    if (is_diffuse == 1) {
+        light = reflectance * incoming(mirrored, normal, reflectance) * mix(0.35, 1.0, world_openness.w);
+    } else if (is_coated == 1) {
+        vec3 bumpy = bumpy_normal(normal);
+        bumpy = normalize(bumpy + to_camera * max(0.0, 0.02 - dot(bumpy, to_camera)));
+        float cosine = clamp(dot(bumpy, to_camera), 0.0, 1.0);
+        float shine = dielectric_fresnel(cosine, coat_ior);
+        vec3 mirror = reflect(-to_camera, bumpy);
+        // Below the coat the silver is smooth, but seen and lit through the bumps.
+        vec3 inside = refract(-to_camera, bumpy, 1.0 / coat_ior);
+        vec3 mirrored_inside = reflect(inside, normal);
+        vec3 outward = normalize(mix(reflect(-to_camera, normal), mirror, 0.5));
+        float path = 1.0 / max(dot(-inside, normal), 0.2) + 1.0 / max(dot(mirrored_inside, normal), 0.2);
+        vec3 through = exp(-coat_absorbance * path);
+        vec3 silver = metal_fresnel(reflectance, max(dot(-inside, normal), 0.0));
+        light = shine * incoming(sharp, mirror, reflectance * through)
+              + (1.0 - shine) * (1.0 - shine) * through * silver * incoming(mirrored, outward, reflectance * through);
+    } else {
+        vec3 mirror = reflect(-to_camera, normal);
+        light = metal_fresnel(reflectance, clamp(dot(normal, to_camera), 0.0, 1.0)) * incoming(mirrored, mirror, reflectance);
+    }
+    linear_light = vec4(exposure * light, 1.0);
+}

@@ -1,0 +1,139 @@
+#include "render/stimulus_renderer.h"
+
+#include <fmt/format.h>
+
+#include "experiment/error.h"
+#include "experiment/parallel.h"
+#include "render_shaders.h"
+
+namespace overt {
+
+namespace {
+
+Texture2D texture_of(const GlContext& context, const LightProbe& probe) {
+    Texture2D texture(context, probe.radiance.size_px, PixelFormat::rgba32f);
+    texture.upload(std::as_bytes(std::span(probe.radiance.pixels)));
+    texture.set_linear_filter_wrapped();
+    return texture;
+}
+
+glm::vec3 mean_over_sphere(const LightProbe& probe) {
+    const LightProbe irradiance = irradiance_over_pi(probe, {8, 4});
+    glm::vec3 sum(0.0f);
+    for (const glm::vec4& pixel : irradiance.radiance.pixels)
+        sum += glm::vec3(pixel);
+    return sum / static_cast<float>(irradiance.radiance.pixels.size());
+}
+
+/// Means of square blocks of samples.
+LinearImage box_filtered(const std::vector<glm::vec4>& samples, glm::ivec2 image_px, int per_side) {
+    LinearImage image(image_px);
+    const std::size_t row_length = static_cast<std::size_t>(image_px.x * per_side);
+    const float weight = 1.0f / static_cast<float>(per_side * per_side);
+    parallel_for(image_px.y, [&](int y) {
+        for (int x = 0; x < image_px.x; ++x) {
+            glm::vec4 sum(0.0f);
+            for (int sub_y = 0; sub_y < per_side; ++sub_y) {
+                const glm::vec4* first =
+                    &samples[static_cast<std::size_t>(y * per_side + sub_y) * row_length +
+                             static_cast<std::size_t>(x * per_side)];
+                for (int sub_x = 0; sub_x < per_side; ++sub_x)
+                    sum += first[sub_x];
+            }
+            image.at(x, y) = weight * sum;
+        }
+    });
+    return image;
+}
+
+} // namespace
+
+glm::vec3 metal_reflectance(const std::string& metal, double outside) {
+    const bool in_coat = outside > 1.2;
+    if (metal == "Au")
+        return in_coat ? glm::vec3(1.0111f, 0.7413f, 0.2499f) : glm::vec3(1.0203f, 0.7824f, 0.3431f);
+    if (metal == "Ag")
+        return in_coat ? glm::vec3(0.9607f, 0.9489f, 0.8950f) : glm::vec3(0.9699f, 0.9607f, 0.9133f);
+    throw InputError(fmt::format("unknown metal «{}»: known are Au and Ag", metal));
+}
+
+StimulusRenderer::StimulusRenderer(const GlContext& context, const LightSettings& light, glm::ivec2 image_px)
+    : context_(&context), light_(light), probe_(load_light_probe(light)),
+      mean_radiance_(mean_over_sphere(probe_)), image_px_(image_px),
+      program_(context, "stimulus", embedded::stimulus_vert, embedded::stimulus_frag),
+      sharp_(texture_of(context, probe_)),
+      samples_(context, image_px * samples_per_side, PixelFormat::rgba32f),
+      target_(context, {&samples_}, true) {}
+
+void StimulusRenderer::set_material(const MaterialSettings& material) {
+    material_ = material;
+    switch (material.kind) {
+    case MaterialKind::rough_conductor:
+        mirrored_ = texture_of(*context_, blurred_by_ggx(probe_, material.roughness, {256, 128}));
+        break;
+    case MaterialKind::diffuse:
+        mirrored_ = texture_of(*context_, irradiance_over_pi(probe_, {64, 32}));
+        break;
+    case MaterialKind::coated_conductor:
+        // The bumps spread what the silver mirrors.
+        mirrored_ = texture_of(*context_, blurred_by_ggx(probe_, 0.05, {512, 256}));
+        break;
+    case MaterialKind::smooth_conductor:
+        mirrored_ = texture_of(*context_, probe_);
+        break;
+    }
+}
+
+LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& scene, Degrees angle) {
+    OVERT_EXPECTS(mirrored_.has_value() && scene.view.image_px == image_px_);
+    const GladGLContext& gl = context_->gl();
+    target_.bind();
+    for (const GLenum state : {GL_BLEND, GL_DITHER, GL_MULTISAMPLE, GL_CULL_FACE, GL_SCISSOR_TEST})
+        gl.Disable(state);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LESS);
+    const GLfloat nothing[4] = {0, 0, 0, 0}, far = 1.0f;
+    gl.ClearBufferfv(GL_COLOR, 0, nothing);
+    gl.ClearBufferfv(GL_DEPTH, 0, &far);
+
+    const bool coated = material_.kind == MaterialKind::coated_conductor;
+    const bool diffuse = material_.kind == MaterialKind::diffuse;
+    const double half_height = 0.5 * scene.bounds.extent().z;
+    TurntablePose about_centre{glm::dvec3(0.0), angle};
+    program_.use();
+    program_.set("clip_from_object", clip_from_centred_object(scene, angle));
+    program_.set("world_from_object", glm::mat4(about_centre.world_from_object()));
+    program_.set("camera_position", glm::vec3(scene.view.camera.position - scene.bounds.centre()));
+    program_.set("mirrored", 0);
+    program_.set("sharp", 1);
+    program_.set("surroundings", mean_radiance_);
+    program_.set("reflectance", diffuse
+                                    ? glm::vec3(glm::dvec3(material_.reflectance[0], material_.reflectance[1],
+                                                           material_.reflectance[2]))
+                                    : metal_reflectance(material_.metal, coated ? material_.coat_ior : 1.0));
+    program_.set("lobe_radius", diffuse ? 1.0f
+                                : material_.kind == MaterialKind::rough_conductor
+                                    ? static_cast<float>(2.0 * material_.roughness)
+                                    : 0.0f);
+    program_.set("exposure", static_cast<float>(light_.exposure));
+    program_.set("is_diffuse", diffuse ? 1 : 0);
+    program_.set("is_coated", coated ? 1 : 0);
+    program_.set("coat_ior", static_cast<float>(material_.coat_ior));
+    program_.set("coat_absorbance",
+                 glm::vec3(glm::dvec3(material_.coat_absorbance[0], material_.coat_absorbance[1],
+                                      material_.coat_absorbance[2])));
+    // Bumps of the height asked for on a lattice of 1/25 of the figure's height.
+    const double bumps_per_unit = 12.5 / half_height;
+    program_.set("bump_scale", static_cast<float>(bumps_per_unit));
+    program_.set("bump_slope", static_cast<float>(material_.coat_bump * half_height * bumps_per_unit));
+    mirrored_->bind(0);
+    sharp_.bind(1);
+    mesh.draw();
+
+    const glm::ivec2 size = target_.size_px();
+    std::vector<glm::vec4> samples(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+    read_pixels(*context_, 0, {0, 0}, size, PixelFormat::rgba32f, std::as_writable_bytes(std::span(samples)));
+    return box_filtered(samples, image_px_, samples_per_side);
+}
+
+} // namespace overt

@@ -1,0 +1,54 @@
+/// Sculptures in metal under a light probe, drawn by OpenGL: an approximation for a first look and for quick
+/// protocols. It knows no interreflection but one guessed bounce, and no spectra.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "experiment/protocol/protocol.h"
+#include "render/light_probe.h"
+#include "render/linear_image.h"
+#include "render/mesh_buffers.h"
+#include "render/scene_view.h"
+#include "render/shader_program.h"
+
+namespace overt {
+
+/// Changes whenever the same inputs would give other pixels: part of the key under which frames are kept.
+constexpr int stimulus_renderer_version = 1;
+
+/// One light for all stimuli of a protocol.
+class StimulusRenderer {
+  public:
+    /// Throws InputError for the light probe, GraphicsError for the context.
+    StimulusRenderer(const GlContext& context, const LightSettings& light, glm::ivec2 image_px);
+
+    /// Prepares the probe as this material mirrors it, for the draws that follow. Throws InputError for an
+    /// unknown metal.
+    void set_material(const MaterialSettings& material);
+
+    /// Linear display RGB, alpha = share of each pixel that the object covers. 3 x 3 samples a pixel, box
+    /// filter.
+    LinearImage draw(const MeshBuffers& mesh, const SceneView& scene, Degrees angle);
+
+  private:
+    static constexpr int samples_per_side = 3;
+    const GlContext* context_;
+    LightSettings light_;
+    LightProbe probe_;
+    glm::vec3 mean_radiance_;
+    glm::ivec2 image_px_;
+    ShaderProgram program_;
+    Texture2D sharp_;
+    std::optional<Texture2D> mirrored_;
+    MaterialSettings material_;
+    Texture2D samples_;
+    Framebuffer target_;
+};
+
+/// Reflectance at normal incidence of "Au" or "Ag" in linear sRGB under D65, seen from a medium of refractive
+/// index `outside`: from n and k of Mitsuba's presets (Palik, CXRO) with CIE 1931. Only 1.0 and 1.4 are
+/// tabulated; others are taken from the nearer. Throws InputError for another metal.
+glm::vec3 metal_reflectance(const std::string& metal, double outside);
+
+} // namespace overt
