@@ -1,0 +1,109 @@
+#include "experiment/sculpture.h"
+
+#include <fmt/format.h>
+
+#include "experiment/error.h"
+#include "experiment/scene/mesh_reader.h"
+#include "experiment/scene/ply_writer.h"
+#include "experiment/scene/sculptures/sculptures.h"
+#include "experiment/scene/triangle_order.h"
+
+namespace overt {
+
+namespace {
+
+/// Changes whenever a sculpture comes out differently, so that an older one in the cache is not taken.
+constexpr int sculpture_version = 1;
+
+MeshImport import_of(const SculptureSettings& settings) {
+    MeshImport import;
+    import.up = up_axis_named(settings.up);
+    import.scale = settings.scale;
+    if (settings.head_spheres.empty() && settings.head_planes.empty())
+        return import;
+    PartRegion head{"head", {}, {}};
+    for (const auto& [x, y, z, radius] : settings.head_spheres)
+        head.spheres.emplace_back(x, y, z, radius);
+    for (const auto& plane : settings.head_planes) {
+        head.half_spaces.push_back({{plane[0], plane[1], plane[2]}, {plane[3], plane[4], plane[5]}});
+    }
+    import.regions.push_back(std::move(head));
+    return import;
+}
+
+Mesh shipped_sculpture(const std::string& name, const std::filesystem::path& cache) {
+    const std::filesystem::path kept = cache / fmt::format("sculpture-{}-v{}.ply", name, sculpture_version);
+    if (std::filesystem::exists(kept)) {
+        MeshCleaningReport unused;
+        return import_mesh(kept, {}, unused);
+    }
+    Mesh mesh = make_sculpture(name);
+    order_for_drawing(mesh);
+    std::filesystem::create_directories(cache);
+    write_ply(kept, mesh);
+    return mesh;
+}
+
+Camera camera_of(const ViewSettings& settings, const Protocol& protocol, const Mesh& mesh) {
+    const glm::ivec2 image_px(settings.width_px, settings.height_px);
+    const double mm_per_px = protocol.display.height_mm / protocol.display.height_px;
+    // Seen from the observer's place, the picture then has the perspective of the object itself.
+    const Degrees natural =
+        to_degrees({2.0 * std::atan(0.5 * image_px.y * mm_per_px / protocol.display.viewing_distance_mm)});
+    const Degrees field = settings.vertical_fov_deg ? Degrees{*settings.vertical_fov_deg} : natural;
+    if (!settings.camera_position)
+        return fit_camera(mesh, field, image_px, protocol.animation.amplitude, settings.margin);
+    return {*settings.camera_position, settings.camera_target.value_or(mesh.bounds().centre()), field};
+}
+
+} // namespace
+
+Sculpture load_sculpture(const SculptureSettings& settings, const Protocol& protocol,
+                         const std::filesystem::path& cache) {
+    Sculpture sculpture;
+    sculpture.id = settings.id;
+    if (!settings.shipped.empty()) {
+        sculpture.mesh = shipped_sculpture(settings.shipped, cache);
+    } else if (!settings.mesh.empty()) {
+        MeshCleaningReport report;
+        sculpture.mesh = import_mesh(settings.mesh, import_of(settings), report);
+        sculpture.remarks = describe(report);
+        order_for_drawing(sculpture.mesh);
+    } else {
+        return sculpture;
+    }
+    ContentHasher hasher;
+    hasher.add(sculpture.mesh.positions).add(sculpture.mesh.triangles).add(sculpture.mesh.triangle_parts);
+    for (const std::string& name : sculpture.mesh.part_names)
+        hasher.add(std::string_view(name));
+    sculpture.mesh_hash = hasher.finish();
+    sculpture.scene.view.image_px = {protocol.view.width_px, protocol.view.height_px};
+    sculpture.scene.bounds = sculpture.mesh.bounds();
+    sculpture.scene.view.camera = camera_of(protocol.view, protocol, sculpture.mesh);
+    try {
+        depth_range(sculpture.scene.bounds, sculpture.scene.view);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("sculpture «{}»: {}", settings.id, error.what()));
+    }
+    return sculpture;
+}
+
+std::vector<Sculpture> load_sculptures(const Protocol& protocol, const std::filesystem::path& cache) {
+    std::vector<Sculpture> sculptures;
+    for (const SculptureSettings& settings : protocol.sculptures)
+        sculptures.push_back(load_sculpture(settings, protocol, cache));
+    return sculptures;
+}
+
+ScreenGeometry screen_geometry_of(const Protocol& protocol) {
+    const DisplaySettings& display = protocol.display;
+    ScreenGeometry geometry;
+    geometry.screen_px = {display.width_px, display.height_px};
+    geometry.screen_mm = {display.width_mm, display.height_mm};
+    geometry.viewing_distance_mm = display.viewing_distance_mm;
+    geometry.image_px = {protocol.view.width_px, protocol.view.height_px};
+    geometry.image_origin_px = centred_origin_px(geometry.screen_px, geometry.image_px);
+    return geometry;
+}
+
+} // namespace overt

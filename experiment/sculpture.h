@@ -1,0 +1,39 @@
+/// A sculpture ready to be shown: its mesh as all parts of the program use it, and where the camera stands.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment/content_hash.h"
+#include "experiment/protocol/protocol.h"
+#include "experiment/scene/viewing.h"
+#include "experiment/screen_geometry.h"
+
+namespace overt {
+
+struct Sculpture {
+    std::string id;
+    Mesh mesh; ///< without triangles if the protocol gives none: then its stimuli are frames, and there is no
+               ///< map
+    ContentHash mesh_hash; ///< of positions, triangles and parts
+    SceneView scene;
+    std::vector<std::string> remarks; ///< on the mesh, for the experimenter
+
+    bool has_mesh() const { return !mesh.triangles.empty(); }
+};
+
+/// Imports or makes the mesh of one sculpture of the protocol and places the camera. A sculpture that overt
+/// makes itself is kept as PLY in `cache` and taken from there the next time. Throws InputError naming the
+/// file or the key.
+Sculpture load_sculpture(const SculptureSettings& settings, const Protocol& protocol,
+                         const std::filesystem::path& cache);
+
+/// All sculptures of the protocol, in its order.
+std::vector<Sculpture> load_sculptures(const Protocol& protocol, const std::filesystem::path& cache);
+
+/// The screen and the stimulus's place on it, as the protocol has them.
+ScreenGeometry screen_geometry_of(const Protocol& protocol);
+
+} // namespace overt

@@ -1,0 +1,79 @@
+/// All stimuli of a protocol, frame by frame, with their hidden maps: drawn once, kept by what they were made
+/// from.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+
+#include "experiment/analysis/coordinate_maps.h"
+#include "experiment/content_hash.h"
+#include "experiment/sculpture.h"
+#include "render/coordinate_pass.h"
+#include "render/page_presenter.h"
+#include "render/stimulus_renderer.h"
+
+namespace overt {
+
+/// Told how far a longer piece of work is.
+using Progress = std::function<void(std::string_view what, int done, int total)>;
+
+class StimulusLibrary final : public FrameSource {
+  public:
+    /// `protocol` and `sculptures` must outlive the library. `cache`: folder for frames and maps; shared by
+    /// all protocols, for each file is named by the hash of everything that made it.
+    StimulusLibrary(const GlContext& context, const Protocol& protocol, std::span<const Sculpture> sculptures,
+                    std::filesystem::path cache);
+
+    /// Draws whatever the cache lacks, and checks the size of ready-made frames. Throws InputError,
+    /// GraphicsError, RecordError.
+    void prepare(const Progress& progress);
+    /// The same for one stimulus, with the maps of its sculpture.
+    void prepare(const Condition& condition, const Progress& progress);
+
+    std::vector<int> page_of_frame(const Condition& condition) const override;
+    LinearImage page(const Condition& condition, int page) const override;
+
+    const PoseTable& poses() const { return poses_; }
+    bool is_ready_made(const Condition& condition) const { return sequence_of(condition) != nullptr; }
+
+    /// Where the pictures of a stimulus come from, in words.
+    std::string source_of(const Condition& condition) const;
+    /// Of everything that made its frames; for ready-made ones, of the files' bytes.
+    ContentHash frames_hash(const Condition& condition) const;
+
+    /// The map's file in the cache; only for a sculpture with a mesh.
+    std::filesystem::path map_file(int sculpture, PoseIndex pose) const;
+    /// All maps of a sculpture. prepare() must have been called.
+    CoordinateMaps maps_of(int sculpture) const;
+
+    /// Draws one pose anew, past the cache: for a look and for measurements.
+    TriangleMap draw_map(int sculpture, PoseIndex pose);
+
+  private:
+    const FrameSequenceSettings* sequence_of(const Condition& condition) const;
+    std::filesystem::path sequence_file(const FrameSequenceSettings& sequence, int frame) const;
+    std::filesystem::path page_file(const Condition& condition, int page) const;
+    void prepare_maps(int sculpture, const Progress& progress);
+    const MeshBuffers& buffers_of(int sculpture, bool for_light);
+
+    const GlContext* context_;
+    const Protocol* protocol_;
+    std::span<const Sculpture> sculptures_;
+    std::filesystem::path cache_;
+    PoseTable poses_;
+    ContentHash light_hash_;
+    std::optional<StimulusRenderer> renderer_;
+    std::optional<CoordinatePass> coordinate_pass_;
+    // The card holds one sculpture at a time.
+    std::optional<MeshBuffers> buffers_;
+    int buffered_sculpture_ = -1;
+    bool buffered_for_light_ = false;
+};
+
+/// The file of one frame: the run of # in `pattern` replaced by the number, with leading zeros. Throws
+/// InputError without #.
+std::filesystem::path numbered_file(const std::string& pattern, int number);
+
+} // namespace overt
