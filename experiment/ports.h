@@ -120,7 +120,9 @@ struct ResponsePress {
 class ResponsePanel {
   public:
     virtual ~ResponsePanel() = default;
-    /// Tells the panel that an answer to a question is awaited from now on. Forgets earlier presses.
+    /// A text is being read, to be gone on from with a key. Forgets earlier presses.
+    virtual void await_key(SessionTime since) = 0;
+    /// The question of a trial is to be answered from now on. Forgets earlier presses.
     virtual void await_response(const Trial& trial, SessionTime since) = 0;
     /// The next press, if there was one.
     virtual std::optional<ResponsePress> poll() noexcept = 0;

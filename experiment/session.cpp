@@ -1,0 +1,207 @@
+#include "experiment/session.h"
+
+#include <fmt/format.h>
+
+namespace overt {
+
+namespace {
+
+/// How often the keys are looked at while a screen stands still.
+constexpr SessionDuration key_interval = std::chrono::milliseconds(4);
+
+/// Readings of both clocks at each end of a presentation.
+constexpr int clock_readings = 8;
+
+} // namespace
+
+Session::Session(const Protocol& protocol, const Schedule& schedule, const ScreenPoint& screen_centre,
+                 SessionPorts ports)
+    : protocol_(&protocol), schedule_(&schedule), screen_centre_(screen_centre), ports_(std::move(ports)),
+      cycle_(make_page_cycle(protocol.animation, protocol.display.refresh_hz)), samples_(4096) {}
+
+SessionResult Session::run(const TrialDone& trial_done) {
+    SessionResult result;
+    const ScreenSettings& screens = protocol_->screens;
+    if (read_text(screens.welcome_text, 0.0)) {
+        show({});
+        result.validation = ports_.tracker.calibrate();
+        ports_.log.event(
+            {ports_.clock.now(), -1, "validation",
+             fmt::format("mean error {:.3f} deg, largest {:.3f} deg", result.validation.mean_error.value,
+                         result.validation.max_error.value)});
+        for (const Trial& trial : schedule_->trials) {
+            const TrialOutcome outcome = run_trial(trial);
+            result.missed_refreshes += outcome.missed_refreshes;
+            if (outcome.status == TrialOutcome::Status::completed)
+                ++result.completed_trials;
+            if (trial_done)
+                trial_done(trial, outcome, result.completed_trials);
+            if (aborted_)
+                break;
+        }
+    }
+    if (!aborted_)
+        read_text(screens.farewell_text, 0.0);
+    // Closing the farewell's window ends nothing that was not already done.
+    result.aborted = result.completed_trials < static_cast<int>(schedule_->trials.size());
+    if (result.aborted) {
+        result.reason = ports_.presenter.closed() ? "the display was closed"
+                        : ports_.tracker.lost()   ? "the eye tracker was lost"
+                                                  : "aborted by a key";
+    }
+    ports_.log.event(
+        {ports_.clock.now(), -1, result.aborted ? "session aborted" : "session completed", result.reason});
+    return result;
+}
+
+TrialOutcome Session::run_trial(const Trial& trial) {
+    TrialOutcome outcome;
+    const ScreenSettings& screens = protocol_->screens;
+    const Task& task = protocol_->tasks[static_cast<std::size_t>(trial.task)];
+    ports_.presenter.load_frames(trial.condition);
+    ports_.log.trial_started(trial, ports_.clock.now());
+    outcome.status = TrialOutcome::Status::aborted;
+
+    outcome.task_screen_onset = show({Screen::Kind::text, task.question});
+    ports_.panel.await_key(outcome.task_screen_onset);
+    SessionTime read_at;
+    if (wait_for_press(outcome.task_screen_onset, screens.task_min_s, screens.response_max_s, read_at) !=
+        Answer::aborted) {
+        check_drift(trial, outcome);
+        present(trial, outcome);
+    }
+    if (!aborted_) {
+        outcome.response_screen_onset = show({Screen::Kind::text, screens.response_text});
+        ports_.panel.await_response(trial, outcome.response_screen_onset);
+        const Answer answer = wait_for_press(outcome.response_screen_onset, screens.response_min_s,
+                                             screens.response_max_s, outcome.responded_at);
+        if (answer == Answer::timed_out)
+            ports_.log.event({outcome.responded_at, trial.index, "response timed out", ""});
+        if (answer == Answer::pressed)
+            outcome.answer = ports_.panel.answer();
+        if (answer != Answer::aborted)
+            outcome.status = TrialOutcome::Status::completed;
+    }
+    ports_.log.trial_finished(trial, outcome);
+    return outcome;
+}
+
+void Session::check_drift(const Trial& trial, TrialOutcome& outcome) {
+    const SessionTime onset = show({Screen::Kind::drift_target, ""});
+    ports_.clock.wait_until(onset + from_seconds(protocol_->screens.drift_target_s));
+    outcome.drift = ports_.tracker.drift_check(screen_centre_);
+    if (!outcome.drift) {
+        ports_.log.event({ports_.clock.now(), trial.index, "drift check failed", "no eye was found"});
+    } else if (outcome.drift->value > protocol_->tracker.drift_limit_deg) {
+        ports_.log.event({ports_.clock.now(), trial.index, "drift check failed",
+                          fmt::format("{:.3f} deg is more than the limit of {} deg", outcome.drift->value,
+                                      protocol_->tracker.drift_limit_deg)});
+    }
+}
+
+void Session::present(const Trial& trial, TrialOutcome& outcome) {
+    const SessionDuration lead = from_seconds(protocol_->screens.recording_lead_s);
+    read_clocks();
+    ports_.tracker.start_recording();
+    show({});
+    wait_and_take_samples(trial.index, ports_.clock.now() + lead);
+    for (DisplayWitness* witness : ports_.witnesses)
+        witness->presentation_begins(trial);
+
+    // From here to the last flip nothing allocates, opens, throws or formats.
+    RefreshIndex onset;
+    int refresh = 0; // since onset, by the display's count
+    while (refresh < cycle_.total_refreshes && !went_away()) {
+        // Take what the tracker has seen so far.
+        take_samples(trial.index);
+        // Choose the frame by the refresh it is meant for: after a miss the animation keeps time and drops
+        // frames.
+        const PageCycleEntry& entry = cycle_.entry_at(refresh);
+        // Show it, and learn when it was lit.
+        FlipRecord flip{trial.index, refresh,    entry.frame,
+                        entry.frame, entry.page, ports_.presenter.flip(entry.frame)};
+        if (outcome.shown_refreshes == 0) {
+            onset = flip.report.refresh;
+            flip.report.missed_refreshes = 0; // what went by before the onset was no part of the presentation
+            outcome.presentation_onset = flip.report.vertical_blank;
+        }
+        flip.refresh_in_trial = static_cast<int>(flip.report.refresh.value - onset.value);
+        // Write it down, and let those see it who watch.
+        flip.planned = cycle_.entry_at(std::min(flip.refresh_in_trial, cycle_.total_refreshes - 1)).frame;
+        ports_.log.flip(flip);
+        for (DisplayWitness* witness : ports_.witnesses)
+            witness->saw(flip);
+        ++outcome.shown_refreshes;
+        outcome.missed_refreshes += flip.report.missed_refreshes;
+        refresh = flip.refresh_in_trial + 1;
+    }
+
+    outcome.presentation_end = show({});
+    aborted_ = went_away();
+    wait_and_take_samples(trial.index, ports_.clock.now() + lead);
+    ports_.tracker.stop_recording();
+    take_samples(trial.index);
+    read_clocks();
+}
+
+SessionTime Session::show(const Screen& screen) {
+    const SessionTime onset = ports_.presenter.show(screen).vertical_blank;
+    for (DisplayWitness* witness : ports_.witnesses)
+        witness->saw_screen(screen, onset);
+    return onset;
+}
+
+bool Session::read_text(const std::string& text, double min_s) {
+    if (text.empty())
+        return true;
+    const SessionTime onset = show({Screen::Kind::text, text});
+    ports_.panel.await_key(onset);
+    SessionTime pressed_at;
+    return wait_for_press(onset, min_s, protocol_->screens.response_max_s, pressed_at) != Answer::aborted;
+}
+
+Session::Answer Session::wait_for_press(SessionTime since, double min_s, double max_s,
+                                        SessionTime& pressed_at) {
+    const SessionTime earliest = since + from_seconds(min_s), latest = since + from_seconds(max_s);
+    while (ports_.clock.now() < latest) {
+        while (const std::optional<ResponsePress> press = ports_.panel.poll()) {
+            aborted_ = press->key == ResponsePress::Key::abort;
+            pressed_at = press->pressed_at;
+            if (aborted_)
+                return Answer::aborted;
+            if (press->pressed_at >= earliest)
+                return Answer::pressed;
+        }
+        if (went_away()) {
+            aborted_ = true;
+            return Answer::aborted;
+        }
+        ports_.clock.wait_until(ports_.clock.now() + key_interval);
+    }
+    pressed_at = latest;
+    return Answer::timed_out;
+}
+
+void Session::take_samples(int trial) noexcept {
+    std::size_t taken = 0;
+    do {
+        taken = ports_.tracker.poll(samples_);
+        for (std::size_t i = 0; i < taken; ++i)
+            ports_.log.sample(trial, samples_[i]);
+    } while (taken == samples_.size());
+}
+
+void Session::wait_and_take_samples(int trial, SessionTime until) noexcept {
+    while (ports_.clock.now() < until) {
+        take_samples(trial);
+        ports_.clock.wait_until(std::min(until, ports_.clock.now() + key_interval));
+    }
+    take_samples(trial);
+}
+
+void Session::read_clocks() noexcept {
+    for (int i = 0; i < clock_readings; ++i)
+        ports_.log.clock_pair(ports_.tracker.read_clocks());
+}
+
+} // namespace overt
