@@ -54,9 +54,9 @@ class Presenter {
     /// for use between a presentation's first and last flip.
     virtual FlipReport show(const Screen& screen) = 0;
 
-    /// Shows a loaded page at the next refresh and returns when that refresh has begun. Allocates, opens and
-    /// throws nothing.
-    virtual FlipReport flip(PoseIndex page) noexcept = 0;
+    /// Shows a frame of the loaded stimulus at the next refresh and returns when that refresh has begun.
+    /// Allocates, opens and throws nothing.
+    virtual FlipReport flip(AnimationFrameIndex frame) noexcept = 0;
 
     /// The window was closed or the display went away. The session ends the trial and then itself.
     virtual bool closed() const noexcept = 0;

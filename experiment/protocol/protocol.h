@@ -13,6 +13,7 @@
 #include <glm/glm.hpp>
 
 #include "experiment/animation.h"
+#include "experiment/protocol/key_places.h"
 #include "experiment/units.h"
 
 namespace overt {
@@ -62,8 +63,9 @@ struct ViewSettings {
 
 /// [light]: what surrounds the object.
 struct LightSettings {
-    std::string probe =
-        "overcast";            ///< "overcast", or a latitude-longitude EXR or HDR file, linear Rec.709, +y up
+    /// "overcast", or a latitude-longitude EXR or HDR file, linear Rec.709, +y up, resolved against the
+    /// protocol's folder.
+    std::string probe = "overcast";
     double exposure = 1.0;     ///< factor from the probe's radiance to the display's white
     double rotation_deg = 0.0; ///< turns the probe about the vertical
 };
@@ -162,6 +164,14 @@ struct Protocol {
 
     std::filesystem::path file; ///< where it was read
     std::string text;           ///< the file, byte for byte
+    KeyPlaces places;           ///< where each key stands in it, for findings that come later
 };
+
+/// File of one frame of a ready-made animation: the #s of `files` replaced by the number, zeros in front.
+std::filesystem::path frame_file(const FrameSequenceSettings& sequence, AnimationFrameIndex frame);
+
+/// The ready-made frames of a sculpture in a material, or nullptr if they are to be rendered. Indices into
+/// the protocol's lists.
+const FrameSequenceSettings* find_frames(const Protocol& protocol, int sculpture, int material);
 
 } // namespace overt

@@ -3,7 +3,8 @@
 /// Memory: RawMesh takes 12 bytes for each vertex and 12 for each triangle (16 with labels); a closed mesh
 /// has half as many vertices as triangles, so 18 (22) bytes for each triangle, and Mesh 19. While a file is
 /// read its bytes are in memory too (19 for each triangle of a usual binary PLY, 50 of a binary STL, about 35
-/// of an OBJ); cleaning takes at most 16 more. 20 million triangles of a binary PLY so stay below 0.8 GB.
+/// of an OBJ); cleaning takes at most 16 more. Importing 20 million triangles from a binary PLY with parts
+/// takes 0.84 GB at its peak (measured).
 #pragma once
 
 #include <filesystem>
