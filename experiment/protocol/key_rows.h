@@ -1,0 +1,35 @@
+/// The rows of the key table, section by section. Only protocol_keys.cpp puts them together.
+#pragma once
+
+#include "experiment/protocol/protocol_keys.h"
+
+namespace overt::key_rows {
+
+// What the experiment runs on (rig_keys.cpp).
+Section<DisplaySettings> display();
+Section<TrackerSettings> tracker();
+Section<ScreenSettings> screens();
+
+// What is shown (stimulus_keys.cpp).
+Section<ViewSettings> view();
+Section<LightSettings> light();
+Section<Animation> animation();
+Section<SculptureSettings> sculpture();
+Section<MaterialSettings> material();
+Section<FrameSequenceSettings> frames();
+
+// What is asked, and in which order (design_keys.cpp).
+Section<Protocol> protocol();
+Section<ScheduleSettings> schedule();
+Section<Task> task();
+
+// Names of enumerations, in the order of their values.
+inline constexpr std::string_view output_modes[] = {"native-8bit", "mono++", "color++"};
+inline constexpr std::string_view tracker_kinds[] = {"simulated"};
+inline constexpr std::string_view playbacks[] = {"cycle", "ping-pong"};
+inline constexpr std::string_view task_coverages[] = {"every-stimulus", "once-per-sculpture"};
+inline constexpr std::string_view material_kinds[] = {"smooth-conductor", "rough-conductor",
+                                                      "coated-conductor", "diffuse"};
+inline constexpr std::string_view frame_encodings[] = {"linear", "srgb"};
+
+} // namespace overt::key_rows

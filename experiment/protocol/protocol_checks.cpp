@@ -1,0 +1,164 @@
+#include "experiment/protocol/protocol_checks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "experiment/schedule.h"
+#include "experiment/screen_geometry.h"
+
+namespace overt {
+
+void ProtocolExamination::error(std::initializer_list<std::string_view> paths, std::string message,
+                                std::string hint) {
+    if (!is_any_faulty(paths))
+        diagnostics_.error(file_, protocol.places.first_written(paths), std::move(message), std::move(hint));
+}
+
+void ProtocolExamination::warning(std::initializer_list<std::string_view> paths, std::string message,
+                                  std::string hint) {
+    if (!is_any_faulty(paths))
+        diagnostics_.warning(file_, protocol.places.first_written(paths), std::move(message),
+                             std::move(hint));
+}
+
+bool ProtocolExamination::is_any_faulty(std::initializer_list<std::string_view> paths) const {
+    return std::any_of(paths.begin(), paths.end(),
+                       [&](std::string_view path) { return faulty.contains(path); });
+}
+
+void check_image_fits(ProtocolExamination& examination) {
+    const DisplaySettings& display = examination.protocol.display;
+    const ViewSettings& view = examination.protocol.view;
+    if (view.width_px > display.width_px) {
+        examination.error(
+            {"view.width_px", "display.width_px"},
+            fmt::format("the image is {} px wide, the screen only {} px", view.width_px, display.width_px),
+            "stimuli are shown 1:1; make view.width_px smaller");
+    }
+    if (view.height_px > display.height_px) {
+        examination.error(
+            {"view.height_px", "display.height_px"},
+            fmt::format("the image is {} px high, the screen only {} px", view.height_px, display.height_px),
+            "stimuli are shown 1:1; make view.height_px smaller");
+    }
+    if (display.output == OutputMode::color_plus_plus) {
+        if (display.width_px % 2 != 0)
+            examination.error({"display.width_px", "display.output"},
+                              "color++ joins pixels in pairs: the width has to be even");
+        if (view.width_px % 2 != 0)
+            examination.error({"view.width_px", "display.output"},
+                              "color++ joins pixels in pairs: the width has to be even");
+    }
+    if (display.output == OutputMode::native_8bit && display.gamma == 1.0 &&
+        !examination.is_written("display.gamma")) {
+        examination.warning(
+            {"display.output", "display.gamma"},
+            "native-8bit with the default gamma of 1: the display would have to linearise itself",
+            "ordinary monitors need gamma = 2.2; write gamma = 1 if it is meant");
+    }
+    // Square pixels are assumed by everyone who draws a circle.
+    const double aspect = display.width_mm / display.width_px / (display.height_mm / display.height_px);
+    if (std::abs(aspect - 1.0) > 0.02) {
+        examination.warning(
+            {"display.width_mm", "display.height_mm", "display.width_px", "display.height_px"},
+            fmt::format("pixels are {:.3f} times as wide as high", aspect),
+            "measure the lit area, without the frame around it");
+    }
+    if (view.camera_position && view.camera_target && *view.camera_position == *view.camera_target) {
+        examination.error({"view.camera_position", "view.camera_target"},
+                          "the camera stands at the very point that it looks at");
+    }
+}
+
+void check_animation(ProtocolExamination& examination) {
+    const Animation& animation = examination.protocol.animation;
+    const double refresh_hz = examination.protocol.display.refresh_hz;
+    if (refreshes_per_frame(animation.frame_rate_hz, refresh_hz) == 0) {
+        const double below = std::floor(refresh_hz / animation.frame_rate_hz) * animation.frame_rate_hz;
+        const double above = below + animation.frame_rate_hz;
+        examination.error(
+            {"display.refresh_hz", "animation.frame_rate_hz"},
+            fmt::format(
+                "a refresh rate of {} Hz is no whole multiple of the frame rate of {} Hz: frames would "
+                "be lit for unequal times",
+                refresh_hz, animation.frame_rate_hz),
+            below > 0.0 ? fmt::format("{} Hz or {} Hz would do", below, above)
+                        : fmt::format("{} Hz would do", above));
+    }
+    const double frames = animation.duration_s * animation.frame_rate_hz;
+    const double whole = std::max(1.0, std::round(frames));
+    if (std::abs(frames - whole) > 1e-6 * whole) {
+        examination.error({"animation.duration_s", "animation.frame_rate_hz"},
+                          fmt::format("{} s hold {:.6g} frames at {} Hz, which is no whole number",
+                                      animation.duration_s, frames, animation.frame_rate_hz),
+                          fmt::format("{:.9g} s are {:.0f} frames", whole / animation.frame_rate_hz, whole));
+    }
+}
+
+void check_screens(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    const DisplaySettings& display = protocol.display;
+    const ScreenSettings& screens = protocol.screens;
+    if (screens.response_max_s < screens.response_min_s) {
+        examination.error({"screens.response_max_s", "screens.response_min_s"},
+                          fmt::format("the response screen ends after {} s, before its least time of {} s",
+                                      screens.response_max_s, screens.response_min_s));
+    }
+    if (std::abs(screens.text_grey - display.background) < 0.02) {
+        examination.error({"screens.text_grey", "display.background"},
+                          fmt::format("text of grey {} cannot be seen on a background of {}",
+                                      screens.text_grey, display.background));
+    }
+    const double text_px =
+        screens.text_height_deg * ScreenGeometry{.screen_px = {display.width_px, display.height_px},
+                                                 .screen_mm = {display.width_mm, display.height_mm},
+                                                 .viewing_distance_mm = display.viewing_distance_mm}
+                                      .px_per_deg_at_centre();
+    // Below 8 rows letters lose their shapes; above a tenth of the screen a question does not fit.
+    if (text_px < 8.0) {
+        examination.error({"screens.text_height_deg", "display.viewing_distance_mm"},
+                          fmt::format("text of {} deg is {:.1f} px high: too small to be read",
+                                      screens.text_height_deg, text_px));
+    } else if (text_px > 0.1 * display.height_px) {
+        examination.error({"screens.text_height_deg", "display.viewing_distance_mm"},
+                          fmt::format("text of {} deg is {:.0f} px high: too large for a screen of {} rows",
+                                      screens.text_height_deg, text_px, display.height_px));
+    }
+}
+
+void check_schedule(ProtocolExamination& examination) {
+    // More than anyone sits through, and a bound for all that is reckoned per trial.
+    constexpr std::size_t most_trials = 2000;
+    const Protocol& protocol = examination.protocol;
+    std::size_t trials = 0;
+    const std::size_t sculptures = protocol.sculptures.size(), materials = protocol.materials.size();
+    bool has_rotation = false;
+    for (const Task& task : protocol.tasks) {
+        const bool rotates = task.stimuli == TaskCoverage::once_per_sculpture;
+        has_rotation = has_rotation || rotates;
+        trials += sculptures * (rotates ? 1 : materials);
+    }
+    if (trials > most_trials) {
+        examination.error(
+            {"task"}, fmt::format("an observer would have {} trials; {} is the most", trials, most_trials));
+        return;
+    }
+    if (const auto conflict = find_order_conflict(protocol))
+        examination.error({conflict->key}, conflict->message, conflict->hint);
+    const int observers = protocol.schedule.observers, rotation = static_cast<int>(materials);
+    if (has_rotation && observers % rotation != 0) {
+        const int below = observers / rotation * rotation;
+        examination.warning(
+            {"schedule.observers"},
+            fmt::format(
+                "{} observers cannot see {} materials equally often under the tasks that are asked once "
+                "per sculpture",
+                observers, rotation),
+            below > 0 ? fmt::format("{} or {} observers would", below, below + rotation)
+                      : fmt::format("{} observers would", rotation));
+    }
+}
+
+} // namespace overt

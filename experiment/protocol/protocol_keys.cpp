@@ -1,0 +1,52 @@
+#include "experiment/protocol/protocol_keys.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiment/protocol/key_rows.h"
+
+namespace overt {
+
+const ProtocolSections& protocol_sections() {
+    static const ProtocolSections sections{key_rows::protocol(),  key_rows::display(),  key_rows::tracker(),
+                                           key_rows::view(),      key_rows::light(),    key_rows::animation(),
+                                           key_rows::schedule(),  key_rows::screens(),  key_rows::task(),
+                                           key_rows::sculpture(), key_rows::material(), key_rows::frames()};
+    return sections;
+}
+
+std::string_view name_of(OutputMode mode) { return key_rows::output_modes[static_cast<int>(mode)]; }
+std::string_view name_of(TrackerKind kind) { return key_rows::tracker_kinds[static_cast<int>(kind)]; }
+std::string_view name_of(Playback playback) { return key_rows::playbacks[static_cast<int>(playback)]; }
+std::string_view name_of(TaskCoverage coverage) {
+    return key_rows::task_coverages[static_cast<int>(coverage)];
+}
+std::string_view name_of(MaterialKind kind) { return key_rows::material_kinds[static_cast<int>(kind)]; }
+std::string_view name_of(FrameEncoding encoding) {
+    return key_rows::frame_encodings[static_cast<int>(encoding)];
+}
+
+std::string range_text(const KeyRule& rule) {
+    const std::string unit = rule.unit.empty() ? "" : fmt::format(" {}", rule.unit);
+    if (std::isfinite(rule.low) && std::isfinite(rule.high))
+        return fmt::format("{} … {}{}", rule.low, rule.high, unit);
+    if (std::isfinite(rule.low))
+        return fmt::format("at least {}{}", rule.low, unit);
+    if (std::isfinite(rule.high))
+        return fmt::format("at most {}{}", rule.high, unit);
+    return {};
+}
+
+std::string expected_text(const KeyRule& rule, std::string_view noun) {
+    if (rule.choices.size() == 1)
+        return fmt::format("\"{}\"", rule.choices.front());
+    if (!rule.choices.empty())
+        return fmt::format("one of \"{}\"", fmt::join(rule.choices, "\", \""));
+    if (!rule.unit.empty())
+        return fmt::format("{} of {}", noun, rule.unit);
+    return std::string(noun);
+}
+
+} // namespace overt

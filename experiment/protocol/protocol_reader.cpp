@@ -1,0 +1,288 @@
+#include "experiment/protocol/protocol_reader.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "experiment/protocol/protocol_checks.h"
+#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/toml_tree.h"
+#include "experiment/protocol/value_reader.h"
+
+namespace overt {
+
+namespace {
+
+/// Walks the table of keys over the tree of a file.
+class ProtocolWalk {
+  public:
+    ProtocolWalk(ProtocolExamination& examination, const TomlFile& toml, Diagnostics& diagnostics)
+        : examination_(examination), toml_(toml), diagnostics_(diagnostics),
+          file_(examination.protocol.file.string()) {}
+
+    void read() {
+        for_each_section([&](const auto& section) { section_names_.push_back(section.name); });
+        for (const TomlEntry& entry : toml_.root) {
+            if (std::find(section_names_.begin(), section_names_.end(), entry.key) == section_names_.end())
+                report_unknown_section(entry);
+        }
+        for_each_section([&](const auto& section) { read_section(section); });
+    }
+
+  private:
+    void report_unknown_section(const TomlEntry& entry) {
+        const bool is_key = !entry.value.table() && !entry.value.list();
+        diagnostics_.error(file_, entry.key_place,
+                           is_key ? fmt::format("key \"{}\" stands outside all sections", entry.key)
+                                  : fmt::format("unknown section [{}]", entry.key),
+                           suggest_name(entry.key, section_names_));
+    }
+
+    template <class Struct> void read_section(const Section<Struct>& section) {
+        const auto entry =
+            std::find_if(toml_.root.begin(), toml_.root.end(),
+                         [&](const TomlEntry& candidate) { return candidate.key == section.name; });
+        const TomlValue* value = entry == toml_.root.end() ? nullptr : &entry->value;
+        if (section.many)
+            read_entries(section, value, examination_.protocol.*section.many);
+        else if constexpr (std::is_same_v<Struct, Protocol>)
+            read_one(section, value, examination_.protocol);
+        else
+            read_one(section, value, examination_.protocol.*section.one);
+    }
+
+    template <class Struct>
+    void read_one(const Section<Struct>& section, const TomlValue* value, Struct& out) {
+        static const TomlTable nothing;
+        if (value && !value->table()) {
+            diagnostics_.error(
+                file_, value->place,
+                fmt::format("{}: expected a section, found {}", section.name, value->kind()),
+                fmt::format("write [{}] on a line of its own, and its keys below", section.name));
+            return;
+        }
+        if (value)
+            examination_.protocol.places.note(std::string(section.name), value->place);
+        read_keys(section, value ? *value->table() : nothing, std::string(section.name), out);
+    }
+
+    template <class Struct>
+    void read_entries(const Section<Struct>& section, const TomlValue* value, std::vector<Struct>& out) {
+        if (!value)
+            return;
+        if (!value->list()) {
+            diagnostics_.error(file_, value->place,
+                               fmt::format("{}: expected a list of sections", section.name),
+                               fmt::format("write [[{}]], with two brackets", section.name));
+            examination_.faulty.insert(std::string(section.name));
+            return;
+        }
+        for (const TomlValue& item : *value->list()) {
+            const std::string path = fmt::format("{}[{}]", section.name, out.size());
+            examination_.protocol.places.note(path, item.place);
+            out.emplace_back();
+            if (item.table()) {
+                read_keys(section, *item.table(), path, out.back());
+            } else {
+                diagnostics_.error(
+                    file_, item.place,
+                    fmt::format("{}: expected a section, found {}", section.name, item.kind()));
+            }
+        }
+    }
+
+    template <class Struct>
+    void read_keys(const Section<Struct>& section, const TomlTable& table, const std::string& path,
+                   Struct& out) {
+        for (const TomlEntry& entry : table) {
+            const auto key = std::find_if(section.keys.begin(), section.keys.end(),
+                                          [&](const Key<Struct>& k) { return k.rule.name == entry.key; });
+            const auto inner = std::find_if(section.tables.begin(), section.tables.end(),
+                                            [&](const Section<Struct>& s) { return s.name == entry.key; });
+            const std::string entry_path = path + "." + entry.key;
+            if (key != section.keys.end())
+                read_key(*key, entry, entry_path, out);
+            else if (inner != section.tables.end())
+                read_inner(*inner, entry, entry_path, out);
+            else
+                report_unknown_key(section, entry);
+        }
+        for (const Key<Struct>& key : section.keys) {
+            const std::string key_path = fmt::format("{}.{}", path, key.rule.name);
+            if (key.rule.is_required && toml_.is_whole && !examination_.is_written(key_path))
+                report_missing(section, key.rule, path, key_path);
+        }
+    }
+
+    template <class Struct>
+    void read_inner(const Section<Struct>& section, const TomlEntry& entry, const std::string& path,
+                    Struct& out) {
+        examination_.protocol.places.note(path, entry.value.place);
+        if (entry.value.table()) {
+            read_keys(section, *entry.value.table(), path, out);
+            return;
+        }
+        diagnostics_.error(
+            file_, entry.value.place,
+            fmt::format("{}: expected a table, found {}", section.name, entry.value.kind()),
+            fmt::format("write {} = {{ {} = … }}", section.name, section.keys.front().rule.name));
+    }
+
+    template <class Struct>
+    void read_key(const Key<Struct>& key, const TomlEntry& entry, const std::string& path, Struct& out) {
+        examination_.protocol.places.note(path, entry.value.place);
+        const ValueResult fault = std::visit(
+            [&](auto member) { return read_value(entry.value, key.rule, out.*member); }, key.member);
+        if (fault) {
+            diagnostics_.error(file_, fault->place, fault->message, fault->hint);
+            examination_.faulty.insert(path);
+        }
+    }
+
+    template <class Struct> void report_unknown_key(const Section<Struct>& section, const TomlEntry& entry) {
+        std::vector<std::string_view> names;
+        for (const Key<Struct>& key : section.keys)
+            names.push_back(key.rule.name);
+        for (const Section<Struct>& table : section.tables)
+            names.push_back(table.name);
+        diagnostics_.error(file_, entry.key_place,
+                           fmt::format("unknown key \"{}\" in [{}]", entry.key, section.name),
+                           hint_for_unknown_key(entry.key, section.name, names));
+    }
+
+    /// The near name, or else the section where this very key is at home.
+    std::string hint_for_unknown_key(std::string_view key, std::string_view section,
+                                     const std::vector<std::string_view>& names) const {
+        std::string home;
+        for_each_section([&](const auto& other) {
+            for (const auto& row : other.keys) {
+                if (row.rule.name == key && other.name != section && home.empty())
+                    home = fmt::format("\"{}\" belongs to [{}]", key, other.name);
+            }
+        });
+        return home.empty() || nearest_name(key, names) ? suggest_name(key, names) : home;
+    }
+
+    template <class Struct>
+    void report_missing(const Section<Struct>& section, const KeyRule& rule, const std::string& path,
+                        const std::string& key_path) {
+        const std::string heading =
+            section.many ? fmt::format("[[{}]]", section.name) : fmt::format("[{}]", section.name);
+        diagnostics_.error(file_, examination_.protocol.places.of(path),
+                           fmt::format("{} has no \"{}\"", heading, rule.name),
+                           std::string(rule.explanation));
+        examination_.faulty.insert(key_path);
+    }
+
+    ProtocolExamination& examination_;
+    const TomlFile& toml_;
+    Diagnostics& diagnostics_;
+    std::string file_;
+    std::vector<std::string_view> section_names_;
+};
+
+void require_lists(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    if (protocol.tasks.empty())
+        examination.error({"task"}, "there is no [[task]]", "add [[task]] with id and question");
+    if (protocol.sculptures.empty())
+        examination.error({"sculpture"}, "there is no [[sculpture]]",
+                          "add [[sculpture]] with id and shipped or mesh");
+    if (protocol.materials.empty())
+        examination.error({"material"}, "there is no [[material]]", "add [[material]] with id and kind");
+}
+
+/// Titles left out take the ids; paths become independent of the working directory of whoever reads on.
+void complete(Protocol& protocol) {
+    const std::filesystem::path folder = protocol.file.parent_path();
+    if (protocol.title.empty())
+        protocol.title = protocol.name;
+    for (SculptureSettings& sculpture : protocol.sculptures) {
+        if (sculpture.title.empty())
+            sculpture.title = sculpture.id;
+        if (!sculpture.mesh.empty())
+            sculpture.mesh = folder / sculpture.mesh;
+    }
+    for (MaterialSettings& material : protocol.materials) {
+        if (material.title.empty())
+            material.title = material.id;
+    }
+    for (FrameSequenceSettings& sequence : protocol.frames) {
+        if (!sequence.files.empty())
+            sequence.files = (folder / sequence.files).string();
+    }
+    if (protocol.light.probe != "overcast")
+        protocol.light.probe = (folder / protocol.light.probe).string();
+}
+
+std::optional<Protocol> read_text(std::string_view text, const std::filesystem::path& file,
+                                  std::span<const std::string_view> shipped_sculptures, bool look_at_files,
+                                  Diagnostics& diagnostics) {
+    const int errors_before = diagnostics.error_count();
+    Protocol protocol;
+    protocol.file = file;
+    protocol.text = text;
+    diagnostics.quote_from(file.string(), text);
+    const TomlFile toml = parse_toml(text, file.string(), diagnostics);
+    ProtocolExamination examination(protocol, diagnostics);
+    ProtocolWalk(examination, toml, diagnostics).read();
+    complete(protocol);
+    // With lines missing from the tree, comparing keys would raise false alarms.
+    if (toml.is_whole) {
+        require_lists(examination);
+        check_image_fits(examination);
+        check_animation(examination);
+        check_screens(examination);
+        check_ids(examination);
+        check_sculptures(examination, shipped_sculptures);
+        check_materials(examination);
+        check_frames(examination);
+        if (look_at_files)
+            check_files(examination);
+        if (diagnostics.error_count() == errors_before)
+            check_schedule(examination);
+    }
+    if (diagnostics.error_count() > errors_before)
+        return std::nullopt;
+    return protocol;
+}
+
+} // namespace
+
+std::optional<Protocol> read_protocol(const std::filesystem::path& file,
+                                      std::span<const std::string_view> shipped_sculptures,
+                                      Diagnostics& diagnostics) {
+    // Far more than anyone writes by hand: someone gave a mesh or a picture for the protocol.
+    constexpr std::size_t largest_bytes = 1 << 20;
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) {
+        diagnostics.error(file.string(), {}, "this is a folder, not a protocol file");
+        return std::nullopt;
+    }
+    errno = 0;
+    std::ifstream stream(file, std::ios::binary);
+    std::string text(largest_bytes + 1, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (!stream.eof() && stream.gcount() == 0) {
+        diagnostics.error(file.string(), {}, fmt::format("cannot be read: {}", std::strerror(errno)));
+        return std::nullopt;
+    }
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > largest_bytes) {
+        diagnostics.error(file.string(), {}, "larger than 1 MiB: this is no protocol file");
+        return std::nullopt;
+    }
+    return read_text(text, file, shipped_sculptures, true, diagnostics);
+}
+
+std::optional<Protocol> read_protocol_text(std::string_view text, const std::filesystem::path& file,
+                                           std::span<const std::string_view> shipped_sculptures,
+                                           Diagnostics& diagnostics) {
+    return read_text(text, file, shipped_sculptures, false, diagnostics);
+}
+
+} // namespace overt

@@ -1,0 +1,183 @@
+#include "experiment/protocol/key_rows.h"
+
+namespace overt::key_rows {
+
+namespace {
+
+constexpr std::string_view eyes[] = {"left", "right"};
+
+} // namespace
+
+Section<DisplaySettings> display() {
+    using D = DisplaySettings;
+    return {
+        .name = "display",
+        .explanation = "The screen in front of the observer. The defaults are those of a Cambridge Research "
+                       "Systems Display++ at 1.75 m.",
+        .keys =
+            {
+                {{.name = "width_px",
+                  .unit = "px",
+                  .low = 16,
+                  .high = 16384,
+                  .explanation = "Pixels in a row of the screen."},
+                 &D::width_px},
+                {{.name = "height_px",
+                  .unit = "px",
+                  .low = 16,
+                  .high = 16384,
+                  .explanation = "Rows of the screen."},
+                 &D::height_px},
+                {{.name = "refresh_hz",
+                  .unit = "Hz",
+                  .low = 1,
+                  .high = 1000,
+                  .explanation = "Refresh rate; a whole multiple of `animation.frame_rate_hz`, so that every "
+                                 "frame is lit equally long."},
+                 &D::refresh_hz},
+                {{.name = "width_mm",
+                  .unit = "mm",
+                  .low = 10,
+                  .high = 20000,
+                  .explanation = "Width of the lit area, by which visual angles are reckoned."},
+                 &D::width_mm},
+                {{.name = "height_mm",
+                  .unit = "mm",
+                  .low = 10,
+                  .high = 20000,
+                  .explanation = "Height of the lit area."},
+                 &D::height_mm},
+                {{.name = "viewing_distance_mm",
+                  .unit = "mm",
+                  .low = 50,
+                  .high = 50000,
+                  .explanation = "From the observer's eye to the middle of the screen."},
+                 &D::viewing_distance_mm},
+                {{.name = "output",
+                  .choices = output_modes,
+                  .explanation = "How light is packed into the video signal: 8 bits per channel for any "
+                                 "display, or the 16-bit modes of a Display++ (`color++` joins pixels in "
+                                 "pairs)."},
+                 &D::output},
+                {{.name = "gamma",
+                  .low = 0.1,
+                  .high = 5,
+                  .explanation = "Exponent from signal to light: 1 for a display that linearises itself, "
+                                 "about 2.2 for an ordinary monitor."},
+                 &D::gamma},
+                {{.name = "latency_ms",
+                  .unit = "ms",
+                  .low = 0,
+                  .high = 1000,
+                  .explanation = "From the vertical blank to the light of the first row."},
+                 &D::latency_ms},
+                {{.name = "background",
+                  .low = 0,
+                  .high = 1,
+                  .explanation = "Linear grey around the stimulus, 1 being the display's white."},
+                 &D::background},
+            },
+        .one = &Protocol::display};
+}
+
+Section<TrackerSettings> tracker() {
+    using T = TrackerSettings;
+    return {
+        .name = "tracker",
+        .explanation = "The eye tracker, and how a simulated one differs from a perfect one.",
+        .keys =
+            {
+                {{.name = "kind", .choices = tracker_kinds, .explanation = "Which eye tracker."}, &T::kind},
+                {{.name = "rate_hz",
+                  .unit = "Hz",
+                  .low = 10,
+                  .high = 10000,
+                  .explanation = "Gaze samples per second."},
+                 &T::rate_hz},
+                {{.name = "eye", .choices = eyes, .explanation = "The eye that is tracked."}, &T::eye},
+                {{.name = "drift_limit_deg",
+                  .unit = "deg",
+                  .low = 0.01,
+                  .high = 45,
+                  .explanation = "A drift check that finds a larger error is noted as failed."},
+                 &T::drift_limit_deg},
+                {{.name = "simulated_noise_deg",
+                  .unit = "deg",
+                  .low = 0,
+                  .high = 10,
+                  .explanation = "Standard deviation of each simulated sample."},
+                 &T::simulated_noise_deg},
+                {{.name = "simulated_accuracy_deg",
+                  .unit = "deg",
+                  .low = 0,
+                  .high = 10,
+                  .explanation = "Standard deviation of the constant error of a simulated trial."},
+                 &T::simulated_accuracy_deg},
+                {{.name = "simulated_clock_drift_ppm",
+                  .unit = "ppm",
+                  .low = -10000,
+                  .high = 10000,
+                  .explanation = "How much faster the simulated tracker's clock runs than the session's."},
+                 &T::simulated_clock_drift_ppm},
+            },
+        .one = &Protocol::tracker};
+}
+
+Section<ScreenSettings> screens() {
+    using S = ScreenSettings;
+    return {
+        .name = "screens",
+        .explanation = "What is shown between the animations, and for how long.",
+        .keys =
+            {
+                {{.name = "task_min_s",
+                  .unit = "s",
+                  .low = 0,
+                  .high = 600,
+                  .explanation = "The question stays at least this long before a key goes on."},
+                 &S::task_min_s},
+                {{.name = "drift_target_s",
+                  .unit = "s",
+                  .low = 0,
+                  .high = 60,
+                  .explanation = "How long the target of the drift check is shown."},
+                 &S::drift_target_s},
+                {{.name = "recording_lead_s",
+                  .unit = "s",
+                  .low = 0,
+                  .high = 10,
+                  .explanation =
+                      "Gaze is recorded from this long before the animation until this long after."},
+                 &S::recording_lead_s},
+                {{.name = "response_min_s",
+                  .unit = "s",
+                  .low = 0,
+                  .high = 600,
+                  .explanation = "The response screen stays at least this long before a key goes on."},
+                 &S::response_min_s},
+                {{.name = "response_max_s",
+                  .unit = "s",
+                  .low = 0.1,
+                  .high = 3600,
+                  .explanation = "After this long the session goes on without an answer."},
+                 &S::response_max_s},
+                {{.name = "text_height_deg",
+                  .unit = "deg",
+                  .low = 0.05,
+                  .high = 10,
+                  .explanation = "Height of a line of text."},
+                 &S::text_height_deg},
+                {{.name = "text_grey",
+                  .low = 0,
+                  .high = 1,
+                  .explanation = "Linear grey of the text, 1 being the display's white."},
+                 &S::text_grey},
+                {{.name = "response_text", .explanation = "Shown while the observer answers aloud."},
+                 &S::response_text},
+                {{.name = "welcome_text", .explanation = "Shown before the first trial."}, &S::welcome_text},
+                {{.name = "farewell_text", .explanation = "Shown after the last trial."}, &S::farewell_text},
+            },
+        .one = &Protocol::screens};
+}
+
+} // namespace overt::key_rows

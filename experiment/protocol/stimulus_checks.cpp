@@ -1,0 +1,171 @@
+#include "experiment/protocol/protocol_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "experiment/protocol/protocol_keys.h"
+
+namespace overt {
+
+namespace {
+
+std::string entry_path(std::string_view list, std::size_t index, std::string_view key = {}) {
+    return key.empty() ? fmt::format("{}[{}]", list, index) : fmt::format("{}[{}].{}", list, index, key);
+}
+
+template <class Entry> std::vector<std::string_view> ids_of(const std::vector<Entry>& entries) {
+    std::vector<std::string_view> ids;
+    for (const Entry& entry : entries)
+        ids.push_back(entry.id);
+    return ids;
+}
+
+template <class Entry>
+void check_list(ProtocolExamination& examination, std::string_view list, const std::vector<Entry>& entries) {
+    // Indices into the lists travel as bytes in records and textures, 255 meaning none.
+    constexpr std::size_t most_entries = 254;
+    if (entries.size() > most_entries) {
+        examination.error({entry_path(list, most_entries)},
+                          fmt::format("more than {} entries of [[{}]]", most_entries, list));
+    }
+    std::map<std::string_view, std::size_t> seen;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const std::string path = entry_path(list, i, "id");
+        const auto [first, is_new] = seen.try_emplace(entries[i].id, i);
+        if (is_new || entries[i].id.empty())
+            continue;
+        const Place there = examination.protocol.places.of(entry_path(list, first->second, "id"));
+        examination.error({path}, fmt::format("id \"{}\" is taken already", entries[i].id),
+                          fmt::format("by the [[{}]] in line {}", list, there.line));
+    }
+}
+
+bool is_covered_by_frames(const Protocol& protocol, std::size_t sculpture) {
+    for (std::size_t material = 0; material < protocol.materials.size(); ++material) {
+        if (!find_frames(protocol, static_cast<int>(sculpture), static_cast<int>(material)))
+            return false;
+    }
+    return !protocol.materials.empty();
+}
+
+/// Keys that say something about a mesh file, given for a sculpture without one.
+void check_mesh_keys(ProtocolExamination& examination, std::size_t index) {
+    for (const std::string_view key : {"up", "scale", "head"}) {
+        const std::string path = entry_path("sculpture", index, key);
+        if (examination.is_written(path)) {
+            examination.warning({path}, fmt::format("\"{}\" has no effect without \"mesh\"", key),
+                                "it describes the coordinates of a mesh file");
+        }
+    }
+}
+
+} // namespace
+
+void check_ids(ProtocolExamination& examination) {
+    check_list(examination, "task", examination.protocol.tasks);
+    check_list(examination, "sculpture", examination.protocol.sculptures);
+    check_list(examination, "material", examination.protocol.materials);
+}
+
+void check_sculptures(ProtocolExamination& examination,
+                      std::span<const std::string_view> shipped_sculptures) {
+    const Protocol& protocol = examination.protocol;
+    for (std::size_t i = 0; i < protocol.sculptures.size(); ++i) {
+        const SculptureSettings& sculpture = protocol.sculptures[i];
+        const std::string shipped = entry_path("sculpture", i, "shipped"),
+                          mesh = entry_path("sculpture", i, "mesh");
+        const bool has_shipped = examination.is_written(shipped), has_mesh = examination.is_written(mesh);
+        if (has_shipped && has_mesh) {
+            examination.error({mesh, shipped}, "a sculpture is either \"shipped\" or a \"mesh\", not both",
+                              "take one of the two lines out");
+        } else if (has_shipped && std::find(shipped_sculptures.begin(), shipped_sculptures.end(),
+                                            sculpture.shipped) == shipped_sculptures.end()) {
+            examination.error({shipped}, fmt::format("overt has no sculpture \"{}\"", sculpture.shipped),
+                              suggest_name(sculpture.shipped, shipped_sculptures));
+        } else if (!has_shipped && !has_mesh) {
+            if (!is_covered_by_frames(protocol, i)) {
+                examination.error(
+                    {entry_path("sculpture", i), mesh, shipped},
+                    fmt::format("sculpture \"{}\" has neither \"shipped\" nor \"mesh\"", sculpture.id),
+                    "or [[frames]] for every material");
+            } else {
+                examination.warning(
+                    {entry_path("sculpture", i)},
+                    fmt::format("sculpture \"{}\" has frames, but no shape: gaze on it cannot be "
+                                "projected to its surface",
+                                sculpture.id),
+                    "give the \"mesh\" that the frames were rendered from");
+            }
+        }
+        if (!has_mesh)
+            check_mesh_keys(examination, i);
+        else if (sculpture.head_spheres.empty() && !sculpture.head_planes.empty())
+            examination.warning({entry_path("sculpture", i, "head")}, "\"planes\" alone make no head",
+                                "give \"spheres\" that hold it");
+    }
+}
+
+void check_materials(ProtocolExamination& examination) {
+    const std::map<std::string_view, std::vector<MaterialKind>> kinds_of_key{
+        {"metal",
+         {MaterialKind::smooth_conductor, MaterialKind::rough_conductor, MaterialKind::coated_conductor}},
+        {"roughness", {MaterialKind::rough_conductor}},
+        {"coat_ior", {MaterialKind::coated_conductor}},
+        {"coat_absorbance", {MaterialKind::coated_conductor}},
+        {"coat_bump", {MaterialKind::coated_conductor}},
+        {"reflectance", {MaterialKind::diffuse}}};
+    const std::vector<MaterialSettings>& materials = examination.protocol.materials;
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        for (const auto& [key, kinds] : kinds_of_key) {
+            const std::string path = entry_path("material", i, key), kind = entry_path("material", i, "kind");
+            const bool matters = std::find(kinds.begin(), kinds.end(), materials[i].kind) != kinds.end();
+            if (!matters && examination.is_written(path)) {
+                examination.warning({path, kind},
+                                    fmt::format("\"{}\" has no effect on a material of kind \"{}\"", key,
+                                                name_of(materials[i].kind)));
+            }
+        }
+    }
+}
+
+void check_frames(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    const std::vector<std::string_view> sculptures = ids_of(protocol.sculptures),
+                                        materials = ids_of(protocol.materials);
+    std::map<std::pair<std::string, std::string>, std::size_t> seen;
+    const auto check_reference = [&](std::size_t i, std::string_view key, const std::string& id,
+                                     const std::vector<std::string_view>& known) {
+        if (std::find(known.begin(), known.end(), id) == known.end()) {
+            examination.error({entry_path("frames", i, key)},
+                              fmt::format("there is no [[{}]] \"{}\"", key, id), suggest_name(id, known));
+        }
+    };
+    for (std::size_t i = 0; i < protocol.frames.size(); ++i) {
+        const FrameSequenceSettings& sequence = protocol.frames[i];
+        check_reference(i, "sculpture", sequence.sculpture, sculptures);
+        check_reference(i, "material", sequence.material, materials);
+        const auto [first, is_new] = seen.try_emplace({sequence.sculpture, sequence.material}, i);
+        if (!is_new) {
+            examination.error(
+                {entry_path("frames", i, "sculpture"), entry_path("frames", i, "material")},
+                fmt::format("\"{}\" in \"{}\" has frames already", sequence.sculpture, sequence.material),
+                fmt::format("from the [[frames]] in line {}",
+                            protocol.places.of(entry_path("frames", first->second)).line));
+        }
+        const std::size_t begin = sequence.files.find('#');
+        const std::size_t end =
+            begin == std::string::npos ? begin : sequence.files.find_first_not_of('#', begin);
+        if (begin == std::string::npos ||
+            (end != std::string::npos && sequence.files.find('#', end) != std::string::npos)) {
+            examination.error({entry_path("frames", i, "files")},
+                              "the path needs one group of # for the digits of the frame number",
+                              "such as \"gold/frame_####.exr\"");
+            examination.faulty.insert(entry_path("frames", i, "files"));
+        }
+    }
+}
+
+} // namespace overt

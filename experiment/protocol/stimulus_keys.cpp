@@ -1,0 +1,253 @@
+#include "experiment/protocol/key_rows.h"
+
+namespace overt::key_rows {
+
+namespace {
+
+constexpr std::string_view axes[] = {"x", "y", "z", "-x", "-y", "-z"};
+constexpr std::string_view metals[] = {"Au", "Ag"};
+
+Section<SculptureSettings> head() {
+    using S = SculptureSettings;
+    return {.name = "head",
+            .explanation = "Which part of a mesh is the head: inside any of the spheres, and in front of all "
+                           "of the planes. Coordinates are those of the mesh file.",
+            .keys = {
+                {{.name = "spheres",
+                  .if_left_out = "the mesh has no head",
+                  .explanation = "Middle and radius of each sphere."},
+                 &S::head_spheres},
+                {{.name = "planes",
+                  .if_left_out = "nothing is cut off",
+                  .explanation = "A point of each plane, and the direction in which the head lies."},
+                 &S::head_planes},
+            }};
+}
+
+} // namespace
+
+Section<ViewSettings> view() {
+    using V = ViewSettings;
+    return {
+        .name = "view",
+        .explanation = "The image and its camera, the same for all stimuli. +z is up; a sculpture turns "
+                       "about the vertical through the middle of its bounding box.",
+        .keys =
+            {
+                {{.name = "width_px",
+                  .unit = "px",
+                  .low = 8,
+                  .high = 16384,
+                  .explanation = "Width of the stimulus, shown 1:1 in the middle of the screen."},
+                 &V::width_px},
+                {{.name = "height_px",
+                  .unit = "px",
+                  .low = 8,
+                  .high = 16384,
+                  .explanation = "Height of the stimulus."},
+                 &V::height_px},
+                {{.name = "vertical_fov_deg",
+                  .unit = "deg",
+                  .low = 0.1,
+                  .high = 170,
+                  .if_left_out = "the angle under which the observer sees the image",
+                  .explanation = "The camera's full angle over the height of the image."},
+                 &V::vertical_fov_deg},
+                {{.name = "margin",
+                  .low = 0,
+                  .high = 0.45,
+                  .explanation = "Share of the image left free on each side where the camera is fitted to "
+                                 "a sculpture."},
+                 &V::margin},
+                {{.name = "camera_position",
+                  .if_left_out = "fitted to each sculpture",
+                  .explanation = "Where the camera stands, in the unit of the mesh."},
+                 &V::camera_position},
+                {{.name = "camera_target",
+                  .if_left_out = "the middle of the bounding box",
+                  .explanation = "What the camera looks at."},
+                 &V::camera_target},
+            },
+        .one = &Protocol::view};
+}
+
+Section<LightSettings> light() {
+    using L = LightSettings;
+    return {.name = "light",
+            .explanation = "What surrounds the sculptures and is reflected in them.",
+            .keys =
+                {
+                    {{.name = "probe",
+                      .explanation = "\"overcast\" for a cloudy sky, or a latitude-longitude picture of the "
+                                     "surroundings (EXR or HDR, linear Rec. 709, +y up)."},
+                     &L::probe},
+                    {{.name = "exposure",
+                      .low = 1e-6,
+                      .high = 1e6,
+                      .explanation = "Factor from the probe's radiance to the display's white."},
+                     &L::exposure},
+                    {{.name = "rotation_deg",
+                      .unit = "deg",
+                      .low = -360,
+                      .high = 360,
+                      .explanation = "Turns the surroundings about the vertical."},
+                     &L::rotation_deg},
+                },
+            .one = &Protocol::light};
+}
+
+Section<Animation> animation() {
+    using A = Animation;
+    return {
+        .name = "animation",
+        .explanation = "How the sculptures turn: to and fro about the vertical, as a sine.",
+        .keys =
+            {
+                {{.name = "frame_count",
+                  .low = 1,
+                  .high = 10000,
+                  .explanation = "Frames of the animation; with `cycle` the last closes the loop, being "
+                                 "the first again."},
+                 &A::frame_count},
+                {{.name = "frame_rate_hz",
+                  .unit = "Hz",
+                  .low = 0.1,
+                  .high = 1000,
+                  .explanation = "Frames per second."},
+                 &A::frame_rate_hz},
+                {{.name = "amplitude_deg",
+                  .unit = "deg",
+                  .low = 0,
+                  .high = 180,
+                  .explanation = "Largest turn to each side of the front view."},
+                 &A::amplitude},
+                {{.name = "playback",
+                  .choices = playbacks,
+                  .explanation = "The frames hold a whole period of the sine, or one sweep from end to end "
+                                 "that is played forth and back."},
+                 &A::playback},
+                {{.name = "duration_s",
+                  .unit = "s",
+                  .low = 0.01,
+                  .high = 3600,
+                  .explanation = "Length of one presentation, a whole number of frames."},
+                 &A::duration_s},
+            },
+        .one = &Protocol::animation};
+}
+
+Section<SculptureSettings> sculpture() {
+    using S = SculptureSettings;
+    return {
+        .name = "sculpture",
+        .explanation = "A thing to look at: one of the sculptures that overt makes itself (`shipped`), or "
+                       "one of yours (`mesh`). At least one.",
+        .keys =
+            {
+                {{.name = "id",
+                  .is_required = true,
+                  .is_identifier = true,
+                  .explanation = "Short name, used in file names and tables."},
+                 &S::id},
+                {{.name = "title", .if_left_out = "the id", .explanation = "Name for figures and reports."},
+                 &S::title},
+                {{.name = "shipped",
+                  .if_left_out = "see `mesh`",
+                  .explanation = "Name of a sculpture that overt makes itself; its head is known."},
+                 &S::shipped},
+                {{.name = "mesh",
+                  .if_left_out = "see `shipped`",
+                  .explanation = "A PLY, OBJ or STL file of triangles, by its path from the protocol's "
+                                 "folder."},
+                 &S::mesh},
+                {{.name = "up", .choices = axes, .explanation = "The axis of the mesh file that points up."},
+                 &S::up},
+                {{.name = "scale",
+                  .low = 1e-9,
+                  .high = 1e9,
+                  .explanation = "Factor on the coordinates of the mesh file."},
+                 &S::scale},
+            },
+        .tables = {head()},
+        .many = &Protocol::sculptures};
+}
+
+Section<MaterialSettings> material() {
+    using M = MaterialSettings;
+    return {
+        .name = "material",
+        .explanation = "What every sculpture is made of in turn. At least one.",
+        .keys =
+            {
+                {{.name = "id",
+                  .is_required = true,
+                  .is_identifier = true,
+                  .explanation = "Short name, used in file names and tables."},
+                 &M::id},
+                {{.name = "title", .if_left_out = "the id", .explanation = "Name for figures and reports."},
+                 &M::title},
+                {{.name = "kind",
+                  .choices = material_kinds,
+                  .is_required = true,
+                  .explanation = "Polished metal, brushed metal, polished metal under a bumpy coloured "
+                                 "coat, or a matt surface."},
+                 &M::kind},
+                {{.name = "metal", .choices = metals, .explanation = "Gold or silver, of the conductors."},
+                 &M::metal},
+                {{.name = "roughness",
+                  .low = 0.001,
+                  .high = 1,
+                  .explanation = "GGX alpha of a rough conductor."},
+                 &M::roughness},
+                {{.name = "coat_ior", .low = 1, .high = 4, .explanation = "Index of refraction of the coat."},
+                 &M::coat_ior},
+                {{.name = "coat_absorbance",
+                  .low = 0,
+                  .high = 100,
+                  .explanation = "Optical depth of the coat in red, green and blue, for one pass of its "
+                                 "nominal thickness."},
+                 &M::coat_absorbance},
+                {{.name = "coat_bump",
+                  .low = 0,
+                  .high = 0.2,
+                  .explanation = "Height of the coat's bumps, as share of half the sculpture's height."},
+                 &M::coat_bump},
+                {{.name = "reflectance",
+                  .low = 0,
+                  .high = 1,
+                  .explanation = "Share of red, green and blue light that a matt surface returns."},
+                 &M::reflectance},
+            },
+        .many = &Protocol::materials};
+}
+
+Section<FrameSequenceSettings> frames() {
+    using F = FrameSequenceSettings;
+    return {.name = "frames",
+            .explanation = "A ready-made animation of one sculpture in one material, shown instead of "
+                           "rendering it.",
+            .keys =
+                {
+                    {{.name = "sculpture", .is_required = true, .explanation = "Id of a `[[sculpture]]`."},
+                     &F::sculpture},
+                    {{.name = "material", .is_required = true, .explanation = "Id of a `[[material]]`."},
+                     &F::material},
+                    {{.name = "files",
+                      .is_required = true,
+                      .explanation = "Path of the pictures from the protocol's folder, with # for the digits "
+                                     "of the number: \"gold/frame_####.exr\"."},
+                     &F::files},
+                    {{.name = "first_number",
+                      .low = 0,
+                      .high = 1e6,
+                      .explanation = "Number of the first frame's file."},
+                     &F::first_number},
+                    {{.name = "encoding",
+                      .choices = frame_encodings,
+                      .explanation = "What the numbers in the pictures mean: linear light, or sRGB."},
+                     &F::encoding},
+                },
+            .many = &Protocol::frames};
+}
+
+} // namespace overt::key_rows
