@@ -1,0 +1,33 @@
+/// Progress on the terminal, for anything that takes longer than a second.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+
+namespace overt {
+
+/// A bar that is redrawn in place on a terminal; elsewhere one line when a piece of work is done. Written to
+/// standard error.
+class ProgressBar {
+  public:
+    ProgressBar();
+    ~ProgressBar();
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+
+    /// `done` of `total` pieces of `what` are finished. A new `what` begins a new bar.
+    void update(std::string_view what, int done, int total);
+
+    /// Ends the bar that stands, so that something else can be printed.
+    void finish();
+
+  private:
+    using SteadyTime = std::chrono::steady_clock::time_point;
+    bool on_terminal_;
+    std::string what_;
+    SteadyTime started_{};
+    SteadyTime drawn_{};
+};
+
+} // namespace overt
