@@ -169,6 +169,34 @@ TEST_CASE("a face and its reverse are two sides and both stay", "[unit]") {
     CHECK(report.non_manifold_edges == 3);
 }
 
+TEST_CASE("every repeated face goes, also with others between, and the first of each stays", "[unit]") {
+    std::mt19937 random(8);
+    Mesh mesh = cube();
+    while (mesh.triangles.size() < 400) {
+        const glm::uvec3 t(random() % 8, random() % 8, random() % 8);
+        if (t.x != t.y && t.y != t.z && t.z != t.x)
+            add_triangle(mesh, t, PartIndex(mesh.triangles.size() % 256));
+    }
+    std::vector<glm::uvec3> different;
+    std::vector<PartIndex> parts;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const glm::uvec3 t = mesh.triangles[i];
+        const bool is_new = std::none_of(different.begin(), different.end(), [&](const glm::uvec3& earlier) {
+            return earlier == t || earlier == glm::uvec3(t.y, t.z, t.x) ||
+                   earlier == glm::uvec3(t.z, t.x, t.y);
+        });
+        if (!is_new)
+            continue;
+        different.push_back(t);
+        parts.push_back(mesh.triangle_parts[i]);
+    }
+    REQUIRE(different.size() < 200);
+    const MeshCleaningReport report = clean_mesh(mesh);
+    CHECK(mesh.triangles == different);
+    CHECK(mesh.triangle_parts == parts);
+    CHECK(report.duplicate_faces_dropped == 400 - different.size());
+}
+
 TEST_CASE("a closed mesh that is inside out is turned, an open one is only reported", "[unit]") {
     Mesh mesh = cube();
     for (glm::uvec3& triangle : mesh.triangles)
@@ -215,12 +243,17 @@ TEST_CASE("cleaning a cleaned mesh changes nothing, whatever it was made of", "[
 
 TEST_CASE("welding within a tolerance finds the nearest earlier place, as a plain search does", "[unit]") {
     std::mt19937 random(3);
-    const auto coordinate = [&] { return static_cast<float>(random() % 2001) / 100.0f - 10.0f; };
-    for (const double tolerance : {0.0, 0.05, 1.0, 7.0}) {
+    bool on_lattice = false; // where many places are equally near
+    const auto coordinate = [&] {
+        const float value = static_cast<float>(random() % 2001) / 100.0f - 10.0f;
+        return on_lattice ? std::round(value) : value;
+    };
+    for (const double tolerance : {0.0, 0.05, 1.0, 1.0, 2.5, 2.5, 7.0}) {
+        on_lattice = !on_lattice;
         VertexWelder welder(tolerance);
         std::vector<glm::vec3> places;
         for (int i = 0; i < 3000; ++i) {
-            const glm::vec3 position(coordinate(), coordinate(), std::round(coordinate()));
+            const glm::vec3 position(coordinate(), coordinate(), coordinate());
             std::size_t nearest = places.size();
             double shortest = std::numeric_limits<double>::infinity();
             for (std::size_t place = 0; place < places.size(); ++place) {

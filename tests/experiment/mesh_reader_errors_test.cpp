@@ -115,6 +115,7 @@ TEST_CASE("errors in a text PLY body name their line and column", "[unit]") {
         {"1 0 0\n", "-inf 0 0\n", "m.ply:11:1: x of vertex 1 (counted from 0) is -inf"},
         {"1 0 0\n", "1e39 0 0\n", "m.ply:11:1: x of vertex 1 (counted from 0) is inf"},
         {"1 0 0\n", "1 0,5 0\n", "m.ply:11:3: y of vertex 1 (counted from 0) is '0,5', which is no number"},
+        {"1 0 0\n", "1 +-5 0\n", "m.ply:11:3: y of vertex 1 (counted from 0) is '+-5', which is no number"},
         {"1 0 0\n", "1 0\n", "m.ply:11:4: the line of vertex 1 (counted from 0) lacks a value"},
         {"1 0 0\n", "1 0 0 7\n", "m.ply:11:7: the line of vertex 1 (counted from 0) goes on with '7'"},
         {"3 0 1 2", "3 0 1 3",
@@ -181,6 +182,10 @@ TEST_CASE("counts that the file has no room for are refused before anything is a
                Contains("too few"));
     CHECK_THAT(complaint("m.ply", binary_ply(vertices() + stored(0xffffffffu) + corners(0, 1, 2), "uint")),
                Contains("ends inside face 0"));
+    // 2^61 doubles take 2^64 bytes, which is 0 in 64 bits.
+    const std::string list = replaced(good, "end_header", "property list uint64 double weights\nend_header");
+    REQUIRE(complaint("m.ply", list + stored(std::uint64_t{0})).empty());
+    CHECK_THAT(complaint("m.ply", list + stored(std::uint64_t{1} << 61)), Contains("ends inside face 0"));
     std::string stl = as_binary_stl(cube());
     stl.replace(80, 4, stored(0xffffffffu));
     CHECK_THAT(complaint("m.stl", stl), Contains("promises 4294967295 triangles") && Contains("12 complete"));
