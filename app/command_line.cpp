@@ -1,0 +1,174 @@
+#include "app/command_line.h"
+
+#include <functional>
+#include <map>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/commands.h"
+
+namespace overt {
+
+namespace {
+
+const char* const synopsis =
+    "Eye-tracking experiments on animated 3D objects, from a protocol file to points on the surface.";
+
+const char* const exit_codes =
+    "Exit codes: 0 done, 1 failed, 2 bad input.\n"
+    "Frames, maps and sculptures are kept in $OVERT_CACHE (default: ~/.cache/overt).";
+
+const std::map<std::string, ContextChoice> context_names{{"auto", std::nullopt},
+                                                         {"window", ContextKind::window},
+                                                         {"egl", ContextKind::egl},
+                                                         {"osmesa", ContextKind::osmesa}};
+
+void add_context_option(CLI::App& command, ContextChoice& context) {
+    command
+        .add_option_function<std::string>(
+            "--context", [&context](const std::string& name) { context = context_names.at(name); },
+            "OpenGL through auto (a window where there is a display, else EGL with a graphics processor, "
+            "else OSMesa), window, egl or osmesa")
+        ->check(CLI::IsMember({"auto", "window", "egl", "osmesa"}))
+        ->type_name("KIND");
+}
+
+CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& what,
+                      const std::string& example) {
+    CLI::App& command = *app.add_subcommand(name, what);
+    command.footer("Example:\n  " + example + "\n");
+    return command;
+}
+
+} // namespace
+
+int run_command_line(int argc, char** argv) {
+    CLI::App app(synopsis, "overt");
+    app.set_version_flag("--version", "overt " OVERT_VERSION);
+    app.require_subcommand(1);
+    app.footer(exit_codes);
+    app.get_formatter()->column_width(34);
+    std::function<int()> command;
+
+    CheckOptions check;
+    auto& check_command =
+        add_command(app, "check", "Everything that can be known before an observer sits down",
+                    "overt check protocols/overt_2019.toml --observer 07");
+    check_command.add_option("PROTOCOL", check.protocol, "Protocol file (TOML)")->required();
+    check_command.add_option("--observer", check.observer, "Show this observer's order of trials")
+        ->type_name("ID");
+    check_command.add_flag("--all-observers", check.all_observers, "Show the order of each planned observer");
+    check_command
+        .add_option("--answer-time", check.answer_time_s,
+                    "Seconds an answer is taken to last, for the session's length")
+        ->type_name("S")
+        ->capture_default_str();
+    check_command.add_flag("--json", check.json, "Print JSON");
+    check_command.callback([&] { command = [&] { return run_check(check); }; });
+
+    RunOptions run;
+    auto& run_command = add_command(app, "run", "Runs a session",
+                                    "overt run protocols/overt_2019.toml --observer 07\n"
+                                    "  overt run protocols/overt_2019.toml --observer 07 --simulate-observer "
+                                    "1 --virtual-time --context osmesa");
+    run_command.add_option("PROTOCOL", run.protocol, "Protocol file (TOML)")->required();
+    run_command
+        .add_option(
+            "--observer", run.observer,
+            "Who sits there: letters, digits and hyphens; the digits at the end are the observer's number")
+        ->required()
+        ->type_name("ID");
+    run_command
+        .add_option("--session", run.session_number, "Number of this sitting (default: the next free one)")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
+    run_command
+        .add_option("--seed", run.seed,
+                    "Seed of the order and of all that is simulated (default: the protocol's, or a new one)")
+        ->type_name("N");
+    run_command
+        .add_option("--simulate-observer", run.simulate_observer, "Let a simulated observer look and answer")
+        ->type_name("SEED");
+    run_command.add_flag("--virtual-time", run.virtual_time,
+                         "Run as fast as the machine can, on a clock of its own");
+    run_command.add_flag("--windowed", run.windowed, "A window instead of the whole screen");
+    run_command.add_option("--sessions", run.sessions, "Folder for sessions")
+        ->type_name("DIR")
+        ->capture_default_str();
+    run_command.add_option("--trials", run.trials, "Only the first N trials, for a rehearsal")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
+    run_command
+        .add_option("--print-session-to", run.print_session_to,
+                    "Write the session's path to this file, for scripts")
+        ->type_name("FILE");
+    add_context_option(run_command, run.context);
+    run_command.callback([&] { command = [&] { return run_session(run); }; });
+
+    PlayOptions play;
+    auto& play_command = add_command(
+        app, "play", "Shows one animation, or one of its frames as a picture",
+        "overt play protocols/overt_2019.toml --stimulus muse/smooth --frame 15 --picture frame.png");
+    play_command.add_option("PROTOCOL", play.protocol, "Protocol file (TOML)")->required();
+    play_command.add_option("--stimulus", play.stimulus, "SCULPTURE/MATERIAL by their ids")
+        ->required()
+        ->type_name("ID");
+    play_command.add_option("--frame", play.frame, "Animation frame for --picture (default: 0)")
+        ->type_name("K")
+        ->check(CLI::NonNegativeNumber);
+    play_command.add_option("--picture", play.picture, "Write a PNG instead of opening a window")
+        ->type_name("FILE");
+    play_command.add_option("--duration", play.repeat_s, "How long to play")
+        ->type_name("S")
+        ->capture_default_str();
+    add_context_option(play_command, play.context);
+    play_command.callback([&] { command = [&] { return run_play(play); }; });
+
+    ExportOptions exporting;
+    auto& export_command =
+        add_command(app, "export", "Writes sessions as tables for other tools",
+                    "overt export sessions/overt_2019/sub-07_ses-01 --format tsv --out tables");
+    export_command.add_option("SESSION", exporting.sessions, "Folders of sessions")->required();
+    export_command.add_option("--format", exporting.format, "tsv: tables with a dictionary of their columns")
+        ->check(CLI::IsMember({"tsv"}))
+        ->capture_default_str();
+    export_command
+        .add_option("--out", exporting.out,
+                    "Folder to write to (default: export_tsv in the session; for several sessions a folder "
+                    "each is made in it)")
+        ->type_name("DIR");
+    export_command.add_flag("--overwrite", exporting.overwrite, "Replace an export that is there");
+    export_command.callback([&] { command = [&] { return run_export(exporting); }; });
+
+    ShowOptions show;
+    auto& show_command =
+        add_command(app, "show", "What a session holds, and one trial as a picture",
+                    "overt show sessions/overt_2019/sub-07_ses-01 --trial 3 --picture trial.png");
+    show_command.add_option("SESSION", show.session, "Folder of a session")->required();
+    show_command
+        .add_option("--trial", show.trial, "Trial for --picture, counted from 1 (default: the first)")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
+    show_command
+        .add_option("--picture", show.picture, "Write a PNG: a frame, its map, and the gaze on the surface")
+        ->type_name("FILE");
+    show_command.add_flag("--json", show.json, "Print JSON");
+    show_command.callback([&] { command = [&] { return run_show(show); }; });
+
+    DoctorOptions doctor;
+    auto& doctor_command =
+        add_command(app, "doctor", "What this machine offers for a session", "overt doctor --json");
+    doctor_command.add_flag("--json", doctor.json, "Print JSON");
+    doctor_command.callback([&] { command = [&] { return run_doctor(doctor); }; });
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        // Help and version arrive here too, with code 0; all else is bad input.
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return command();
+}
+
+} // namespace overt

@@ -1,0 +1,73 @@
+/// The commands of the program: each takes its options and gives the exit code, 0 done, 1 failed. Bad input
+/// is thrown as InputError, which main turns into exit code 2.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/gl_context.h"
+
+namespace overt {
+
+/// Which context a command draws in; nothing: the best one there is.
+using ContextChoice = std::optional<ContextKind>;
+
+struct CheckOptions {
+    std::filesystem::path protocol;
+    std::string observer; ///< show this observer's order; empty: the first
+    bool all_observers = false;
+    double answer_time_s = 8.0;
+    bool json = false;
+};
+int run_check(const CheckOptions& options);
+
+struct RunOptions {
+    std::filesystem::path protocol;
+    std::string observer;
+    std::optional<int> session_number;
+    std::optional<std::uint64_t> seed;
+    std::optional<std::uint64_t> simulate_observer;
+    ContextChoice context;
+    bool virtual_time = false;
+    bool windowed = false;
+    std::filesystem::path sessions = "sessions";
+    std::optional<int> trials; ///< only the first so many
+    std::filesystem::path print_session_to;
+};
+int run_session(const RunOptions& options);
+
+struct PlayOptions {
+    std::filesystem::path protocol;
+    std::string stimulus;
+    ContextChoice context;
+    std::optional<int> frame;
+    std::filesystem::path picture;
+    double repeat_s = 8.0;
+};
+int run_play(const PlayOptions& options);
+
+struct ExportOptions {
+    std::vector<std::filesystem::path> sessions;
+    std::string format = "tsv";
+    std::filesystem::path out;
+    bool overwrite = false;
+};
+int run_export(const ExportOptions& options);
+
+struct ShowOptions {
+    std::filesystem::path session;
+    std::optional<int> trial;
+    std::filesystem::path picture;
+    bool json = false;
+};
+int run_show(const ShowOptions& options);
+
+struct DoctorOptions {
+    bool json = false;
+};
+int run_doctor(const DoctorOptions& options);
+
+} // namespace overt
