@@ -38,16 +38,6 @@ ContentHash hash_of_light(const LightSettings& light) {
 
 } // namespace
 
-std::filesystem::path numbered_file(const std::string& pattern, int number) {
-    const std::size_t first = pattern.find('#');
-    if (first == std::string::npos) {
-        throw InputError(fmt::format(
-            "{}: a sequence of frames needs # where its number stands, as in frame_####.exr", pattern));
-    }
-    const std::size_t last = std::min(pattern.find_first_not_of('#', first), pattern.size());
-    return pattern.substr(0, first) + fmt::format("{:0{}}", number, last - first) + pattern.substr(last);
-}
-
 StimulusLibrary::StimulusLibrary(const GlContext& context, const Protocol& protocol,
                                  std::span<const Sculpture> sculptures, std::filesystem::path cache)
     : context_(&context), protocol_(&protocol), sculptures_(sculptures), cache_(std::move(cache)),
@@ -70,7 +60,7 @@ void StimulusLibrary::prepare(const Condition& condition, const Progress& progre
     if (const FrameSequenceSettings* sequence = sequence_of(condition)) {
         const glm::ivec2 wanted(protocol_->view.width_px, protocol_->view.height_px);
         for (int frame = 0; frame < protocol_->animation.frame_count; ++frame) {
-            const std::filesystem::path file = sequence_file(*sequence, frame);
+            const std::filesystem::path file = frame_file(*sequence, {frame});
             const glm::ivec2 size = image_size_px(file);
             if (size != wanted) {
                 throw InputError(fmt::format(
@@ -180,7 +170,7 @@ std::vector<int> StimulusLibrary::page_of_frame(const Condition& condition) cons
 
 LinearImage StimulusLibrary::page(const Condition& condition, int page) const {
     if (const FrameSequenceSettings* sequence = sequence_of(condition)) {
-        return read_linear_image(sequence_file(*sequence, page), sequence->encoding);
+        return read_linear_image(frame_file(*sequence, {page}), sequence->encoding);
     }
     return read_linear_image(page_file(condition, page));
 }
@@ -195,7 +185,7 @@ ContentHash StimulusLibrary::frames_hash(const Condition& condition) const {
     ContentHasher hasher;
     if (const FrameSequenceSettings* sequence = sequence_of(condition)) {
         for (int frame = 0; frame < protocol_->animation.frame_count; ++frame) {
-            hasher.add(std::string_view(hash_of_file(sequence_file(*sequence, frame))));
+            hasher.add(std::string_view(hash_of_file(frame_file(*sequence, {frame}))));
         }
         return hasher.finish();
     }
@@ -231,17 +221,7 @@ CoordinateMaps StimulusLibrary::maps_of(int sculpture) const {
 }
 
 const FrameSequenceSettings* StimulusLibrary::sequence_of(const Condition& condition) const {
-    const std::string& sculpture = protocol_->sculptures[static_cast<std::size_t>(condition.sculpture)].id;
-    const std::string& material = protocol_->materials[static_cast<std::size_t>(condition.material)].id;
-    for (const FrameSequenceSettings& sequence : protocol_->frames) {
-        if (sequence.sculpture == sculpture && sequence.material == material)
-            return &sequence;
-    }
-    return nullptr;
-}
-
-std::filesystem::path StimulusLibrary::sequence_file(const FrameSequenceSettings& sequence, int frame) const {
-    return numbered_file(sequence.files, sequence.first_number + frame);
+    return find_frames(*protocol_, condition.sculpture, condition.material);
 }
 
 } // namespace overt

@@ -53,7 +53,6 @@ class StimulusLibrary final : public FrameSource {
 
   private:
     const FrameSequenceSettings* sequence_of(const Condition& condition) const;
-    std::filesystem::path sequence_file(const FrameSequenceSettings& sequence, int frame) const;
     std::filesystem::path page_file(const Condition& condition, int page) const;
     void prepare_maps(int sculpture, const Progress& progress);
     const MeshBuffers& buffers_of(int sculpture, bool for_light);
@@ -71,9 +70,5 @@ class StimulusLibrary final : public FrameSource {
     int buffered_sculpture_ = -1;
     bool buffered_for_light_ = false;
 };
-
-/// The file of one frame: the run of # in `pattern` replaced by the number, with leading zeros. Throws
-/// InputError without #.
-std::filesystem::path numbered_file(const std::string& pattern, int number);
 
 } // namespace overt

@@ -1,0 +1,50 @@
+#include "app/protocol_file.h"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "experiment/protocol/protocol_reader.h"
+#include "experiment/scene/sculptures/sculptures.h"
+#include "experiment/schedule.h"
+
+namespace overt {
+
+Protocol read_protocol_or_report(const std::filesystem::path& file) {
+    std::vector<std::string_view> shipped;
+    for (const SculptureDescription& sculpture : shipped_sculptures())
+        shipped.push_back(sculpture.name);
+    Diagnostics diagnostics;
+    std::optional<Protocol> protocol = read_protocol(file, shipped, diagnostics);
+    const std::string findings = diagnostics.print();
+    std::fwrite(findings.data(), 1, findings.size(), stderr);
+    if (!protocol)
+        throw FindingsPrinted(fmt::format("{}: cannot be used", file.string()));
+    return *std::move(protocol);
+}
+
+Observer observer_labelled(const std::string& label) {
+    const std::optional<int> number = observer_number(label);
+    if (!number) {
+        throw InputError(
+            fmt::format("observer «{}» has no number at its end, and the number decides which materials are "
+                        "shown: call the observer {}01, say",
+                        label, label));
+    }
+    return {label, *number};
+}
+
+Condition stimulus_called(const Protocol& protocol, const std::string& name) {
+    std::vector<std::string> names;
+    for (std::size_t sculpture = 0; sculpture < protocol.sculptures.size(); ++sculpture) {
+        for (std::size_t material = 0; material < protocol.materials.size(); ++material) {
+            names.push_back(protocol.sculptures[sculpture].id + "/" + protocol.materials[material].id);
+            if (names.back() == name)
+                return {static_cast<int>(sculpture), static_cast<int>(material)};
+        }
+    }
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    throw InputError(fmt::format("no stimulus is called «{}»: {}", name, suggest_name(name, known)));
+}
+
+} // namespace overt

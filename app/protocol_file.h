@@ -1,0 +1,29 @@
+/// Reading a protocol on behalf of a command.
+#pragma once
+
+#include <filesystem>
+
+#include "experiment/diagnostics.h"
+#include "experiment/error.h"
+#include "experiment/protocol/protocol.h"
+#include "experiment/trial.h"
+
+namespace overt {
+
+/// A file was refused and its findings are printed already: main only has to leave with code 2.
+class FindingsPrinted : public InputError {
+  public:
+    using InputError::InputError;
+};
+
+/// Reads a protocol, prints all findings to standard error, and throws FindingsPrinted if one of them is an
+/// error.
+Protocol read_protocol_or_report(const std::filesystem::path& file);
+
+/// The observer of a label: its number is the one at the label's end. Throws InputError if it has none.
+Observer observer_labelled(const std::string& label);
+
+/// The stimulus called SCULPTURE/MATERIAL. Throws InputError naming those there are.
+Condition stimulus_called(const Protocol& protocol, const std::string& name);
+
+} // namespace overt
