@@ -95,15 +95,4 @@ std::vector<Sculpture> load_sculptures(const Protocol& protocol, const std::file
     return sculptures;
 }
 
-ScreenGeometry screen_geometry_of(const Protocol& protocol) {
-    const DisplaySettings& display = protocol.display;
-    ScreenGeometry geometry;
-    geometry.screen_px = {display.width_px, display.height_px};
-    geometry.screen_mm = {display.width_mm, display.height_mm};
-    geometry.viewing_distance_mm = display.viewing_distance_mm;
-    geometry.image_px = {protocol.view.width_px, protocol.view.height_px};
-    geometry.image_origin_px = centred_origin_px(geometry.screen_px, geometry.image_px);
-    return geometry;
-}
-
 } // namespace overt

@@ -33,7 +33,4 @@ Sculpture load_sculpture(const SculptureSettings& settings, const Protocol& prot
 /// All sculptures of the protocol, in its order.
 std::vector<Sculpture> load_sculptures(const Protocol& protocol, const std::filesystem::path& cache);
 
-/// The screen and the stimulus's place on it, as the protocol has them.
-ScreenGeometry screen_geometry_of(const Protocol& protocol);
-
 } // namespace overt

@@ -14,6 +14,7 @@
 
 #include "experiment/animation.h"
 #include "experiment/protocol/key_places.h"
+#include "experiment/screen_geometry.h"
 #include "experiment/units.h"
 
 namespace overt {
@@ -166,6 +167,9 @@ struct Protocol {
     std::string text;           ///< the file, byte for byte
     KeyPlaces places;           ///< where each key stands in it, for findings that come later
 };
+
+/// The screen and the stimulus's place on it, as the protocol has them.
+ScreenGeometry screen_geometry_of(const Protocol& protocol);
 
 /// File of one frame of a ready-made animation: the #s of `files` replaced by the number, zeros in front.
 std::filesystem::path frame_file(const FrameSequenceSettings& sequence, AnimationFrameIndex frame);

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "experiment/schedule.h"
-#include "experiment/screen_geometry.h"
 
 namespace overt {
 
@@ -111,11 +110,7 @@ void check_screens(ProtocolExamination& examination) {
                           fmt::format("text of grey {} cannot be seen on a background of {}",
                                       screens.text_grey, display.background));
     }
-    const double text_px =
-        screens.text_height_deg * ScreenGeometry{.screen_px = {display.width_px, display.height_px},
-                                                 .screen_mm = {display.width_mm, display.height_mm},
-                                                 .viewing_distance_mm = display.viewing_distance_mm}
-                                      .px_per_deg_at_centre();
+    const double text_px = screens.text_height_deg * screen_geometry_of(protocol).px_per_deg_at_centre();
     // Below 8 rows letters lose their shapes; above a tenth of the screen a question does not fit.
     if (text_px < 8.0) {
         examination.error({"screens.text_height_deg", "display.viewing_distance_mm"},
