@@ -1,0 +1,98 @@
+/// What an experiment amounts to before anyone sits down: counts, times, angles, balance, order of trials.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "experiment/protocol/protocol.h"
+#include "experiment/trial.h"
+
+namespace overt {
+
+/// What a protocol does not say, but a session's length and size depend on.
+struct DesignAssumptions {
+    double calibration_s = 180.0;   ///< calibrating and validating once a session
+    double question_s = 4.0;        ///< reading a question; screens.task_min_s if that is longer
+    double answer_s = 10.0;         ///< answering aloud, kept within response_min_s … response_max_s
+    double bytes_per_page_px = 8.0; ///< a page of the frame store: four channels of 16 bits
+    double bytes_per_map_px = 16.0; ///< a coordinate map while it is drawn: four floats
+};
+
+struct AnimationFacts {
+    int frames = 0;
+    int distinct_poses = 0;
+    int shown_frames = 0;
+    int refreshes_per_frame = 0;
+    int refreshes = 0; ///< of one presentation
+    double duration_s = 0.0;
+    double periods = 0.0; ///< swings to and fro in one presentation
+};
+
+struct VisualAngles {
+    double screen_width_deg = 0.0, screen_height_deg = 0.0;
+    double image_width_deg = 0.0, image_height_deg = 0.0;
+    double camera_fov_deg = 0.0; ///< vertical
+    double px_per_deg = 0.0;     ///< at the middle of the screen
+};
+
+/// Of one session, by what is on the screen.
+struct SessionLength {
+    double calibration_s = 0.0, questions_s = 0.0, drift_checks_s = 0.0, animations_s = 0.0, answers_s = 0.0;
+    double total_s() const { return calibration_s + questions_s + drift_checks_s + animations_s + answers_s; }
+};
+
+/// One page and one map per distinct pose.
+struct MemoryNeed {
+    double pages_per_stimulus_bytes = 0.0;
+    double maps_per_stimulus_bytes = 0.0;
+};
+
+/// How often a stimulus is shown under a task, summed over the planned observers.
+struct IncidenceCell {
+    int task = 0;
+    Condition condition;
+    int presentations = 0;
+};
+
+/// All that `overt check` says about a sound protocol. Indices are those of the protocol's lists.
+struct DesignReport {
+    std::string name, title;
+    std::vector<std::string> tasks, sculptures, materials; ///< ids
+    int trials_per_observer = 0;
+    int observers = 0; ///< planned
+
+    DisplaySettings display;
+    ViewSettings view;
+    Animation motion;
+    AnimationFacts animation;
+    VisualAngles angles;
+    DesignAssumptions assumptions;
+    SessionLength session;
+    MemoryNeed memory;
+
+    std::vector<IncidenceCell> incidence; ///< task by task, sculpture by sculpture, material by material
+    std::vector<Schedule> schedules;
+    bool is_seed_fixed = false; ///< otherwise the schedules are examples: each session draws its own
+
+    std::vector<std::string> warnings; ///< where cells of a task are not filled equally
+};
+
+/// Reckons all of it. `observers` are those whose order is shown; if the protocol fixes no seed, the orders
+/// are the ones that `example_seed` gives. Throws InputError as make_schedule does.
+DesignReport make_design_report(const Protocol& protocol, const std::vector<Observer>& observers,
+                                std::uint64_t example_seed = 1, const DesignAssumptions& assumptions = {});
+
+/// The planned observers, 1 … schedule.observers, labelled "01", "02", ….
+std::vector<Observer> planned_observers(const Protocol& protocol);
+
+/// For a terminal of 100 columns: sentences, the balance table, and the order of trials; a table if it is one
+/// observer's, else a line of codes each.
+std::string to_text(const DesignReport& report);
+
+nlohmann::ordered_json to_json(const DesignReport& report);
+
+} // namespace overt

@@ -1,0 +1,71 @@
+#include <nlohmann/json.hpp>
+
+#include "experiment/protocol/design_report.h"
+#include "experiment/protocol/protocol_keys.h"
+
+namespace overt {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json order_json(const DesignReport& report, const Schedule& schedule) {
+    Json trials = Json::array();
+    for (const Trial& trial : schedule.trials) {
+        trials.push_back(
+            {{"trial", trial.index + 1},
+             {"task", report.tasks.at(static_cast<std::size_t>(trial.task))},
+             {"sculpture", report.sculptures.at(static_cast<std::size_t>(trial.condition.sculpture))},
+             {"material", report.materials.at(static_cast<std::size_t>(trial.condition.material))}});
+    }
+    return {{"observer", schedule.observer.label},
+            {"number", schedule.observer.number},
+            {"seed", schedule.seed},
+            {"trials", std::move(trials)}};
+}
+
+} // namespace
+
+Json to_json(const DesignReport& report) {
+    const AnimationFacts& animation = report.animation;
+    const VisualAngles& angles = report.angles;
+    const SessionLength& session = report.session;
+    Json json{{"name", report.name},           {"title", report.title},
+              {"tasks", report.tasks},         {"sculptures", report.sculptures},
+              {"materials", report.materials}, {"trials_per_observer", report.trials_per_observer},
+              {"observers", report.observers}};
+    json["animation"] = {{"frames", animation.frames},
+                         {"distinct_poses", animation.distinct_poses},
+                         {"shown_frames", animation.shown_frames},
+                         {"refreshes_per_frame", animation.refreshes_per_frame},
+                         {"refreshes", animation.refreshes},
+                         {"duration_s", animation.duration_s},
+                         {"periods", animation.periods},
+                         {"amplitude_deg", report.motion.amplitude.value},
+                         {"playback", name_of(report.motion.playback)}};
+    json["angles"] = {
+        {"screen_width_deg", angles.screen_width_deg}, {"screen_height_deg", angles.screen_height_deg},
+        {"image_width_deg", angles.image_width_deg},   {"image_height_deg", angles.image_height_deg},
+        {"camera_fov_deg", angles.camera_fov_deg},     {"px_per_deg", angles.px_per_deg}};
+    json["session"] = {{"calibration_s", session.calibration_s},   {"questions_s", session.questions_s},
+                       {"drift_checks_s", session.drift_checks_s}, {"animations_s", session.animations_s},
+                       {"answers_s", session.answers_s},           {"total_s", session.total_s()}};
+    json["memory"] = {{"pages_per_stimulus_bytes", report.memory.pages_per_stimulus_bytes},
+                      {"maps_per_stimulus_bytes", report.memory.maps_per_stimulus_bytes}};
+    json["incidence"] = Json::array();
+    for (const IncidenceCell& cell : report.incidence) {
+        json["incidence"].push_back(
+            {{"task", report.tasks.at(static_cast<std::size_t>(cell.task))},
+             {"sculpture", report.sculptures.at(static_cast<std::size_t>(cell.condition.sculpture))},
+             {"material", report.materials.at(static_cast<std::size_t>(cell.condition.material))},
+             {"presentations", cell.presentations}});
+    }
+    json["is_seed_fixed"] = report.is_seed_fixed;
+    json["orders"] = Json::array();
+    for (const Schedule& schedule : report.schedules)
+        json["orders"].push_back(order_json(report, schedule));
+    json["warnings"] = report.warnings;
+    return json;
+}
+
+} // namespace overt

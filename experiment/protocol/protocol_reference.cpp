@@ -1,0 +1,108 @@
+#include "experiment/protocol/protocol_reference.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiment/protocol/protocol_keys.h"
+
+namespace overt {
+
+namespace {
+
+constexpr std::string_view introduction = R"(# Protocol files
+
+A protocol file says all that an experiment consists of: the rig, the stimuli, the questions and their order.
+It is a [TOML](https://toml.io/en/v1.0.0) file, to be edited with any text editor:
+
+```toml
+[section]
+key = 12.5                # a number, in the unit at the end of the key's name
+other_key = "a text"
+
+[[list]]                  # two brackets begin one entry of a list; repeat them for the next
+id = "first"
+```
+
+`overt check FILE` finds everything that is wrong with a file, with line and column, and shows what the
+experiment amounts to. To begin with, read [protocols/overt_2019.toml](../protocols/overt_2019.toml), which
+is the experiment of the 2019 paper with every choice explained;
+[protocols/quick_look.toml](../protocols/quick_look.toml) is the smallest that runs. How to use laser scans
+and other meshes of your own is in [laser_scans.md](laser_scans.md).
+
+- A key that is left out has its default.
+- Units are part of the names: `_mm`, `_deg` (degrees of visual angle or of turn), `_px`, `_hz`, `_s`, `_ms`.
+- A whole number may stand where a number is expected, never the other way round.
+- Paths count from the folder of the protocol file.
+- The place of the stimulus is the middle of the screen, pixel for pixel.
+
+This page is written from the program's own table of keys.
+)";
+
+std::string default_text(const KeyRule&, int value) { return fmt::format("{}", value); }
+std::string default_text(const KeyRule&, double value) { return fmt::format("{}", value); }
+std::string default_text(const KeyRule&, Degrees value) { return fmt::format("{}", value.value); }
+std::string default_text(const KeyRule&, const std::string& value) {
+    std::string text;
+    for (const char character : value)
+        text += character == '\n' ? std::string("\\n") : std::string(1, character);
+    return fmt::format("\"{}\"", text);
+}
+std::string default_text(const KeyRule&, const std::filesystem::path& value) { return value.string(); }
+std::string default_text(const KeyRule&, const std::array<double, 3>& value) {
+    return fmt::format("[{}]", fmt::join(value, ", "));
+}
+template <class Value> std::string default_text(const KeyRule& rule, const Value& value) {
+    if constexpr (std::is_enum_v<Value>)
+        return fmt::format("\"{}\"", rule.choices[static_cast<std::size_t>(value)]);
+    else
+        return {};
+}
+
+/// What stands in the column of defaults.
+template <class Struct> std::string default_of(const Key<Struct>& key) {
+    if (key.rule.is_required)
+        return "required";
+    if (!key.rule.if_left_out.empty())
+        return std::string(key.rule.if_left_out);
+    static const Struct defaults{};
+    const std::string text =
+        std::visit([&](auto member) { return default_text(key.rule, defaults.*member); }, key.member);
+    return fmt::format("`{}`", text);
+}
+
+std::string value_of(const KeyRule& rule, const std::string& expected) {
+    if (!rule.choices.empty())
+        return fmt::format("`\"{}\"`", fmt::join(rule.choices, "\"`, `\""));
+    if (const std::string range = range_text(rule); !range.empty())
+        return fmt::format("{}, {}", expected, range);
+    return expected;
+}
+
+template <class Struct>
+void add_section(std::string& text, const Section<Struct>& section, std::string_view parent) {
+    const std::string heading = !parent.empty() ? fmt::format("{} = {{ … }} in [[{}]]", section.name, parent)
+                                : section.many  ? fmt::format("[[{}]]", section.name)
+                                                : fmt::format("[{}]", section.name);
+    text += fmt::format("\n## `{}`\n\n{}\n\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n",
+                        heading, section.explanation);
+    for (const Key<Struct>& key : section.keys) {
+        KeyRule plain = key.rule;
+        plain.unit = {}; // the range names the unit already
+        const bool has_range = !range_text(key.rule).empty();
+        const std::string expected = expected_value(has_range ? Key<Struct>{plain, key.member} : key);
+        text += fmt::format("| `{}` | {} | {} | {} |\n", key.rule.name, value_of(key.rule, expected),
+                            default_of(key), key.rule.explanation);
+    }
+    for (const Section<Struct>& table : section.tables)
+        add_section(text, table, section.name);
+}
+
+} // namespace
+
+std::string protocol_reference_markdown() {
+    std::string text(introduction);
+    for_each_section([&](const auto& section) { add_section(text, section, ""); });
+    return text;
+}
+
+} // namespace overt
