@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
+#include "build_info.h"
 
 namespace overt {
 
@@ -45,7 +46,7 @@ CLI::App& add_command(CLI::App& app, const std::string& name, const std::string&
 
 int run_command_line(int argc, char** argv) {
     CLI::App app(synopsis, "overt");
-    app.set_version_flag("--version", "overt " OVERT_VERSION);
+    app.set_version_flag("--version", std::string("overt ") + build::version);
     app.require_subcommand(1);
     app.footer(exit_codes);
     app.get_formatter()->column_width(34);

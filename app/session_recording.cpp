@@ -1,0 +1,118 @@
+#include "app/session_recording.h"
+
+#include <ctime>
+#include <fstream>
+
+#include <fmt/chrono.h>
+
+#include "build_info.h"
+#include "experiment/error.h"
+#include "experiment/record/header_rows.h"
+#include "experiment/scene/ply_writer.h"
+
+namespace overt {
+
+namespace {
+
+std::string_view word_of(OutputMode mode) {
+    switch (mode) {
+    case OutputMode::native_8bit:
+        return "native-8bit";
+    case OutputMode::mono_plus_plus:
+        return "mono++";
+    case OutputMode::color_plus_plus:
+        return "color++";
+    }
+    return "";
+}
+
+void copy_into(const std::filesystem::path& from, const std::filesystem::path& to) {
+    std::error_code error;
+    std::filesystem::create_directories(to.parent_path(), error);
+    if (!error)
+        std::filesystem::copy_file(from, to, error);
+    if (error)
+        throw RecordError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
+}
+
+void describe_sculptures(SessionHeader& header, const Protocol& protocol,
+                         std::span<const Sculpture> sculptures, const StimulusLibrary& library) {
+    for (std::size_t i = 0; i < sculptures.size(); ++i) {
+        const Sculpture& sculpture = sculptures[i];
+        RecordedSculpture recorded{sculpture.id, protocol.sculptures[i].title, sculpture.mesh_hash, "",
+                                   sculpture.mesh.part_names};
+        if (sculpture.has_mesh()) {
+            recorded.mesh_file = fmt::format("meshes/{}.ply", sculpture.id);
+            recorded.camera = sculpture.scene.view.camera;
+            recorded.bounds = sculpture.scene.bounds;
+            recorded.axis_point = sculpture.scene.bounds.centre();
+            for (int pose = 0; pose < static_cast<int>(library.poses().angles.size()); ++pose) {
+                const std::string file = fmt::format("maps/{}/pose_{:02}.exr", sculpture.id, pose);
+                header.maps.push_back({static_cast<int>(i),
+                                       {pose},
+                                       file,
+                                       hash_of_file(library.map_file(static_cast<int>(i), {pose})),
+                                       RecordedMap::Made::prepared});
+            }
+        }
+        header.sculptures.push_back(std::move(recorded));
+    }
+}
+
+} // namespace
+
+SessionHeader make_session_header(const Protocol& protocol, const Schedule& schedule,
+                                  std::span<const Sculpture> sculptures, const StimulusLibrary& library,
+                                  const GlDescription& graphics, const TrackerDescription& tracker,
+                                  ClockKind clock) {
+    SessionHeader header;
+    header.protocol = {protocol.name, protocol.title, protocol.text, hash_of_text(protocol.text)};
+    header.schedule = schedule;
+    header.started_utc = utc_now();
+    header.clock = clock;
+    header.program = {build::version, build::compiler, build::flags, build::commit};
+    header.graphics = {std::string(name_of(graphics.kind)), graphics.vendor, graphics.renderer,
+                       graphics.version};
+    header.tracker = tracker;
+    header.display = {screen_geometry_of(protocol), protocol.display.refresh_hz,
+                      from_seconds(1e-3 * protocol.display.latency_ms),
+                      std::string(word_of(protocol.display.output)), protocol.display.background};
+    header.animation = protocol.animation;
+    header.poses = library.poses();
+    for (const Task& task : protocol.tasks)
+        header.tasks.push_back({task.id, task.question});
+    for (const MaterialSettings& material : protocol.materials)
+        header.materials.push_back({material.id, material.title});
+    for (int sculpture = 0; sculpture < static_cast<int>(sculptures.size()); ++sculpture) {
+        for (int material = 0; material < static_cast<int>(protocol.materials.size()); ++material) {
+            const Condition condition{sculpture, material};
+            header.stimuli.push_back(
+                {condition, library.source_of(condition), library.frames_hash(condition)});
+        }
+    }
+    describe_sculptures(header, protocol, sculptures, library);
+    return header;
+}
+
+void put_files(const SessionDirectory& directory, const SessionHeader& header,
+               std::span<const Sculpture> sculptures, const StimulusLibrary& library) {
+    for (std::size_t i = 0; i < sculptures.size(); ++i) {
+        if (!sculptures[i].has_mesh())
+            continue;
+        const std::filesystem::path file = directory.path() / header.sculptures[i].mesh_file;
+        std::filesystem::create_directories(file.parent_path());
+        write_ply(file, sculptures[i].mesh);
+    }
+    for (const RecordedMap& map : header.maps)
+        copy_into(library.map_file(map.sculpture, map.pose), directory.path() / map.file);
+    std::ofstream protocol(directory.path() / "protocol.toml", std::ios::binary);
+    protocol << header.protocol.text;
+    if (!protocol.flush())
+        throw RecordError(
+            fmt::format("{}: cannot be written", (directory.path() / "protocol.toml").string()));
+    create_session_file(directory.session_file(), header);
+}
+
+std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+
+} // namespace overt

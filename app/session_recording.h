@@ -1,0 +1,27 @@
+/// Everything that stands fixed before a session's first trial, on disk: the header, the meshes and the maps.
+#pragma once
+
+#include <filesystem>
+
+#include "experiment/record/session_directory.h"
+#include "experiment/record/session_header.h"
+#include "render/stimulus_library.h"
+
+namespace overt {
+
+/// What a session is made of, gathered for its record. The library's stimuli must be prepared. File names are
+/// those that put_files() gives.
+SessionHeader make_session_header(const Protocol& protocol, const Schedule& schedule,
+                                  std::span<const Sculpture> sculptures, const StimulusLibrary& library,
+                                  const GlDescription& graphics, const TrackerDescription& tracker,
+                                  ClockKind clock);
+
+/// Puts the meshes and the maps into the directory as the header names them, the header itself into a new
+/// session file, and a copy of the protocol beside it. Throws RecordError.
+void put_files(const SessionDirectory& directory, const SessionHeader& header,
+               std::span<const Sculpture> sculptures, const StimulusLibrary& library);
+
+/// Now, by the wall clock: 2026-11-21T09:30:00Z.
+std::string utc_now();
+
+} // namespace overt
