@@ -1,0 +1,77 @@
+#include "experiment/analysis/flip_history.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiment/error.h"
+
+namespace overt {
+namespace {
+
+/// The plan by refresh since onset. A refresh without a row of its own (it went by with the old picture) was
+/// planned to show what the refresh before it was.
+std::vector<AnimationFrameIndex> plan_of(std::span<const FlipRecord> flips) {
+    std::vector<AnimationFrameIndex> plan;
+    const int onset = flips.empty() ? 0 : flips.front().refresh_in_trial;
+    for (const FlipRecord& flip : flips) {
+        const auto refresh = static_cast<std::size_t>(std::max(flip.refresh_in_trial - onset, 0));
+        while (plan.size() < refresh)
+            plan.push_back(plan.back());
+        if (plan.size() == refresh)
+            plan.push_back(flip.planned);
+    }
+    return plan;
+}
+
+} // namespace
+
+FlipHistory::FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_out) : scan_out_(scan_out) {
+    OVERT_EXPECTS(scan_out.refresh_hz > 0.0 && scan_out.screen_rows > 0.0);
+    std::vector<FlipRecord> ordered(flips.begin(), flips.end());
+    std::stable_sort(ordered.begin(), ordered.end(), [](const FlipRecord& a, const FlipRecord& b) {
+        return a.report.vertical_blank < b.report.vertical_blank;
+    });
+    blanks_.reserve(ordered.size());
+    pictures_.reserve(ordered.size());
+    for (const FlipRecord& flip : ordered) {
+        blanks_.push_back(flip.report.vertical_blank);
+        pictures_.push_back({flip.shown, flip.page, flip.report.refresh});
+    }
+    plan_ = plan_of(ordered);
+    if (!blanks_.empty())
+        end_ = blanks_.back() + from_seconds(1.0 / scan_out_.refresh_hz);
+}
+
+SessionTime FlipHistory::blank_lighting(SessionTime time, double row_px) const {
+    const double row_share = std::clamp(row_px / scan_out_.screen_rows, 0.0, 1.0);
+    return time - scan_out_.latency - from_seconds(row_share / scan_out_.refresh_hz);
+}
+
+std::optional<LitFrame> FlipHistory::frame_shown_at(SessionTime time, double row_px) const {
+    const SessionTime instant = blank_lighting(time, row_px);
+    if (blanks_.empty() || instant < blanks_.front() || instant >= end_)
+        return std::nullopt;
+    const auto next = std::upper_bound(blanks_.begin(), blanks_.end(), instant);
+    return pictures_[static_cast<std::size_t>(next - blanks_.begin() - 1)];
+}
+
+std::optional<AnimationFrameIndex> FlipHistory::frame_planned_at(SessionTime time, double row_px) const {
+    const SessionTime instant = blank_lighting(time, row_px);
+    if (blanks_.empty() || instant < blanks_.front())
+        return std::nullopt;
+    // Compared with whole nanoseconds of each planned blank: an instant right on one belongs to its refresh.
+    const double since_onset_s = to_seconds(instant - blanks_.front());
+    auto refresh = static_cast<std::int64_t>(since_onset_s * scan_out_.refresh_hz);
+    const auto planned_blank = [&](std::int64_t index) {
+        return blanks_.front() + from_seconds(static_cast<double>(index) / scan_out_.refresh_hz);
+    };
+    while (instant >= planned_blank(refresh + 1))
+        ++refresh;
+    while (refresh > 0 && instant < planned_blank(refresh))
+        --refresh;
+    if (refresh >= static_cast<std::int64_t>(plan_.size()))
+        return std::nullopt;
+    return plan_[static_cast<std::size_t>(refresh)];
+}
+
+} // namespace overt

@@ -1,0 +1,58 @@
+/// Which frame was lit on a row of the screen at an instant: the flip ledger of one presentation, read
+/// backwards.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "experiment/animation.h"
+#include "experiment/flip_report.h"
+#include "experiment/session_time.h"
+
+namespace overt {
+
+/// How light follows a vertical blank on one display.
+struct ScanOut {
+    SessionDuration latency{};  ///< from the vertical blank to the light of the first row
+    double refresh_hz = 120.0;  ///< nominal
+    double screen_rows = 1080.; ///< rows are lit one after another, evenly over one refresh
+};
+
+struct LitFrame {
+    AnimationFrameIndex frame;
+    PoseIndex pose;       ///< the page that was lit
+    RefreshIndex refresh; ///< at which this row of the picture came up
+};
+
+/// Answers for one presentation. May be asked from any thread.
+///
+/// Row y of refresh r is lit from vertical_blank(r) + latency + y / screen_rows * one nominal refresh until
+/// the same row of the next refresh in the ledger (so a picture that stays because a refresh was dropped
+/// stays here too); after the last one, for one nominal refresh. Rows above and below the screen are taken as
+/// its first and last.
+class FlipHistory {
+  public:
+    /// The ledger's rows of one trial, in any order.
+    FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_out);
+
+    /// Nothing before the presentation's onset and after its end.
+    std::optional<LitFrame> frame_shown_at(SessionTime time, double row_px) const;
+
+    /// The frame that the plan had for this instant, row included: refreshes counted from the recorded onset
+    /// at the nominal rate, as if none had ever been late. What analyses go by that have no ledger; where it
+    /// differs from frame_shown_at they look at the wrong frame.
+    std::optional<AnimationFrameIndex> frame_planned_at(SessionTime time, double row_px) const;
+
+  private:
+    /// The vertical blank, latency included, whose scan-out reaches the row at this time.
+    SessionTime blank_lighting(SessionTime time, double row_px) const;
+
+    ScanOut scan_out_;
+    std::vector<SessionTime> blanks_; ///< rising
+    std::vector<LitFrame> pictures_;  ///< by index of blanks_
+    SessionTime end_;
+    std::vector<AnimationFrameIndex> plan_; ///< by refresh since onset
+};
+
+} // namespace overt

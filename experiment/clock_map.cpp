@@ -1,0 +1,96 @@
+#include "experiment/clock_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "experiment/error.h"
+
+namespace overt {
+namespace {
+
+/// A reading of the tracker's clock may be anywhere within its tick.
+constexpr double tracker_tick_ns = 1000.0;
+
+SessionTime midpoint(const ClockPair& pair) { return pair.before + (pair.after - pair.before) / 2; }
+
+double half_width_ns(const ClockPair& pair) {
+    return 0.5 * std::abs(static_cast<double>((pair.after - pair.before).count())) + tracker_tick_ns;
+}
+
+double square(double value) { return value * value; }
+
+} // namespace
+
+ClockMap::ClockMap(std::span<const ClockPair> pairs) {
+    OVERT_EXPECTS(!pairs.empty());
+    reference_tracker_ = pairs.front().tracker;
+    reference_session_ = midpoint(pairs.front());
+    fit_line(pairs);
+}
+
+double ClockMap::nanoseconds_since_reference(TrackerTime time) const {
+    return 1000.0 * static_cast<double>((time - reference_tracker_).count());
+}
+
+void ClockMap::fit_line(std::span<const ClockPair> pairs) {
+    struct Point {
+        double x_ns, y_ns, half_width_ns, weight;
+    };
+    std::vector<Point> points;
+    for (const ClockPair& pair : pairs) {
+        // The difference is taken in integers: both terms are large and it is small.
+        const SessionDuration elapsed = pair.tracker - reference_tracker_;
+        const SessionDuration correction = (midpoint(pair) - reference_session_) - elapsed;
+        const double width = half_width_ns(pair);
+        points.push_back({nanoseconds_since_reference(pair.tracker), static_cast<double>(correction.count()),
+                          width, 1.0 / square(width)});
+    }
+
+    double weights = 0.0, sum_x = 0.0, sum_y = 0.0, sum_width = 0.0;
+    for (const Point& point : points) {
+        weights += point.weight;
+        sum_x += point.weight * point.x_ns;
+        sum_y += point.weight * point.y_ns;
+        sum_width += point.weight * point.half_width_ns;
+    }
+    centre_ns_ = sum_x / weights;
+    offset_ns_ = sum_y / weights;
+    offset_uncertainty_ns_ = sum_width / weights;
+
+    double spread = 0.0, covariance = 0.0, leverage = 0.0, distance = 0.0;
+    for (const Point& point : points) {
+        const double x = point.x_ns - centre_ns_;
+        spread += point.weight * square(x);
+        covariance += point.weight * x * (point.y_ns - offset_ns_);
+        leverage += point.weight * std::abs(x) * point.half_width_ns;
+        distance += point.weight * std::abs(x);
+    }
+    constexpr double largest_drift = largest_drift_ppm * 1e-6;
+    const bool rate_is_known = spread > 0.0 && leverage / spread < largest_drift;
+    if (rate_is_known) {
+        slope_ = covariance / spread;
+        slope_uncertainty_ = leverage / spread;
+    } else {
+        slope_uncertainty_ = largest_drift;
+        offset_uncertainty_ns_ += largest_drift * distance / weights;
+    }
+    for (const Point& point : points) {
+        const double x = point.x_ns - centre_ns_;
+        const double explained = point.half_width_ns + (rate_is_known ? 0.0 : largest_drift * std::abs(x));
+        const double residual = std::abs(point.y_ns - offset_ns_ - slope_ * x);
+        worst_excess_ns_ = std::max(worst_excess_ns_, residual - explained);
+    }
+}
+
+MappedTime ClockMap::to_session(TrackerTime time) const {
+    const SessionDuration elapsed = time - reference_tracker_;
+    const double from_centre_ns = nanoseconds_since_reference(time) - centre_ns_;
+    const double correction_ns = offset_ns_ + slope_ * from_centre_ns;
+    const double uncertainty_ns = offset_uncertainty_ns_ + slope_uncertainty_ * std::abs(from_centre_ns) +
+                                  worst_excess_ns_ + tracker_tick_ns;
+    return {reference_session_ + elapsed + SessionDuration(std::llround(correction_ns)),
+            SessionDuration(std::llround(std::ceil(uncertainty_ns)))};
+}
+
+} // namespace overt

@@ -1,0 +1,183 @@
+#include "experiment/record/row_writer.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "experiment/error.h"
+#include "experiment/record/session_file.h"
+#include "experiment/record/sql.h"
+
+namespace overt {
+namespace {
+
+/// Write-ahead log: a transaction costs a write to the end of a file and no wait for the disk. Checkpoints
+/// never happen by themselves (they flush the disk): the end of a trial is the time for them.
+SQLite::Database open_for_rows(const std::filesystem::path& file) {
+    SQLite::Database database = open_session_file(file, SessionFileUse::write);
+    try {
+        database.exec(
+            "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 0");
+    } catch (const SQLite::Exception& reason) {
+        throw_record_error(file, "opening the session for writing", reason);
+    }
+    return database;
+}
+
+std::int64_t number(const SQLite::Database& database, const char* sql, std::int64_t parameter = 0) {
+    Query query(database, sql);
+    query.bind(1, parameter);
+    return query.step() ? query.integer() : 0;
+}
+
+} // namespace
+
+SessionLock::SessionLock(const std::filesystem::path& directory)
+    : descriptor_(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (descriptor_ < 0)
+        throw RecordError(
+            fmt::format("{}: there is no session here: {}.", directory.string(), std::strerror(errno)));
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        ::close(descriptor_);
+        throw RecordError(fmt::format("{}: another program is running this session: wait until it has ended.",
+                                      directory.string()));
+    }
+}
+
+SessionLock::~SessionLock() { ::close(descriptor_); }
+
+RowWriter::RowWriter(const std::filesystem::path& session_file, const std::string& started_utc) try
+    : lock_(session_file.parent_path()), database_(open_for_rows(session_file)),
+      insert_flip_(database_, "INSERT INTO flip VALUES (?,?,?,?,?,?,?,?,?,?,?,?)"),
+      insert_sample_(database_, "INSERT INTO sample VALUES (?,?,?,?,?,?,?)"),
+      insert_clock_pair_(database_, "INSERT INTO clock_pair VALUES (NULL,?,?,?,?)"),
+      insert_event_(database_, "INSERT INTO event VALUES (NULL,?,?,?,?,?)"),
+      insert_map_(database_, "INSERT OR REPLACE INTO map VALUES (?,?,?,?,?)"),
+      insert_trial_(database_,
+                    "INSERT INTO trial (trial_id, sitting, trial, attempt, task, sculpture, material, "
+                    "status, started_ns) VALUES (?,?,?,?,?,?,?,'open',?)"),
+      finish_trial_(
+          database_,
+          "UPDATE trial SET status = ?, task_screen_onset_ns = ?, presentation_onset_ns = ?, "
+          "presentation_end_ns = ?, response_screen_onset_ns = ?, responded_ns = ?, shown_refreshes = ?, "
+          "missed_refreshes = ?, drift_deg = ?, answer = ?, lost_flips = ?, lost_samples = ? "
+          "WHERE trial_id = ?"),
+      outside_counts_(counts_so_far(0)) {
+    sitting_ = static_cast<int>(number(database_, "SELECT COALESCE(MAX(sitting), 0) + 1 + ?1 FROM sitting"));
+    SQLite::Statement insert_sitting(database_, "INSERT INTO sitting VALUES (?,?,0)");
+    run_statement(insert_sitting, sitting_, started_utc);
+} catch (const SQLite::Exception& reason) {
+    throw_record_error(session_file, "opening the session for writing", reason);
+}
+
+RowWriter::Counts RowWriter::counts_so_far(std::int64_t trial_id) {
+    return {trial_id,
+            number(database_, "SELECT COALESCE(MAX(n) + 1, 0) FROM flip WHERE trial_id = ?1", trial_id),
+            number(database_, "SELECT COALESCE(MAX(n) + 1, 0) FROM sample WHERE trial_id = ?1", trial_id)};
+}
+
+void RowWriter::begin() {
+    if (in_transaction_)
+        return;
+    database_.exec("BEGIN");
+    in_transaction_ = true;
+}
+
+void RowWriter::commit() {
+    if (!in_transaction_)
+        return;
+    database_.exec("COMMIT");
+    in_transaction_ = false;
+}
+
+void RowWriter::roll_back() noexcept {
+    database_.tryExec("ROLLBACK");
+    in_transaction_ = false;
+}
+
+void RowWriter::commit_to_disk() {
+    commit();
+    database_.exec("PRAGMA synchronous = NORMAL");
+}
+
+void RowWriter::flip(const FlipRecord& flip) {
+    begin();
+    Counts& counts = counts_of(flip.trial);
+    const FlipReport& report = flip.report;
+    run_statement(insert_flip_, counts.trial_id, counts.flips++, flip.refresh_in_trial, report.refresh.value,
+                  flip.planned.value, flip.shown.value, flip.page.value, report.requested, report.swapped,
+                  report.vertical_blank, static_cast<int>(report.source), report.missed_refreshes);
+}
+
+void RowWriter::sample(int trial, const GazeSample& sample) {
+    begin();
+    Counts& counts = counts_of(trial);
+    using Pixels = std::optional<double>;
+    run_statement(insert_sample_, counts.trial_id, counts.samples++,
+                  static_cast<std::int64_t>(sample.sampled_at.time_since_epoch().count()),
+                  static_cast<int>(sample.eye), sample.gaze ? Pixels(sample.gaze->x_px) : std::nullopt,
+                  sample.gaze ? Pixels(sample.gaze->y_px) : std::nullopt,
+                  static_cast<double>(sample.pupil_area));
+}
+
+void RowWriter::clock_pair(const ClockPair& pair) {
+    begin();
+    run_statement(insert_clock_pair_, sitting_, pair.before,
+                  static_cast<std::int64_t>(pair.tracker.time_since_epoch().count()), pair.after);
+}
+
+void RowWriter::event(SessionTime at, int trial, const std::string& kind, const std::string& detail) {
+    begin();
+    run_statement(insert_event_, sitting_, at, trial < 0 ? std::nullopt : std::optional(trial), kind, detail);
+}
+
+void RowWriter::map(const RecordedMap& map) {
+    begin();
+    run_statement(insert_map_, map.sculpture, map.pose.value, map.file, map.sha256,
+                  map.made == RecordedMap::Made::prepared ? "prepared" : "live");
+}
+
+void RowWriter::start_trial(const Trial& trial, SessionTime at) {
+    begin();
+    trial_counts_ = {number(database_, "SELECT COALESCE(MAX(trial_id), 0) + 1 + ?1 FROM trial"), 0, 0};
+    open_trial_ = trial.index;
+    const std::int64_t attempt =
+        1 + number(database_, "SELECT COUNT(*) FROM trial WHERE trial = ?1", trial.index);
+    run_statement(insert_trial_, trial_counts_.trial_id, sitting_, trial.index, attempt, trial.task,
+                  trial.condition.sculpture, trial.condition.material, at);
+}
+
+void RowWriter::finish_trial(const Trial& trial, const TrialOutcome& outcome, std::int64_t lost_flips,
+                             std::int64_t lost_samples) {
+    OVERT_EXPECTS(trial.index == open_trial_);
+    commit();
+    database_.exec("PRAGMA synchronous = FULL"); // makes the next commit flush the whole log
+    begin();
+    run_statement(finish_trial_, outcome.status == TrialOutcome::Status::completed ? "completed" : "aborted",
+                  outcome.task_screen_onset, outcome.presentation_onset, outcome.presentation_end,
+                  outcome.response_screen_onset, outcome.responded_at, outcome.shown_refreshes,
+                  outcome.missed_refreshes,
+                  outcome.drift ? std::optional(outcome.drift->value) : std::nullopt, outcome.answer,
+                  lost_flips, lost_samples, trial_counts_.trial_id);
+    commit_to_disk();
+}
+
+void RowWriter::checkpoint() noexcept { database_.tryExec("PRAGMA wal_checkpoint(PASSIVE)"); }
+
+void RowWriter::close() {
+    commit();
+    database_.exec("PRAGMA synchronous = FULL");
+    begin();
+    SQLite::Statement close_sitting(database_, "UPDATE sitting SET closed = 1 WHERE sitting = ?");
+    run_statement(close_sitting, sitting_);
+    commit_to_disk();
+    // One plain file can be read from any place, a read-only one too. Where somebody is reading it just now
+    // it stays as it is, which is as good but for that.
+    database_.tryExec("PRAGMA journal_mode = DELETE");
+}
+
+} // namespace overt

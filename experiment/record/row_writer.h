@@ -1,0 +1,81 @@
+/// The session file as the writer's thread sees it: rows in, transactions out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "experiment/ports.h"
+#include "experiment/record/session_header.h"
+
+namespace overt {
+
+/// Keeps others from writing to the same session: a lock on its directory that ends with the process.
+class SessionLock {
+  public:
+    /// Throws RecordError if another program holds it.
+    explicit SessionLock(const std::filesystem::path& directory);
+    ~SessionLock();
+    SessionLock(const SessionLock&) = delete;
+    SessionLock& operator=(const SessionLock&) = delete;
+
+  private:
+    int descriptor_ = -1;
+};
+
+/// Inserts the rows of one sitting. One thread. All but the constructor throw SQLite::Exception; the caller
+/// then rolls back and writes no more.
+class RowWriter {
+  public:
+    /// Opens the file, locks it and notes a new sitting. Throws RecordError.
+    RowWriter(const std::filesystem::path& session_file, const std::string& started_utc);
+
+    // The transaction begins by itself with the first row.
+    void flip(const FlipRecord& flip);
+    void sample(int trial, const GazeSample& sample);
+    void clock_pair(const ClockPair& pair);
+    void event(SessionTime at, int trial, const std::string& kind, const std::string& detail);
+    void map(const RecordedMap& map);
+    void start_trial(const Trial& trial, SessionTime at);
+
+    /// Commits what is open, then the outcome in a transaction of its own that is on the disk, with
+    /// everything before it, when this returns.
+    void finish_trial(const Trial& trial, const TrialOutcome& outcome, std::int64_t lost_flips,
+                      std::int64_t lost_samples);
+
+    /// Ends the open transaction, if there is one, without waiting for the disk.
+    void commit();
+    void roll_back() noexcept;
+
+    /// Moves the write-ahead log's pages to the file. A failure does no harm: the log stays the truth.
+    void checkpoint() noexcept;
+
+    /// Commits, syncs, notes that the sitting ended in order, and leaves one file without a log.
+    void close();
+
+  private:
+    struct Counts {
+        std::int64_t trial_id = 0;
+        std::int64_t flips = 0;
+        std::int64_t samples = 0;
+    };
+    void begin();
+    void commit_to_disk();
+    Counts& counts_of(int trial) {
+        return trial >= 0 && trial == open_trial_ ? trial_counts_ : outside_counts_;
+    }
+    Counts counts_so_far(std::int64_t trial_id);
+
+    SessionLock lock_;
+    SQLite::Database database_;
+    SQLite::Statement insert_flip_, insert_sample_, insert_clock_pair_, insert_event_, insert_map_,
+        insert_trial_, finish_trial_;
+    int sitting_ = 0;
+    int open_trial_ = -1; ///< index of the trial whose rows come in
+    Counts trial_counts_;
+    Counts outside_counts_; ///< of rows that belong to no started trial: trial_id 0
+    bool in_transaction_ = false;
+};
+
+} // namespace overt

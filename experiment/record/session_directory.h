@@ -1,0 +1,54 @@
+/// Where a session's files lie: <root>/<protocol name>/sub-<label>_ses-<NN>.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace overt {
+
+/// Whose session of what.
+struct SessionPlace {
+    std::filesystem::path root; ///< folder of all sessions; made if it is not there
+    std::string protocol_name;  ///< letters, digits, «_», «-» and «.», not beginning with «.»
+    std::string observer_label; ///< letters and digits only, as BIDS wants it
+};
+
+/// Directory of one session, whether or not it exists. Throws InputError if a name cannot be a directory's.
+std::filesystem::path session_path(const SessionPlace& place, int session_number);
+
+/// One more than the highest number that this observer has in this protocol, from 1.
+int next_session_number(const SessionPlace& place);
+
+/// A session's directory in the making: hidden under another name until publish(), so that a directory with a
+/// session's name always is a whole one. Without publish() it removes itself.
+class SessionDirectory {
+  public:
+    /// Takes the next free number if none is asked for. Throws InputError if a number is asked for that
+    /// exists (naming the next free one), RecordError if the directory cannot be made.
+    explicit SessionDirectory(const SessionPlace& place, std::optional<int> session_number = std::nullopt);
+    ~SessionDirectory() { abandon(); }
+    SessionDirectory(const SessionDirectory&) = delete;
+    SessionDirectory& operator=(const SessionDirectory&) = delete;
+
+    /// Where its files are to be put; after publish() where they are.
+    const std::filesystem::path& path() const { return path_; }
+    /// path() / "session.sqlite"
+    std::filesystem::path session_file() const;
+    int session_number() const { return session_number_; }
+
+    /// Brings all files to the disk and gives the directory its name in one step. No file in it may be open.
+    /// Throws RecordError, and InputError if somebody else has taken the name meanwhile.
+    void publish();
+
+    /// Removes what was not published; nothing otherwise.
+    void abandon() noexcept;
+
+  private:
+    SessionPlace place_;
+    int session_number_ = 1;
+    std::filesystem::path final_path_;
+    std::filesystem::path path_;
+};
+
+} // namespace overt

@@ -1,0 +1,49 @@
+#include "experiment/record/session_file.h"
+
+#include <fmt/format.h>
+
+#include "experiment/error.h"
+#include "experiment/record/session_schema.h"
+#include "experiment/record/sql.h"
+
+namespace overt {
+namespace {
+
+std::int64_t pragma(const SQLite::Database& database, const char* sql) {
+    Query query(database, sql);
+    return query.step() ? query.integer() : 0;
+}
+
+void check_identity(const SQLite::Database& database, const std::filesystem::path& file) {
+    if (pragma(database, "PRAGMA application_id") != session_application_id)
+        throw RecordError(
+            fmt::format("{}: this is an SQLite file, but not a session of overt.", file.string()));
+    const std::int64_t version = pragma(database, "PRAGMA user_version");
+    if (version > session_schema_version)
+        throw RecordError(
+            fmt::format("{}: written by a newer overt (session format {}, this program knows {} "
+                        "and older): update overt to read it.",
+                        file.string(), version, session_schema_version));
+    if (version < 1)
+        throw RecordError(fmt::format("{}: session format {} does not exist: the file is damaged.",
+                                      file.string(), version));
+}
+
+} // namespace
+
+SQLite::Database open_session_file(const std::filesystem::path& file, SessionFileUse use) {
+    if (!std::filesystem::is_regular_file(file))
+        throw RecordError(fmt::format("{}: there is no session file here.", file.string()));
+    try {
+        SQLite::Database database(file.string(), use == SessionFileUse::write ? SQLite::OPEN_READWRITE
+                                                                              : SQLite::OPEN_READONLY);
+        // A writer folding its file holds the lock for a moment only.
+        database.setBusyTimeout(2000);
+        check_identity(database, file);
+        return database;
+    } catch (const SQLite::Exception& reason) {
+        throw_record_error(file, "opening the session", reason);
+    }
+}
+
+} // namespace overt

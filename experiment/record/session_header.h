@@ -1,0 +1,113 @@
+/// Everything about a session that stands fixed before its first trial, with what its exports and its
+/// analysis need to know of the protocol: the protocol file is not needed again.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "experiment/animation.h"
+#include "experiment/content_hash.h"
+#include "experiment/ports.h"
+#include "experiment/scene/mesh.h"
+#include "experiment/scene/viewing.h"
+#include "experiment/screen_geometry.h"
+#include "experiment/session_time.h"
+#include "experiment/trial.h"
+
+namespace overt {
+
+/// Whether time really passed while the session ran.
+enum class ClockKind : std::uint8_t { steady, virtual_time };
+
+/// The protocol as it was read, byte for byte.
+struct RecordedProtocol {
+    std::string name;
+    std::string title;
+    std::string text;
+    ContentHash sha256; ///< of text
+};
+
+/// The program that ran the session.
+struct ProgramBuild {
+    std::string version;
+    std::string compiler;
+    std::string flags;
+    std::string commit; ///< empty if not known
+};
+
+/// What OpenGL said of itself.
+struct GraphicsSystem {
+    std::string context; ///< "window", "egl" or "osmesa"
+    std::string vendor;
+    std::string renderer;
+    std::string version;
+};
+
+struct RecordedDisplay {
+    ScreenGeometry screen;
+    double refresh_hz = 120.0;
+    SessionDuration latency{}; ///< from the vertical blank to the first row's light
+    std::string output_mode;   ///< by the protocol's word
+    double background = 0.0;   ///< linear grey, 0 … 1 of the display's white
+};
+
+struct RecordedTask {
+    std::string id;
+    std::string question;
+};
+
+struct RecordedSculpture {
+    std::string id;
+    std::string title;
+    ContentHash mesh_sha256;
+    std::string mesh_file;               ///< relative to the session's directory
+    std::vector<std::string> part_names; ///< by PartIndex
+    Camera camera;
+    glm::dvec3 axis_point{0.0}; ///< through which the vertical axis of the turn goes
+    Bounds bounds;              ///< by which the maps are coded
+};
+
+struct RecordedMaterial {
+    std::string id;
+    std::string title;
+};
+
+struct RecordedStimulus {
+    Condition condition;
+    std::string source; ///< how its frames were made, in words
+    ContentHash frames_sha256;
+};
+
+/// A coordinate-encoded map of a sculpture in a pose.
+struct RecordedMap {
+    enum class Made : std::uint8_t { prepared, live };
+    int sculpture = 0;
+    PoseIndex pose;
+    std::string file; ///< relative to the session's directory
+    ContentHash sha256;
+    Made made = Made::prepared; ///< before the session, or while the frame was shown
+};
+
+struct SessionHeader {
+    RecordedProtocol protocol;
+    Schedule schedule; ///< observer, seed, and the order in which the trials were to come
+    int session_number = 1;
+    std::string started_utc; ///< wall clock, ISO 8601; never exported
+    ClockKind clock = ClockKind::steady;
+    ProgramBuild program;
+    GraphicsSystem graphics;
+    TrackerDescription tracker;
+    RecordedDisplay display;
+    Animation animation;
+    PoseTable poses;
+    std::vector<RecordedTask> tasks;
+    std::vector<RecordedSculpture> sculptures;
+    std::vector<RecordedMaterial> materials;
+    std::vector<RecordedStimulus> stimuli;
+    std::vector<RecordedMap> maps;
+};
+
+} // namespace overt

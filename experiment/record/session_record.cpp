@@ -1,0 +1,240 @@
+#include "experiment/record/session_record.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiment/error.h"
+#include "experiment/record/header_rows.h"
+#include "experiment/record/session_file.h"
+#include "experiment/record/session_schema.h"
+#include "experiment/record/sql.h"
+
+namespace overt {
+namespace {
+
+/// Runs a reader; what SQLite has to complain of becomes a sentence with the file's name.
+template <class Read> auto reading(const std::filesystem::path& file, Read read) {
+    try {
+        return read();
+    } catch (const SQLite::Exception& reason) {
+        throw_record_error(file, "reading the session", reason);
+    }
+}
+
+TrialRecord::Status status_from(const std::string& word) {
+    if (word == "completed")
+        return TrialRecord::Status::completed;
+    return word == "aborted" ? TrialRecord::Status::aborted : TrialRecord::Status::open;
+}
+
+TrialRecord read_trial(Query& row) {
+    TrialRecord record;
+    record.id = row.integer();
+    record.sitting = row.small();
+    record.trial.index = row.small();
+    record.attempt = row.small();
+    record.trial.task = row.small();
+    record.trial.condition.sculpture = row.small();
+    record.trial.condition.material = row.small();
+    record.status = status_from(row.text());
+    record.started = row.session_time();
+    TrialOutcome& outcome = record.outcome;
+    outcome.status = record.status == TrialRecord::Status::completed ? TrialOutcome::Status::completed
+                                                                     : TrialOutcome::Status::aborted;
+    outcome.task_screen_onset = row.session_time();
+    outcome.presentation_onset = row.session_time();
+    outcome.presentation_end = row.session_time();
+    outcome.response_screen_onset = row.session_time();
+    outcome.responded_at = row.session_time();
+    outcome.shown_refreshes = row.small();
+    outcome.missed_refreshes = row.small();
+    if (const auto drift_deg = row.optional_real())
+        outcome.drift = Degrees{*drift_deg};
+    outcome.answer = row.text();
+    record.lost_flips = row.integer();
+    record.lost_samples = row.integer();
+    return record;
+}
+
+std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
+    std::vector<TrialRecord> trials;
+    for (Query row(
+             database,
+             "SELECT trial_id, sitting, trial, attempt, task, sculpture, material, status, started_ns, "
+             "task_screen_onset_ns, presentation_onset_ns, presentation_end_ns, response_screen_onset_ns, "
+             "responded_ns, shown_refreshes, missed_refreshes, drift_deg, answer, lost_flips, "
+             "lost_samples FROM trial ORDER BY trial_id");
+         row.step();)
+        trials.push_back(read_trial(row));
+    return trials;
+}
+
+FlipRecord read_flip(Query& row, int trial) {
+    FlipRecord flip;
+    flip.trial = trial;
+    flip.refresh_in_trial = row.small();
+    flip.report.refresh.value = row.integer();
+    flip.planned.value = row.small();
+    flip.shown.value = row.small();
+    flip.page.value = row.small();
+    flip.report.requested = row.session_time();
+    flip.report.swapped = row.session_time();
+    flip.report.vertical_blank = row.session_time();
+    flip.report.source = static_cast<VblankSource>(row.small());
+    flip.report.missed_refreshes = row.small();
+    return flip;
+}
+
+GazeSample read_sample(Query& row) {
+    GazeSample sample;
+    sample.sampled_at = TrackerTime(TrackerClock::duration(row.integer()));
+    sample.eye = row.small() == 0 ? Eye::left : Eye::right;
+    const auto x_px = row.optional_real(), y_px = row.optional_real();
+    if (x_px && y_px)
+        sample.gaze = ScreenPoint{*x_px, *y_px};
+    sample.pupil_area = static_cast<float>(row.real());
+    return sample;
+}
+
+/// Indices that lead out of the header's lists would be undefined behaviour in every reader.
+void check_indices(const SessionHeader& header, const std::vector<TrialRecord>& trials,
+                   const std::filesystem::path& file) {
+    const auto within = [](int index, std::size_t count) {
+        return index >= 0 && static_cast<std::size_t>(index) < count;
+    };
+    for (const TrialRecord& record : trials) {
+        const Trial& trial = record.trial;
+        if (!within(trial.task, header.tasks.size()) ||
+            !within(trial.condition.sculpture, header.sculptures.size()) ||
+            !within(trial.condition.material, header.materials.size()))
+            throw RecordError(
+                fmt::format("{}: table trial, trial_id {}: it names a task, sculpture or material "
+                            "that the session does not have: the file is damaged.",
+                            file.string(), record.id));
+    }
+}
+
+} // namespace
+
+std::string_view name_of(TrialRecord::Status status) {
+    switch (status) {
+    case TrialRecord::Status::open:
+        return "open";
+    case TrialRecord::Status::completed:
+        return "completed";
+    case TrialRecord::Status::aborted:
+        return "aborted";
+    }
+    return "unknown";
+}
+
+SessionRecord::SessionRecord(const std::filesystem::path& session)
+    : directory_(std::filesystem::is_directory(session) ? session : session.parent_path()),
+      file_(std::filesystem::is_directory(session) ? session / session_file_name : session),
+      database_(std::make_unique<SQLite::Database>(open_session_file(file_, SessionFileUse::read))) {
+    reading(file_, [&] {
+        header_ = read_session_header(*database_);
+        trials_ = read_trials(*database_);
+    });
+    check_indices(header_, trials_, file_);
+}
+SessionRecord::~SessionRecord() = default;
+SessionRecord::SessionRecord(SessionRecord&&) noexcept = default;
+SessionRecord& SessionRecord::operator=(SessionRecord&&) noexcept = default;
+
+std::vector<FlipRecord> SessionRecord::flips(const TrialRecord& trial) const {
+    return reading(file_, [&] {
+        std::vector<FlipRecord> flips;
+        Query row(*database_,
+                  "SELECT refresh_in_trial, refresh, planned, shown, pose, requested_ns, swapped_ns, "
+                  "vertical_blank_ns, source, missed FROM flip WHERE trial_id = ? ORDER BY n");
+        row.bind(1, trial.id);
+        while (row.step())
+            flips.push_back(read_flip(row, trial.trial.index));
+        return flips;
+    });
+}
+
+std::vector<GazeSample> SessionRecord::samples(const TrialRecord& trial) const {
+    return reading(file_, [&] {
+        std::vector<GazeSample> samples;
+        Query row(*database_,
+                  "SELECT tracker_us, eye, x_px, y_px, pupil_area FROM sample WHERE trial_id = ? ORDER BY n");
+        row.bind(1, trial.id);
+        while (row.step())
+            samples.push_back(read_sample(row));
+        return samples;
+    });
+}
+
+std::vector<RecordedEvent> SessionRecord::events() const {
+    return reading(file_, [&] {
+        std::vector<RecordedEvent> events;
+        for (Query row(*database_, "SELECT sitting, at_ns, trial, kind, detail FROM event ORDER BY id");
+             row.step();)
+            events.push_back(
+                {row.small(), row.session_time(), row.optional_small().value_or(-1), row.text(), row.text()});
+        return events;
+    });
+}
+
+std::vector<ClockPair> SessionRecord::clock_pairs(int sitting) const {
+    return reading(file_, [&] {
+        std::vector<ClockPair> pairs;
+        Query row(*database_,
+                  "SELECT before_ns, tracker_us, after_ns FROM clock_pair WHERE sitting = ? ORDER BY id");
+        row.bind(1, sitting);
+        while (row.step())
+            pairs.push_back(
+                {row.session_time(), TrackerTime(TrackerClock::duration(row.integer())), row.session_time()});
+        return pairs;
+    });
+}
+
+std::optional<ClockMap> SessionRecord::clock_map(int sitting) const {
+    const std::vector<ClockPair> pairs = clock_pairs(sitting);
+    return pairs.empty() ? std::nullopt : std::optional<ClockMap>(ClockMap(pairs));
+}
+
+FlipHistory SessionRecord::flip_history(const TrialRecord& trial) const {
+    const RecordedDisplay& display = header_.display;
+    return FlipHistory(
+        flips(trial), {display.latency, display.refresh_hz, static_cast<double>(display.screen.screen_px.y)});
+}
+
+SessionTime SessionRecord::last_time() const {
+    return reading(file_, [&] {
+        Query row(*database_,
+                  "SELECT MAX((SELECT COALESCE(MAX(at_ns), 0) FROM event), "
+                  "(SELECT COALESCE(MAX(MAX(started_ns, COALESCE(responded_ns, 0))), 0) FROM trial), "
+                  "(SELECT COALESCE(MAX(after_ns), 0) FROM clock_pair), "
+                  "(SELECT COALESCE(MAX(vertical_blank_ns), 0) FROM flip))");
+        row.step();
+        return row.session_time();
+    });
+}
+
+bool SessionRecord::closed_in_order() const {
+    return reading(file_, [&] {
+        Query row(*database_, "SELECT COUNT(*) = 0 FROM sitting WHERE closed = 0");
+        return row.step() && row.integer() != 0;
+    });
+}
+
+std::vector<std::string> SessionRecord::damages() const {
+    std::vector<std::string> damages;
+    try {
+        for (Query row(*database_, "PRAGMA integrity_check"); row.step();)
+            if (const std::string finding = row.text(); finding != "ok")
+                damages.push_back(fmt::format("{}: {}", file_.string(), finding));
+    } catch (const SQLite::Exception& reason) {
+        damages.push_back(fmt::format("{}: {}", file_.string(), reason.what()));
+    }
+    if (hash_of_text(header_.protocol.text) != header_.protocol.sha256)
+        damages.push_back(
+            fmt::format("{}: the protocol's text does not have the hash recorded with it.", file_.string()));
+    return damages;
+}
+
+} // namespace overt

@@ -1,0 +1,100 @@
+/// A recorded session as its readers see it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment/analysis/flip_history.h"
+#include "experiment/clock_map.h"
+#include "experiment/ports.h"
+#include "experiment/record/session_header.h"
+
+namespace SQLite {
+class Database;
+}
+
+namespace overt {
+
+/// One attempt at a trial. The rows of interrupted attempts are kept beside those of the repetition.
+struct TrialRecord {
+    enum class Status : std::uint8_t {
+        open, ///< running, or cut off when the program was killed
+        completed,
+        aborted,
+    };
+    std::int64_t id = 0; ///< key of its flips and samples
+    int sitting = 1;
+    Trial trial;
+    int attempt = 1; ///< counts from 1
+    Status status = Status::open;
+    SessionTime started;
+    TrialOutcome outcome; ///< meaningless while open
+    std::int64_t lost_flips = 0;
+    std::int64_t lost_samples = 0;
+};
+std::string_view name_of(TrialRecord::Status status);
+
+/// A SessionEvent that owns its words.
+struct RecordedEvent {
+    int sitting = 1;
+    SessionTime at;
+    int trial = -1; ///< -1: outside of trials
+    std::string kind;
+    std::string detail;
+};
+
+/// Reads a session and changes nothing in it, whether it was closed, is running, or was killed. Holds the
+/// header and the list of trials; flips and samples are read one trial at a time, so memory does not grow
+/// with the session. One thread at a time; each thread may open its own.
+///
+/// All functions throw RecordError if the file turns out to be damaged.
+class SessionRecord {
+  public:
+    /// A session's directory, or the session file itself.
+    explicit SessionRecord(const std::filesystem::path& session);
+    ~SessionRecord();
+    SessionRecord(SessionRecord&&) noexcept;
+    SessionRecord& operator=(SessionRecord&&) noexcept;
+
+    const std::filesystem::path& directory() const { return directory_; }
+    const SessionHeader& header() const { return header_; }
+
+    /// All attempts, in the order in which they were made.
+    const std::vector<TrialRecord>& trials() const { return trials_; }
+
+    /// In the order in which they were written.
+    std::vector<FlipRecord> flips(const TrialRecord& trial) const;
+    std::vector<GazeSample> samples(const TrialRecord& trial) const;
+
+    std::vector<RecordedEvent> events() const;
+
+    /// Readings of both clocks in one sitting: between sittings the tracker may have been restarted.
+    std::vector<ClockPair> clock_pairs(int sitting) const;
+
+    /// Nothing if that sitting read the clocks never.
+    std::optional<ClockMap> clock_map(int sitting) const;
+
+    /// The trial's frames as they were lit on this session's display.
+    FlipHistory flip_history(const TrialRecord& trial) const;
+
+    /// The latest session time that any row names: from here on a resumed session's clock may go on.
+    SessionTime last_time() const;
+
+    /// Each sitting was closed in order: nothing was killed or failed.
+    bool closed_in_order() const;
+
+    /// Reads the whole file and gives a sentence for each thing that is wrong with it; empty if it is sound.
+    std::vector<std::string> damages() const;
+
+  private:
+    std::filesystem::path directory_;
+    std::filesystem::path file_;
+    std::unique_ptr<SQLite::Database> database_;
+    SessionHeader header_;
+    std::vector<TrialRecord> trials_;
+};
+
+} // namespace overt

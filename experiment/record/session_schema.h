@@ -1,0 +1,21 @@
+/// The tables of a session file. docs/session_format.md explains them to other programs.
+#pragma once
+
+#include <cstdint>
+
+namespace overt {
+
+/// PRAGMA application_id of a session file: «Ovrt» in ASCII. file(1) and every reader can tell it from other
+/// SQLite files by it.
+inline constexpr std::int32_t session_application_id = 0x4f767274;
+
+/// PRAGMA user_version. Raised whenever a reader of an older version would misread the file.
+inline constexpr int session_schema_version = 1;
+
+/// Name of the session file in a session's directory.
+inline constexpr const char* session_file_name = "session.sqlite";
+
+/// Statements that make the tables of an empty session.
+extern const char* const session_schema_sql;
+
+} // namespace overt

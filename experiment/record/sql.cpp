@@ -1,0 +1,91 @@
+#include "experiment/record/sql.h"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include "experiment/error.h"
+
+namespace overt {
+namespace {
+
+std::string_view remedy_for(int error_code) {
+    switch (error_code & 0xff) {
+    case SQLITE_FULL:
+        return "The disk is full: make room, then go on with --resume";
+    case SQLITE_IOERR:
+        return "The disk refuses to write or read: check its space, its quota and its cable";
+    case SQLITE_CORRUPT:
+        return "The file is damaged: work on a copy and try the sqlite3 program's .recover on it";
+    case SQLITE_NOTADB:
+        return "This is not a session file, or its beginning was overwritten";
+    case SQLITE_CANTOPEN:
+        return "Check that the file is there; a session that was not closed also needs its -wal file beside "
+               "it and a directory that can be written to";
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+        return "Check the permissions of the file and of its directory";
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+        return "Another program is writing to it: close that first";
+    default:
+        return "Check the disk and the file's permissions";
+    }
+}
+
+} // namespace
+
+Query::Query(const SQLite::Database& database, const char* sql) : database_(database) {
+    sqlite3_stmt* statement = nullptr;
+    database.check(sqlite3_prepare_v2(database.getHandle(), sql, -1, &statement, nullptr));
+    statement_.reset(statement);
+}
+
+void Query::Finalizer::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+
+Query& Query::bind(int index, std::int64_t value) {
+    database_.check(sqlite3_bind_int64(statement_.get(), index, value));
+    return *this;
+}
+
+bool Query::step() {
+    column_ = 0;
+    const int result = sqlite3_step(statement_.get());
+    if (result != SQLITE_ROW && result != SQLITE_DONE)
+        database_.check(result);
+    return result == SQLITE_ROW;
+}
+
+std::int64_t Query::integer() { return sqlite3_column_int64(statement_.get(), column_++); }
+
+double Query::real() { return sqlite3_column_double(statement_.get(), column_++); }
+
+std::string Query::text() {
+    const int column = column_++;
+    const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
+    const int length = sqlite3_column_bytes(statement_.get(), column);
+    return bytes == nullptr ? std::string() : std::string(bytes, static_cast<std::size_t>(length));
+}
+
+std::optional<double> Query::optional_real() {
+    if (sqlite3_column_type(statement_.get(), column_) == SQLITE_NULL) {
+        ++column_;
+        return std::nullopt;
+    }
+    return real();
+}
+
+std::optional<int> Query::optional_small() {
+    if (sqlite3_column_type(statement_.get(), column_) == SQLITE_NULL) {
+        ++column_;
+        return std::nullopt;
+    }
+    return small();
+}
+
+void throw_record_error(const std::filesystem::path& file, std::string_view doing,
+                        const SQLite::Exception& reason) {
+    throw RecordError(fmt::format("{}: {} failed: {}. {}.", file.string(), doing, reason.what(),
+                                  remedy_for(reason.getErrorCode())));
+}
+
+} // namespace overt

@@ -1,0 +1,89 @@
+/// The little that the record needs on top of SQLiteCpp: values bound in order, rows read in order, and
+/// errors that say which file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "experiment/session_time.h"
+
+struct sqlite3_stmt;
+
+namespace overt {
+
+inline void bind_value(SQLite::Statement& statement, int index, std::int64_t value) {
+    statement.bind(index, value);
+}
+inline void bind_value(SQLite::Statement& statement, int index, int value) { statement.bind(index, value); }
+/// NaN becomes NULL: SQLite knows no NaN.
+inline void bind_value(SQLite::Statement& statement, int index, double value) {
+    statement.bind(index, value);
+}
+inline void bind_value(SQLite::Statement& statement, int index, const std::string& value) {
+    statement.bind(index, value);
+}
+inline void bind_value(SQLite::Statement& statement, int index, const char* value) {
+    statement.bind(index, value);
+}
+inline void bind_value(SQLite::Statement& statement, int index, SessionTime value) {
+    statement.bind(index, static_cast<std::int64_t>(value.time_since_epoch().count()));
+}
+template <class T> void bind_value(SQLite::Statement& statement, int index, const std::optional<T>& value) {
+    if (value)
+        bind_value(statement, index, *value);
+    else
+        statement.bind(index);
+}
+
+/// Runs a statement that gives no rows with these values for its question marks, and makes it ready for the
+/// next run. Throws SQLite::Exception.
+template <class... Values> void run_statement(SQLite::Statement& statement, const Values&... values) {
+    int index = 0;
+    (bind_value(statement, ++index, values), ...);
+    statement.exec();
+    statement.reset();
+}
+
+/// Reads the rows of a SELECT, and of each row its columns from left to right. On SQLite's C interface,
+/// because SQLiteCpp counts references for each single value. Throws SQLite::Exception.
+class Query {
+  public:
+    /// The database must outlive the query.
+    Query(const SQLite::Database& database, const char* sql);
+
+    /// Value of the `index`-th question mark, from 1.
+    Query& bind(int index, std::int64_t value);
+
+    /// Goes to the next row; false when there is none.
+    bool step();
+
+    // The next column of the row.
+    std::int64_t integer();
+    int small() { return static_cast<int>(integer()); }
+    double real();
+    std::string text();
+    SessionTime session_time() { return SessionTime(SessionDuration(integer())); }
+    /// Nothing if NULL.
+    std::optional<double> optional_real();
+    std::optional<int> optional_small();
+
+  private:
+    struct Finalizer {
+        void operator()(sqlite3_stmt* statement) const;
+    };
+    const SQLite::Database& database_;
+    std::unique_ptr<sqlite3_stmt, Finalizer> statement_;
+    int column_ = 0;
+};
+
+/// Throws a RecordError that names the file, what was being done, SQLite's reason and the remedy.
+[[noreturn]] void throw_record_error(const std::filesystem::path& file, std::string_view doing,
+                                     const SQLite::Exception& reason);
+
+} // namespace overt
