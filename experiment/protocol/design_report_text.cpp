@@ -103,6 +103,8 @@ void add_balance(std::string& text, const DesignReport& report) {
             cells += fmt::format(" {:>{}}", material, cell_width);
         cells.append(std::max(group_width, sculpture.size()) - group_width, ' ');
     }
+    groups.erase(groups.find_last_not_of(' ') + 1);
+    cells.erase(cells.find_last_not_of(' ') + 1);
     const std::string margin(task_width + 2, ' ');
     text += fmt::format("{} {}\n{} {}\n", margin, groups, margin, cells);
     std::size_t next = 0;

@@ -1,0 +1,96 @@
+#include "experiment/animation.h"
+
+#include <bit>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "experiment/error.h"
+
+using namespace overt;
+
+namespace {
+
+std::uint64_t bits(Degrees angle) { return std::bit_cast<std::uint64_t>(angle.value); }
+
+} // namespace
+
+TEST_CASE("the 61 frames of a cycle go through 31 distinct poses", "[unit]") {
+    const PoseTable poses = distinct_poses(Animation{});
+    CHECK(poses.of_frame.size() == 61);
+    CHECK(poses.angles.size() == 31);
+}
+
+TEST_CASE("a cycle follows the sine, and its second half mirrors the first to the bit", "[unit]") {
+    const Animation animation;
+    for (int k = 0; k <= 60; ++k) {
+        const double expected = 25.0 * std::sin(2.0 * std::numbers::pi * k / 60.0);
+        CHECK(animation.angle_of({k}).value == Approx(expected).margin(1e-13));
+        CHECK(animation.angle_of({k}).value == -animation.angle_of({60 - k}).value);
+        if (k <= 30)
+            CHECK(bits(animation.angle_of({k})) == bits(animation.angle_of({30 - k})));
+    }
+    CHECK(bits(animation.angle_of({0})) == bits(animation.angle_of({60})));
+    CHECK(animation.angle_of({15}).value == 25.0);
+    CHECK(animation.angle_of({45}).value == -25.0);
+}
+
+TEST_CASE("ping-pong sweeps from one end to the other, and each frame has a pose of its own", "[unit]") {
+    Animation animation;
+    animation.playback = Playback::ping_pong;
+    CHECK(animation.angle_of({0}).value == -25.0);
+    CHECK(animation.angle_of({30}).value == 0.0);
+    CHECK(animation.angle_of({60}).value == 25.0);
+    for (int k = 0; k < 60; ++k) {
+        CHECK(animation.angle_of({k}) < animation.angle_of({k + 1}));
+        CHECK(animation.angle_of({k}).value == -animation.angle_of({60 - k}).value);
+    }
+    CHECK(distinct_poses(animation).angles.size() == 61);
+    CHECK(animation.steps_per_period() == 120);
+    CHECK(animation.frame_at_step(60).value == 60);
+    CHECK(animation.frame_at_step(61).value == 59);
+    CHECK(animation.frame_at_step(119).value == 1);
+    CHECK(animation.frame_at_step(120).value == 0);
+}
+
+TEST_CASE("every frame has the angle of its pose, whatever the number of frames", "[unit]") {
+    for (const Playback playback : {Playback::cycle, Playback::ping_pong}) {
+        for (int frames = 1; frames <= 130; ++frames) {
+            Animation animation;
+            animation.frame_count = frames;
+            animation.playback = playback;
+            const PoseTable poses = distinct_poses(animation);
+            for (int k = 0; k < frames; ++k) {
+                const PoseIndex pose = poses.pose_of({k});
+                REQUIRE(bits(poses.angles[static_cast<std::size_t>(pose.value)]) ==
+                        bits(animation.angle_of({k})));
+            }
+        }
+    }
+}
+
+TEST_CASE("eight seconds at 120 Hz are 240 frames of 4 refreshes, four cycles of 60", "[unit]") {
+    const Animation animation;
+    const PageCycle cycle = make_page_cycle(animation, 120.0);
+    CHECK(animation.shown_frame_count() == 240);
+    CHECK(cycle.total_refreshes == 960);
+    CHECK(cycle.entries.size() == 60);
+    CHECK(cycle.entry_of_refresh.size() == 240);
+    for (int refresh = 0; refresh < 960; ++refresh) {
+        const PageCycleEntry& entry = cycle.entry_at(refresh);
+        REQUIRE(entry.frame.value == refresh / 4 % 60);
+        REQUIRE(entry.page == distinct_poses(animation).pose_of(entry.frame));
+        REQUIRE(entry.refreshes == 4);
+    }
+}
+
+TEST_CASE("only whole multiples of the frame rate are presented, 119.88 Hz counting as 120", "[unit]") {
+    CHECK(refreshes_per_frame(30.0, 120.0) == 4);
+    CHECK(refreshes_per_frame(30.0, 119.88) == 4);
+    CHECK(refreshes_per_frame(30.0, 60.0) == 2);
+    CHECK(refreshes_per_frame(30.0, 30.0) == 1);
+    CHECK(refreshes_per_frame(30.0, 100.0) == 0);
+    CHECK(refreshes_per_frame(30.0, 24.0) == 0);
+    CHECK(refreshes_per_frame(30.0, 10.0) == 0);
+    CHECK_THROWS_AS(make_page_cycle(Animation{}, 100.0), InputError);
+}
