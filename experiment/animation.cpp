@@ -80,7 +80,7 @@ const PageCycleEntry& PageCycle::entry_at(int refresh) const {
 int refreshes_per_frame(double frame_rate_hz, double refresh_hz) {
     const double ratio = refresh_hz / frame_rate_hz;
     const double nearest = std::round(ratio);
-    return nearest >= 1.0 && std::abs(ratio - nearest) <= 1e-3 * nearest ? static_cast<int>(nearest) : 0;
+    return nearest >= 1.0 && std::abs(ratio - nearest) <= 2e-3 * nearest ? static_cast<int>(nearest) : 0;
 }
 
 PageCycle make_page_cycle(const Animation& animation, double refresh_hz) {

@@ -76,7 +76,7 @@ struct PageCycle {
     const PageCycleEntry& entry_at(int refresh) const;
 };
 
-/// Refreshes that each frame is held, or 0 if the refresh rate is no whole multiple of the frame rate (to 0.1
+/// Refreshes that each frame is held, or 0 if the refresh rate is no whole multiple of the frame rate (to 0.2
 /// %, so that 119.88 Hz counts as 120).
 int refreshes_per_frame(double frame_rate_hz, double refresh_hz);
 
