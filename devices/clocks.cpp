@@ -1,0 +1,54 @@
+#include "devices/clocks.h"
+
+#include <cerrno>
+#include <ctime>
+
+#include <sys/prctl.h>
+
+namespace overt {
+
+namespace {
+
+constexpr SessionDuration early_waking = std::chrono::microseconds(300);
+
+/// steady_clock counts CLOCK_MONOTONIC (libstdc++), so its time points are absolute times for the kernel.
+void sleep_until(std::chrono::steady_clock::time_point time) noexcept {
+    const auto since_boot = std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch());
+    const timespec until{static_cast<time_t>(since_boot.count() / 1'000'000'000),
+                         static_cast<long>(since_boot.count() % 1'000'000'000)};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+    }
+}
+
+} // namespace
+
+SessionTime SteadyClock::now() const noexcept {
+    return SessionTime(
+        std::chrono::duration_cast<SessionDuration>(std::chrono::steady_clock::now() - origin_));
+}
+
+void SteadyClock::wait_until(SessionTime time) noexcept {
+    thread_local const bool punctual = prctl(PR_SET_TIMERSLACK, 1ul) == 0;
+    static_cast<void>(punctual);
+    const SessionDuration left = time - now();
+    if (left <= SessionDuration::zero())
+        return;
+    const auto end = origin_ + time.time_since_epoch();
+    if (left > early_waking)
+        sleep_until(end - early_waking);
+    sleep_until(end);
+}
+
+SessionTime VirtualClock::now() const noexcept {
+    return SessionTime(SessionDuration(nanoseconds_.load(std::memory_order_acquire)));
+}
+
+void VirtualClock::wait_until(SessionTime time) noexcept {
+    const SessionClock::rep target = time.time_since_epoch().count();
+    SessionClock::rep current = nanoseconds_.load(std::memory_order_relaxed);
+    while (current < target &&
+           !nanoseconds_.compare_exchange_weak(current, target, std::memory_order_acq_rel)) {
+    }
+}
+
+} // namespace overt
