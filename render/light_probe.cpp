@@ -53,6 +53,17 @@ std::vector<House> row_of_houses() {
     return houses;
 }
 
+/// Brighter and darker stretches of cloud, mean about 1: a few waves of unequal direction and length.
+float cloud_cover(glm::vec3 direction) {
+    // Clouds lie in a flat layer above: near the horizon they are foreshortened.
+    const glm::vec2 place = glm::vec2(direction.x, direction.y) / (direction.z + 0.25f);
+    const float broad =
+        std::sin(1.9f * place.x + 0.7f * place.y + 1.0f) * std::sin(1.3f * place.y - 0.8f * place.x + 2.0f);
+    const float fine =
+        std::sin(4.3f * place.y + 2.9f * place.x) * std::sin(3.7f * place.x - 1.9f * place.y + 0.5f);
+    return 1.0f + 0.35f * broad + 0.15f * fine;
+}
+
 /// Two low-discrepancy numbers in [0, 1): Martin Roberts' R2 sequence (2018).
 glm::vec2 r2_point(int i) {
     const double x = 0.5 + 0.7548776662466927 * i, y = 0.5 + 0.5698402909980532 * i;
@@ -102,7 +113,7 @@ LightProbe overcast_city_probe() {
             return glm::vec3(window ? 2.2f * house.shade + 0.12f : house.shade) *
                    glm::vec3(1.0f, 0.96f, 0.9f);
         }
-        return glm::vec3((1.0f + 2.0f * direction.z) / 3.0f) * glm::vec3(0.97f, 1.0f, 1.04f);
+        return cloud_cover(direction) * (1.0f + 2.0f * direction.z) / 3.0f * glm::vec3(0.97f, 1.0f, 1.04f);
     });
 }
 

@@ -70,9 +70,11 @@ MeshBuffers::MeshBuffers(const GlContext& context, const Mesh& mesh, std::span<c
         gl.EnableVertexAttribArray(index);
         gl.VertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, 0, nullptr);
     };
-    attribute(0, 3, std::as_bytes(std::span(positions_about(mesh, centre_))));
+    const std::vector<glm::vec3> positions = positions_about(mesh, centre_);
+    attribute(0, 3, std::as_bytes(std::span(positions)));
     if (!openness.empty()) {
-        attribute(1, 3, std::as_bytes(std::span(mesh.vertex_normals())));
+        const std::vector<glm::vec3> normals = mesh.vertex_normals();
+        attribute(1, 3, std::as_bytes(std::span(normals)));
         attribute(2, 4, std::as_bytes(openness));
     }
     buffers_.emplace_back(context, GL_ELEMENT_ARRAY_BUFFER, std::as_bytes(std::span(mesh.triangles)),

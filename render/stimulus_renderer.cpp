@@ -17,14 +17,6 @@ Texture2D texture_of(const GlContext& context, const LightProbe& probe) {
     return texture;
 }
 
-glm::vec3 mean_over_sphere(const LightProbe& probe) {
-    const LightProbe irradiance = irradiance_over_pi(probe, {8, 4});
-    glm::vec3 sum(0.0f);
-    for (const glm::vec4& pixel : irradiance.radiance.pixels)
-        sum += glm::vec3(pixel);
-    return sum / static_cast<float>(irradiance.radiance.pixels.size());
-}
-
 /// Means of square blocks of samples.
 LinearImage box_filtered(const std::vector<glm::vec4>& samples, glm::ivec2 image_px, int per_side) {
     LinearImage image(image_px);
@@ -58,10 +50,9 @@ glm::vec3 metal_reflectance(const std::string& metal, double outside) {
 }
 
 StimulusRenderer::StimulusRenderer(const GlContext& context, const LightSettings& light, glm::ivec2 image_px)
-    : context_(&context), light_(light), probe_(load_light_probe(light)),
-      mean_radiance_(mean_over_sphere(probe_)), image_px_(image_px),
+    : context_(&context), light_(light), probe_(load_light_probe(light)), image_px_(image_px),
       program_(context, "stimulus", embedded::stimulus_vert, embedded::stimulus_frag),
-      sharp_(texture_of(context, probe_)),
+      sharp_(texture_of(context, probe_)), soft_(texture_of(context, irradiance_over_pi(probe_, {64, 32}))),
       samples_(context, image_px * samples_per_side, PixelFormat::rgba32f),
       target_(context, {&samples_}, true) {}
 
@@ -106,7 +97,7 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     program_.set("camera_position", glm::vec3(scene.view.camera.position - scene.bounds.centre()));
     program_.set("mirrored", 0);
     program_.set("sharp", 1);
-    program_.set("surroundings", mean_radiance_);
+    program_.set("soft", 2);
     program_.set("reflectance", diffuse
                                     ? glm::vec3(glm::dvec3(material_.reflectance[0], material_.reflectance[1],
                                                            material_.reflectance[2]))
@@ -128,6 +119,7 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     program_.set("bump_slope", static_cast<float>(material_.coat_bump * half_height * bumps_per_unit));
     mirrored_->bind(0);
     sharp_.bind(1);
+    soft_.bind(2);
     mesh.draw();
 
     const glm::ivec2 size = target_.size_px();

@@ -36,10 +36,10 @@ class StimulusRenderer {
     const GlContext* context_;
     LightSettings light_;
     LightProbe probe_;
-    glm::vec3 mean_radiance_;
     glm::ivec2 image_px_;
     ShaderProgram program_;
     Texture2D sharp_;
+    Texture2D soft_;
     std::optional<Texture2D> mirrored_;
     MaterialSettings material_;
     Texture2D samples_;

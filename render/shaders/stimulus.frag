@@ -11,7 +11,7 @@ layout(location = 0) out vec4 linear_light; // display RGB, alpha 1 on the objec
 uniform vec3 camera_position;    // world, about the centre
 uniform sampler2D mirrored;      // the probe as this material mirrors it; for a diffuse one, irradiance / pi
 uniform sampler2D sharp;         // the probe itself, for the coat
-uniform vec3 surroundings;       // mean radiance of the probe
+uniform sampler2D soft;          // irradiance / pi, for what the figure itself sends back
 uniform vec3 reflectance;        // at normal incidence (metals), or albedo
 uniform float lobe_radius;       // half-angle in radians over which the material gathers light
 uniform float exposure;
@@ -46,14 +46,16 @@ float dielectric_fresnel(float cosine, float ior) {
 float openness_towards(vec3 direction) {
     float open_radius = acos(sqrt(clamp(1.0 - world_openness.w, 0.0, 1.0)));
     float away = acos(clamp(dot(direction, normalize(world_openness.xyz + 1e-4 * world_normal)), -1.0, 1.0));
-    float soft = max(lobe_radius, 0.2);
-    return 1.0 - smoothstep(open_radius - soft, open_radius + soft, away);
+    float penumbra = max(lobe_radius, 0.45);
+    return 1.0 - smoothstep(open_radius - penumbra, open_radius + penumbra, away);
 }
 
-// Light from a direction: the probe where it is open, else the figure itself, lit by its surroundings.
+// Light from a direction: the probe where it is open, else the figure itself. Metal in a fold is lit by metal: its colour deepens.
 vec3 incoming(sampler2D picture, vec3 direction, vec3 tint) {
     float open = openness_towards(direction);
-    return mix(tint * surroundings * (0.25 + 0.75 * world_openness.w), probe(picture, direction), open);
+    vec3 outward = normalize(world_openness.xyz + 0.4 * direction + 1e-4 * world_normal);
+    vec3 folded = tint * mix(tint * tint, vec3(1.0), world_openness.w) * probe(soft, outward) * (0.15 + 0.85 * world_openness.w);
+    return mix(folded, probe(picture, direction), open);
 }
 
 // Noise of Perlin's kind on a lattice, with its gradient; hashing after Jarzynski and Olano 2020 (pcg3d).
