@@ -12,9 +12,10 @@ namespace overt {
 
 /// Calls work(i) for each i in 0 … count-1, on as many threads as the machine has processors, and returns
 /// when all are done. Which thread takes which i is open, so work(i) must depend on i alone. The first
-/// exception thrown ends the work early and is thrown again here.
-template <class Work> void parallel_for(int count, const Work& work) {
-    const int threads = std::min(count, static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+/// exception thrown ends the work early and is thrown again here. `most_threads` sets a lower limit; 0 sets none.
+template <class Work> void parallel_for(int count, const Work& work, int most_threads = 0) {
+    const int processors = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    const int threads = std::min(count, most_threads > 0 ? std::min(most_threads, processors) : processors);
     std::atomic<int> next{0};
     std::exception_ptr failure;
     std::mutex failure_mutex;
