@@ -1,31 +1,13 @@
 #include "experiment/analysis/flip_history.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "experiment/error.h"
 
 namespace overt {
-namespace {
-
-/// The plan by refresh since onset. A refresh without a row of its own (it went by with the old picture) was
-/// planned to show what the refresh before it was.
-std::vector<AnimationFrameIndex> plan_of(std::span<const FlipRecord> flips) {
-    std::vector<AnimationFrameIndex> plan;
-    const int onset = flips.empty() ? 0 : flips.front().refresh_in_trial;
-    for (const FlipRecord& flip : flips) {
-        const auto refresh = static_cast<std::size_t>(std::max(flip.refresh_in_trial - onset, 0));
-        while (plan.size() < refresh)
-            plan.push_back(plan.back());
-        if (plan.size() == refresh)
-            plan.push_back(flip.planned);
-    }
-    return plan;
-}
-
-} // namespace
-
-FlipHistory::FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_out) : scan_out_(scan_out) {
+FlipHistory::FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_out, PageCycle plan)
+    : scan_out_(scan_out), plan_(std::move(plan)) {
     OVERT_EXPECTS(scan_out.refresh_hz > 0.0 && scan_out.screen_rows > 0.0);
     std::vector<FlipRecord> ordered(flips.begin(), flips.end());
     std::stable_sort(ordered.begin(), ordered.end(), [](const FlipRecord& a, const FlipRecord& b) {
@@ -37,7 +19,6 @@ FlipHistory::FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_
         blanks_.push_back(flip.report.vertical_blank);
         pictures_.push_back({flip.shown, flip.page, flip.report.refresh});
     }
-    plan_ = plan_of(ordered);
     if (!blanks_.empty())
         end_ = blanks_.back() + from_seconds(1.0 / scan_out_.refresh_hz);
 }
@@ -69,9 +50,19 @@ std::optional<AnimationFrameIndex> FlipHistory::frame_planned_at(SessionTime tim
         ++refresh;
     while (refresh > 0 && instant < planned_blank(refresh))
         --refresh;
-    if (refresh >= static_cast<std::int64_t>(plan_.size()))
+    if (refresh >= plan_.total_refreshes)
         return std::nullopt;
-    return plan_[static_cast<std::size_t>(refresh)];
+    return plan_.entry_at(static_cast<int>(refresh)).frame;
+}
+
+bool FlipHistory::is_off_plan(SessionTime time, double row_px) const {
+    const std::optional<LitFrame> shown = frame_shown_at(time, row_px);
+    const auto agrees_at = [&](SessionTime planned_time) {
+        const std::optional<AnimationFrameIndex> planned = frame_planned_at(planned_time, row_px);
+        return planned.has_value() == shown.has_value() && (!planned || *planned == shown->frame);
+    };
+    constexpr SessionDuration rounding = std::chrono::microseconds(1);
+    return !agrees_at(time) && !agrees_at(time - rounding) && !agrees_at(time + rounding);
 }
 
 } // namespace overt

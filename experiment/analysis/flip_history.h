@@ -33,16 +33,19 @@ struct LitFrame {
 /// its first and last.
 class FlipHistory {
   public:
-    /// The ledger's rows of one trial, in any order.
-    FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_out);
+    /// The ledger's rows of one trial, in any order, and the page cycle that the presentation was to follow.
+    FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_out, PageCycle plan);
 
     /// Nothing before the presentation's onset and after its end.
     std::optional<LitFrame> frame_shown_at(SessionTime time, double row_px) const;
 
     /// The frame that the plan had for this instant, row included: refreshes counted from the recorded onset
-    /// at the nominal rate, as if none had ever been late. What analyses go by that have no ledger; where it
-    /// differs from frame_shown_at they look at the wrong frame.
+    /// at the nominal rate, as if none had ever been late. What analyses go by that have no ledger.
     std::optional<AnimationFrameIndex> frame_planned_at(SessionTime time, double row_px) const;
+
+    /// Going by the plan would put a gaze of this time and row on another frame than was lit, or on one where
+    /// none was lit. Within a microsecond of a change of frames the two never differ: that is rounding.
+    bool is_off_plan(SessionTime time, double row_px) const;
 
   private:
     /// The vertical blank, latency included, whose scan-out reaches the row at this time.
@@ -52,7 +55,7 @@ class FlipHistory {
     std::vector<SessionTime> blanks_; ///< rising
     std::vector<LitFrame> pictures_;  ///< by index of blanks_
     SessionTime end_;
-    std::vector<AnimationFrameIndex> plan_; ///< by refresh since onset
+    PageCycle plan_;
 };
 
 } // namespace overt

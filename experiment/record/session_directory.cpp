@@ -2,16 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <charconv>
-#include <cstdlib>
-#include <cstring>
 #include <string_view>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "experiment/error.h"
 #include "experiment/record/session_schema.h"
@@ -45,18 +39,6 @@ InputError taken(const fs::path& path, const SessionPlace& place) {
                                   path.string(), next_session_number(place)));
 }
 
-/// Brings a whole file system's writes to the disk: the session's files may have come from anywhere.
-void sync_around(const fs::path& directory) {
-    const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    const bool synced = descriptor >= 0 && ::syncfs(descriptor) == 0;
-    const int reason = errno;
-    if (descriptor >= 0)
-        ::close(descriptor);
-    if (!synced)
-        throw RecordError(fmt::format("{}: writing to disk failed: {}. Check its space.", directory.string(),
-                                      std::strerror(reason)));
-}
-
 } // namespace
 
 fs::path session_path(const SessionPlace& place, int session_number) {
@@ -83,50 +65,21 @@ int next_session_number(const SessionPlace& place) {
 }
 
 SessionDirectory::SessionDirectory(const SessionPlace& place, std::optional<int> session_number)
-    : place_(place), session_number_(session_number ? *session_number : next_session_number(place)),
-      final_path_(session_path(place, session_number_)) {
+    : place_(place), session_number_(session_number ? *session_number : next_session_number(place)) {
     if (session_number_ < 1)
         throw InputError(fmt::format("Session number {}: numbers count from 1.", session_number_));
-    if (fs::exists(final_path_))
-        throw taken(final_path_, place_);
-    std::error_code error;
-    fs::create_directories(final_path_.parent_path(), error);
-    std::string name =
-        (final_path_.parent_path() / fmt::format(".{}.partial-XXXXXX", final_path_.filename().string()))
-            .string();
-    // A name of its own each time, so that what a killed start has left behind is in nobody's way.
-    if (error || ::mkdtemp(name.data()) == nullptr)
-        throw RecordError(fmt::format("{}: a directory cannot be made there: {}. Check the permissions.",
-                                      final_path_.parent_path().string(),
-                                      error ? error.message() : std::strerror(errno)));
-    path_ = name;
-    // mkdtemp lets in its owner alone; the others get what the folder around it gives them.
-    fs::permissions(path_, fs::status(final_path_.parent_path()).permissions(), error);
+    const fs::path path = session_path(place, session_number_);
+    if (fs::exists(path))
+        throw taken(path, place_);
+    directory_.emplace(path);
 }
 
-fs::path SessionDirectory::session_file() const { return path_ / session_file_name; }
+fs::path SessionDirectory::session_file() const { return path() / session_file_name; }
 
 void SessionDirectory::publish() {
-    if (path_ == final_path_)
-        return;
-    sync_around(path_);
-    if (fs::exists(final_path_))
-        throw taken(final_path_, place_);
-    std::error_code error;
-    fs::rename(path_, final_path_, error);
-    if (error)
-        throw RecordError(fmt::format("{}: cannot be renamed to {}: {}. Check the permissions.",
-                                      path_.string(), final_path_.filename().string(), error.message()));
-    path_ = final_path_;
-    sync_around(path_.parent_path());
-}
-
-void SessionDirectory::abandon() noexcept {
-    if (path_.empty() || path_ == final_path_)
-        return;
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-    path_.clear();
+    if (!directory_->is_published() && fs::exists(directory_->final_path()))
+        throw taken(directory_->final_path(), place_);
+    directory_->publish();
 }
 
 } // namespace overt

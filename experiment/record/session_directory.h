@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "experiment/record/partial_directory.h"
+
 namespace overt {
 
 /// Whose session of what.
@@ -27,12 +29,9 @@ class SessionDirectory {
     /// Takes the next free number if none is asked for. Throws InputError if a number is asked for that
     /// exists (naming the next free one), RecordError if the directory cannot be made.
     explicit SessionDirectory(const SessionPlace& place, std::optional<int> session_number = std::nullopt);
-    ~SessionDirectory() { abandon(); }
-    SessionDirectory(const SessionDirectory&) = delete;
-    SessionDirectory& operator=(const SessionDirectory&) = delete;
 
     /// Where its files are to be put; after publish() where they are.
-    const std::filesystem::path& path() const { return path_; }
+    const std::filesystem::path& path() const { return directory_->path(); }
     /// path() / "session.sqlite"
     std::filesystem::path session_file() const;
     int session_number() const { return session_number_; }
@@ -42,13 +41,12 @@ class SessionDirectory {
     void publish();
 
     /// Removes what was not published; nothing otherwise.
-    void abandon() noexcept;
+    void abandon() noexcept { directory_->abandon(); }
 
   private:
     SessionPlace place_;
     int session_number_ = 1;
-    std::filesystem::path final_path_;
-    std::filesystem::path path_;
+    std::optional<PartialDirectory> directory_;
 };
 
 } // namespace overt

@@ -199,8 +199,9 @@ std::optional<ClockMap> SessionRecord::clock_map(int sitting) const {
 
 FlipHistory SessionRecord::flip_history(const TrialRecord& trial) const {
     const RecordedDisplay& display = header_.display;
-    return FlipHistory(
-        flips(trial), {display.latency, display.refresh_hz, static_cast<double>(display.screen.screen_px.y)});
+    return FlipHistory(flips(trial),
+                       {display.latency, display.refresh_hz, static_cast<double>(display.screen.screen_px.y)},
+                       make_page_cycle(header_.animation, display.refresh_hz));
 }
 
 SessionTime SessionRecord::last_time() const {

@@ -62,7 +62,7 @@ inline SessionHeader example_header() {
     screen.image_origin_px = {144, 44};
     screen.image_px = {512, 511};
     header.display = {screen, 100.0, std::chrono::microseconds(1500), "mono++", 0.125};
-    header.animation = {3, 25.0, Degrees{12.5}, Playback::ping_pong, 2.5};
+    header.animation = {3, 25.0, Degrees{12.5}, Playback::ping_pong, 2.52};
     header.poses = {{Degrees{-12.5}, Degrees{0.1}, Degrees{12.5}},
                     {PoseIndex{0}, PoseIndex{1}, PoseIndex{2}}};
     header.tasks = {{"free", "Look around"}, {"age", "How old?\tSay it."}};

@@ -1,0 +1,274 @@
+#include "experiment/record/tsv_export.h"
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "experiment/error.h"
+#include "experiment/record/partial_directory.h"
+#include "experiment/record/sample_join.h"
+#include "experiment/record/tsv_tables.h"
+#include "experiment/record/tsv_writer.h"
+
+namespace fs = std::filesystem;
+
+namespace overt {
+namespace {
+
+constexpr const char* dictionary_file = "dictionary.json";
+constexpr int angle_decimals = 6; // a millionth of a degree
+constexpr int pixel_decimals = 3; // a thousandth of a pixel
+constexpr int pupil_decimals = 4;
+constexpr int surface_decimals = 6; // a nanometre, if the mesh is in millimetres
+constexpr int incidence_decimals = 4;
+
+template <class List> const auto* item(const List& list, int index) {
+    return index >= 0 && static_cast<std::size_t>(index) < list.size()
+               ? &list[static_cast<std::size_t>(index)]
+               : nullptr;
+}
+
+/// Writes one session's tables into a directory.
+class TsvExport {
+  public:
+    TsvExport(const SessionRecord& record, const fs::path& directory)
+        : record_(record), header_(record.header()), tables_(header_), trials_(directory, tables_.trials),
+          flips_(directory, tables_.flips), samples_(directory, tables_.samples),
+          events_(directory, tables_.events), responses_(directory, tables_.responses),
+          stimuli_(directory, tables_.stimuli), directory_(directory) {}
+
+    void write_trial(const TrialRecord& trial, const SurfaceLookup* lookup);
+    void write_attempt_without_rows(const TrialRecord& trial);
+    void write_what_belongs_to_no_trial();
+    void close();
+    const TsvExportCounts& counts() const { return counts_; }
+
+  private:
+    std::string condition_cells(const Trial& trial) const;
+    void begin_trial_row(const TrialRecord& trial);
+    void write_flips(const TrialRecord& trial);
+    TsvExportCounts write_samples(const TrialRecord& trial, const SurfaceLookup* lookup);
+    void write_sample(const GazeSample& sample, const JoinedSample& joined,
+                      const std::vector<std::string>& part_cells);
+    void write_response(const TrialRecord& trial);
+    void angle(TsvWriter& writer, PoseIndex pose) const;
+
+    const SessionRecord& record_;
+    const SessionHeader& header_;
+    const TsvTables tables_;
+    TsvWriter trials_, flips_, samples_, events_, responses_, stimuli_;
+    const fs::path directory_;
+    TsvExportCounts counts_;
+};
+
+/// Task, sculpture and material.
+std::string TsvExport::condition_cells(const Trial& trial) const {
+    return fmt::format("{}\t{}\t{}", tsv_cell(item(header_.tasks, trial.task)->id),
+                       tsv_cell(item(header_.sculptures, trial.condition.sculpture)->id),
+                       tsv_cell(item(header_.materials, trial.condition.material)->id));
+}
+
+void TsvExport::angle(TsvWriter& writer, PoseIndex pose) const {
+    const Degrees* const angle = item(header_.poses.angles, pose.value);
+    angle ? writer.fixed(angle->value, angle_decimals) : writer.missing();
+}
+
+void TsvExport::begin_trial_row(const TrialRecord& trial) {
+    trials_.integer(trial.trial.index).integer(trial.attempt).integer(trial.sitting);
+    trials_.ready(condition_cells(trial.trial), 3).ready(name_of(trial.status)).seconds(trial.started);
+}
+
+void TsvExport::write_attempt_without_rows(const TrialRecord& trial) {
+    begin_trial_row(trial);
+    trials_.missing(static_cast<int>(tables_.trials.columns.size()) - 8).end_row();
+}
+
+void TsvExport::write_trial(const TrialRecord& trial, const SurfaceLookup* lookup) {
+    write_flips(trial);
+    const TsvExportCounts of_trial = write_samples(trial, lookup);
+    write_response(trial);
+
+    const TrialOutcome& outcome = trial.outcome;
+    begin_trial_row(trial);
+    trials_.seconds(outcome.task_screen_onset)
+        .seconds(outcome.presentation_onset)
+        .seconds(outcome.presentation_end)
+        .seconds(outcome.response_screen_onset)
+        .seconds(outcome.responded_at);
+    trials_.integer(outcome.shown_refreshes).integer(outcome.missed_refreshes);
+    outcome.drift ? trials_.fixed(outcome.drift->value, angle_decimals) : trials_.missing();
+    trials_.integer(trial.lost_flips).integer(trial.lost_samples);
+    trials_.integer(of_trial.samples)
+        .integer(of_trial.samples_without_gaze)
+        .integer(of_trial.samples_on_object)
+        .integer(of_trial.samples_off_plan)
+        .end_row();
+
+    ++counts_.trials;
+    counts_.samples += of_trial.samples;
+    counts_.samples_without_gaze += of_trial.samples_without_gaze;
+    counts_.samples_on_object += of_trial.samples_on_object;
+    counts_.samples_off_plan += of_trial.samples_off_plan;
+}
+
+void TsvExport::write_flips(const TrialRecord& trial) {
+    for (const FlipRecord& flip : record_.flips(trial)) {
+        flips_.integer(trial.trial.index).integer(flip.refresh_in_trial);
+        flips_.integer(flip.planned.value).integer(flip.shown.value);
+        angle(flips_, flip.page);
+        flips_.seconds(flip.report.requested)
+            .seconds(flip.report.swapped)
+            .seconds(flip.report.vertical_blank)
+            .text(name_of(flip.report.source))
+            .integer(flip.report.missed_refreshes)
+            .end_row();
+        ++counts_.flips;
+    }
+}
+
+TsvExportCounts TsvExport::write_samples(const TrialRecord& trial, const SurfaceLookup* lookup) {
+    const SampleJoin join(record_, trial, lookup);
+    const std::string trial_cells = fmt::format("{}\t{}", trial.trial.index, condition_cells(trial.trial));
+    std::vector<std::string> part_cells;
+    for (const std::string& name : item(header_.sculptures, trial.trial.condition.sculpture)->part_names)
+        part_cells.push_back(tsv_cell(name));
+
+    TsvExportCounts counts;
+    for (const GazeSample& sample : record_.samples(trial)) {
+        const JoinedSample joined = join.join(sample);
+        samples_.ready(trial_cells, 4);
+        write_sample(sample, joined, part_cells);
+        ++counts.samples;
+        counts.samples_without_gaze += !sample.gaze;
+        counts.samples_on_object += joined.surface.has_value();
+        counts.samples_off_plan += joined.off_plan;
+    }
+    return counts;
+}
+
+void TsvExport::write_sample(const GazeSample& sample, const JoinedSample& joined,
+                             const std::vector<std::string>& part_cells) {
+    if (joined.at)
+        samples_.seconds(joined.at->time).seconds(joined.at->uncertainty);
+    else
+        samples_.missing(2);
+    samples_.integer(sample.sampled_at.time_since_epoch().count());
+    samples_.ready(sample.eye == Eye::left ? "left" : "right");
+    if (sample.gaze)
+        samples_.fixed(sample.gaze->x_px, pixel_decimals).fixed(sample.gaze->y_px, pixel_decimals);
+    else
+        samples_.missing(2);
+    sample.pupil_area > 0.0f ? samples_.fixed(static_cast<double>(sample.pupil_area), pupil_decimals)
+                             : samples_.missing();
+    if (joined.shown) {
+        samples_.integer(joined.shown->frame.value);
+        angle(samples_, joined.shown->pose);
+    } else {
+        samples_.missing(2);
+    }
+    if (joined.image_px)
+        samples_.fixed(joined.image_px->x, pixel_decimals).fixed(joined.image_px->y, pixel_decimals);
+    else
+        samples_.missing(2);
+    if (const auto& surface = joined.surface) {
+        for (const double coordinate : {surface->position.x, surface->position.y, surface->position.z})
+            samples_.fixed(coordinate, surface_decimals);
+        samples_.integer(surface->triangle);
+        const std::string* const part = item(part_cells, surface->part);
+        part ? samples_.ready(*part) : samples_.missing();
+        samples_.fixed(surface->depth, surface_decimals).fixed(surface->incidence.value, incidence_decimals);
+    } else {
+        samples_.missing(7);
+    }
+    samples_.end_row();
+}
+
+void TsvExport::write_response(const TrialRecord& trial) {
+    const TrialOutcome& outcome = trial.outcome;
+    responses_.integer(trial.trial.index).ready(condition_cells(trial.trial), 3);
+    responses_.text(item(header_.tasks, trial.trial.task)->question)
+        .seconds(outcome.response_screen_onset)
+        .seconds(outcome.responded_at)
+        .seconds(outcome.responded_at - outcome.response_screen_onset)
+        .text(outcome.answer)
+        .end_row();
+}
+
+void TsvExport::write_what_belongs_to_no_trial() {
+    for (const RecordedEvent& event : record_.events()) {
+        events_.seconds(event.at);
+        event.trial < 0 ? events_.missing() : events_.integer(event.trial);
+        events_.text(event.kind).text(event.detail).end_row();
+    }
+    for (const RecordedStimulus& stimulus : header_.stimuli) {
+        const RecordedSculpture* const sculpture = item(header_.sculptures, stimulus.condition.sculpture);
+        const RecordedMaterial* const material = item(header_.materials, stimulus.condition.material);
+        stimuli_.text(sculpture ? sculpture->id : "").text(material ? material->id : "");
+        stimuli_.text(stimulus.source).text(stimulus.frames_sha256);
+        stimuli_.text(sculpture ? sculpture->mesh_file : "").text(sculpture ? sculpture->mesh_sha256 : "");
+        stimuli_.end_row();
+    }
+}
+
+void TsvExport::close() {
+    for (TsvWriter* writer : {&trials_, &flips_, &samples_, &events_, &responses_, &stimuli_})
+        writer->close();
+    std::ofstream dictionary(directory_ / dictionary_file, std::ios::binary);
+    dictionary << tsv_dictionary(tables_);
+    if (!dictionary.flush())
+        throw RecordError(fmt::format("{}: writing failed. Check the disk's space.",
+                                      (directory_ / dictionary_file).string()));
+}
+
+/// An existing directory is replaced only if nobody can lose anything by it.
+void refuse_target(const SessionHeader& header, const fs::path& directory, bool overwrite) {
+    if (!fs::exists(directory) || (fs::is_directory(directory) && fs::is_empty(directory)))
+        return;
+    if (!overwrite || !fs::is_directory(directory))
+        throw InputError(fmt::format(
+            "{}: exists already. Name another folder, or allow it to be overwritten.", directory.string()));
+    const TsvTables tables(header);
+    std::vector<std::string> ours{dictionary_file};
+    for (const TsvTable* table :
+         {&tables.trials, &tables.flips, &tables.samples, &tables.events, &tables.responses, &tables.stimuli})
+        ours.push_back(table->file);
+    for (const auto& entry : fs::directory_iterator(directory))
+        if (std::find(ours.begin(), ours.end(), entry.path().filename().string()) == ours.end())
+            throw InputError(
+                fmt::format("{}: holds «{}», which no export has written, so it is not overwritten. "
+                            "Name another folder.",
+                            directory.string(), entry.path().filename().string()));
+}
+
+} // namespace
+
+TsvExportCounts export_tsv(const SessionRecord& record, const LookupFor& lookup_for,
+                           const fs::path& directory, const TsvExportOptions& options) {
+    refuse_target(record.header(), directory, options.overwrite);
+    PartialDirectory partial(directory);
+    TsvExport tables(record, partial.path());
+    const int all = static_cast<int>(record.trials().size());
+    int done = 0;
+    for (const TrialRecord& trial : record.trials()) {
+        if (trial.status == TrialRecord::Status::completed)
+            tables.write_trial(trial, lookup_for(trial.trial.condition.sculpture));
+        else
+            tables.write_attempt_without_rows(trial);
+        if (options.progress)
+            options.progress(++done, all);
+    }
+    tables.write_what_belongs_to_no_trial();
+    tables.close();
+    std::error_code error;
+    fs::remove_all(partial.final_path(), error);
+    if (error)
+        throw RecordError(fmt::format("{}: the earlier export cannot be removed: {}. Check the permissions.",
+                                      directory.string(), error.message()));
+    partial.publish();
+    return tables.counts();
+}
+
+} // namespace overt

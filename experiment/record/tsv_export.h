@@ -1,0 +1,40 @@
+/// A session as tab-separated tables for everyone else's tools.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+
+#include "experiment/analysis/surface_point.h"
+#include "experiment/record/session_record.h"
+
+namespace overt {
+
+struct TsvExportOptions {
+    bool overwrite = false;                          ///< replace an earlier export
+    std::function<void(int done, int all)> progress; ///< told after each trial; may be empty
+};
+
+/// What was written.
+struct TsvExportCounts {
+    std::int64_t trials = 0; ///< completed ones
+    std::int64_t flips = 0;
+    std::int64_t samples = 0;
+    std::int64_t samples_without_gaze = 0;
+    std::int64_t samples_on_object = 0;
+    std::int64_t samples_off_plan = 0; ///< that the planned frame times would have put on another frame
+};
+
+/// Gives the lookup for a sculpture, or null if there is none. Called once for each trial.
+using LookupFor = std::function<const SurfaceLookup*(int sculpture)>;
+
+/// Writes trials, flips, samples, events, responses and stimuli with a dictionary.json that explains each
+/// column. The same session gives the same bytes, on every machine and at any time: nothing of the wall clock
+/// is in them. Flips, samples and responses are those of completed trials.
+///
+/// The directory appears when it is complete. Throws InputError if it exists and is not to be overwritten, or
+/// is no earlier export; RecordError for a damaged session or a full disk.
+TsvExportCounts export_tsv(const SessionRecord& record, const LookupFor& lookup_for,
+                           const std::filesystem::path& directory, const TsvExportOptions& options = {});
+
+} // namespace overt

@@ -1,0 +1,203 @@
+#include "experiment/record/tsv_tables.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "experiment/flip_report.h"
+
+namespace overt {
+namespace {
+
+using Levels = std::vector<std::pair<std::string, std::string>>;
+
+/// Columns that several tables share.
+struct SharedColumns {
+    explicit SharedColumns(const SessionHeader& header) {
+        for (const RecordedTask& entry : header.tasks)
+            task.levels.emplace_back(entry.id, entry.question);
+        for (const RecordedSculpture& entry : header.sculptures)
+            sculpture.levels.emplace_back(entry.id, entry.title);
+        for (const RecordedMaterial& entry : header.materials)
+            material.levels.emplace_back(entry.id, entry.title);
+    }
+    TsvColumn trial{"trial", "Position of the trial in the observer's order, from 0", "", {}};
+    TsvColumn task{"task", "Which question was asked", "", {}};
+    TsvColumn sculpture{"sculpture", "Which sculpture was shown", "", {}};
+    TsvColumn material{"material", "In which material it was shown", "", {}};
+    TsvColumn angle{"angle_deg",
+                    "Turn of the sculpture in the frame shown, counter-clockwise seen from above",
+                    "deg",
+                    {}};
+};
+
+TsvColumn session_seconds(std::string name, std::string meaning) {
+    return {
+        std::move(name), std::move(meaning) + "; session clock, nine decimals keep each nanosecond", "s", {}};
+}
+
+TsvTable trials_table(const SharedColumns& shared) {
+    return {"trials.tsv",
+            "One row for each attempt at a trial, in the order in which they were made.",
+            {shared.trial,
+             {"attempt", "Which attempt at this trial, from 1: a trial that was cut off is repeated", "", {}},
+             {"sitting", "Counts how often the session was begun or resumed, from 1", "", {}},
+             shared.task,
+             shared.sculpture,
+             shared.material,
+             {"status",
+              "How the attempt ended; only completed ones appear in the other tables",
+              "",
+              {{"completed", "all of it was done"},
+               {"aborted", "broken off by the operator, or because a device went away"},
+               {"open", "running when the session was exported, or cut off when the program was killed"}}},
+             session_seconds("started_s", "Begin of the trial"),
+             session_seconds("task_screen_onset_s", "Onset of the question"),
+             session_seconds("presentation_onset_s", "Vertical blank of the presentation's first refresh"),
+             session_seconds("presentation_end_s", "Vertical blank at which the presentation gave way"),
+             session_seconds("response_screen_onset_s", "Onset of the response screen"),
+             session_seconds("responded_s", "End of the answer"),
+             {"shown_refreshes", "Refreshes in the flip ledger", "", {}},
+             {"missed_refreshes", "Refreshes that went by with an old picture", "", {}},
+             {"drift_deg", "Gaze error at the drift check", "deg", {}},
+             {"lost_flips", "Flips that could not be recorded", "", {}},
+             {"lost_samples", "Gaze samples that could not be recorded", "", {}},
+             {"samples", "Gaze samples recorded", "", {}},
+             {"samples_without_gaze", "Samples in which the tracker found no eye", "", {}},
+             {"samples_on_object", "Samples that met the sculpture's surface", "", {}},
+             {"samples_off_plan",
+              "Samples that the planned frame times would have put on a frame that was not lit",
+              "",
+              {}}}};
+}
+
+TsvTable flips_table(const SharedColumns& shared) {
+    return {"flips.tsv",
+            "The flip ledger of the completed trials: one row for each picture handed to the display.",
+            {shared.trial,
+             {"refresh", "Refresh of the display since the presentation's onset, from 0", "", {}},
+             {"planned_frame", "Animation frame that the plan had for this refresh", "", {}},
+             {"shown_frame", "Animation frame that was lit", "", {}},
+             shared.angle,
+             session_seconds("requested_s", "When the picture was asked for"),
+             session_seconds("swapped_s", "When the buffer swap had been handed over"),
+             session_seconds("vertical_blank_s", "When scan-out of this refresh began"),
+             {"source",
+              "Where vertical_blank_s comes from",
+              "",
+              {{std::string(name_of(VblankSource::virtual_display)), "the program's own clock, exact"},
+               {std::string(name_of(VblankSource::swap_return)), "when the buffer swap returned"}}},
+             {"missed", "Refreshes that went by with the old picture before this one", "", {}}}};
+}
+
+TsvTable samples_table(const SharedColumns& shared, const SessionHeader& header) {
+    TsvColumn part{"part", "Part of the figure that is looked at", "", {}};
+    for (const RecordedSculpture& sculpture : header.sculptures)
+        for (const std::string& name : sculpture.part_names)
+            if (std::none_of(part.levels.begin(), part.levels.end(),
+                             [&](const auto& level) { return level.first == name; }))
+                part.levels.emplace_back(name, fmt::format("the triangles labelled «{}»", name));
+    const std::string mesh_unit = "unit of the mesh";
+    return {
+        "samples.tsv",
+        "One row for each gaze sample of the completed trials, joined with the frame that was lit on its row "
+        "when it was taken. Pixels: origin at the top left corner, y down, pixel centres at 0.5.",
+        {shared.trial,
+         shared.task,
+         shared.sculpture,
+         shared.material,
+         session_seconds("time_s", "When the sample was taken"),
+         {"time_uncertainty_s", "Bound on the error of time_s", "s", {}},
+         {"tracker_time_us", "When the sample was taken, by the tracker's own clock", "us", {}},
+         {"eye", "Which eye", "", {{"left", "left eye"}, {"right", "right eye"}}},
+         {"x_px", "Gaze on the screen, to the right", "px", {}},
+         {"y_px", "Gaze on the screen, downwards", "px", {}},
+         {"pupil_area", "Pupil area", "the tracker's own unit", {}},
+         {"frame", "Animation frame lit at the gaze's row", "", {}},
+         shared.angle,
+         {"image_x_px", "Gaze in the stimulus image, to the right", "px", {}},
+         {"image_y_px", "Gaze in the stimulus image, downwards", "px", {}},
+         {"surface_x", "Place on the unturned surface", mesh_unit, {}},
+         {"surface_y", "Place on the unturned surface", mesh_unit, {}},
+         {"surface_z", "Place on the unturned surface, upwards", mesh_unit, {}},
+         {"triangle", "Index of the mesh's triangle, from 0", "", {}},
+         part,
+         {"depth", "Distance of the surface from the camera along the viewing direction", mesh_unit, {}},
+         {"incidence_deg",
+          "Angle between the line of sight and the surface's normal, 0 is head-on",
+          "deg",
+          {}}}};
+}
+
+TsvTable events_table() {
+    return {"events.tsv",
+            "What happened besides flips and samples, in all attempts and between trials.",
+            {session_seconds("time_s", "When it happened"),
+             {"trial", "Position of the trial in the observer's order, from 0", "", {}},
+             {"kind", "What happened", "", {}},
+             {"detail", "Particulars", "", {}}}};
+}
+
+TsvTable responses_table(const SharedColumns& shared) {
+    return {"responses.tsv",
+            "One row for the answer in each completed trial.",
+            {shared.trial,
+             shared.task,
+             shared.sculpture,
+             shared.material,
+             {"question", "The question as it was shown", "", {}},
+             session_seconds("response_screen_onset_s", "Onset of the response screen"),
+             session_seconds("responded_s", "End of the answer"),
+             {"response_time_s", "From the onset of the response screen to the end of the answer", "s", {}},
+             {"answer", "The answer, where the response panel took it down", "", {}}}};
+}
+
+TsvTable stimuli_table(const SharedColumns& shared) {
+    return {"stimuli.tsv",
+            "What was shown: one row for each sculpture in each material.",
+            {shared.sculpture,
+             shared.material,
+             {"source", "How the frames were made", "", {}},
+             {"frames_sha256", "SHA-256 of the frames", "", {}},
+             {"mesh_file", "The sculpture's mesh, relative to the session's directory", "", {}},
+             {"mesh_sha256", "SHA-256 of the mesh", "", {}}}};
+}
+
+nlohmann::ordered_json describe(const TsvTable& table) {
+    nlohmann::ordered_json columns = nlohmann::ordered_json::object();
+    for (const TsvColumn& column : table.columns) {
+        nlohmann::ordered_json& entry = columns[column.name];
+        entry["Description"] = column.meaning;
+        if (!column.unit.empty())
+            entry["Units"] = column.unit;
+        for (const auto& [value, meaning] : column.levels)
+            entry["Levels"][tsv_cell(value)] = meaning;
+    }
+    return {{"Description", table.description}, {"Columns", columns}};
+}
+
+} // namespace
+
+TsvTables::TsvTables(const SessionHeader& header) {
+    const SharedColumns shared(header);
+    trials = trials_table(shared);
+    flips = flips_table(shared);
+    samples = samples_table(shared, header);
+    events = events_table();
+    responses = responses_table(shared);
+    stimuli = stimuli_table(shared);
+}
+
+std::string tsv_dictionary(const TsvTables& tables) {
+    nlohmann::ordered_json dictionary;
+    dictionary["Description"] =
+        "Tab-separated tables in UTF-8. Missing values are n/a. In texts, tab, newline, "
+        "carriage return and backslash are written as \\t, \\n, \\r and \\\\.";
+    for (const TsvTable* table :
+         {&tables.trials, &tables.flips, &tables.samples, &tables.events, &tables.responses, &tables.stimuli})
+        dictionary["Files"][table->file] = describe(*table);
+    return dictionary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+}
+
+} // namespace overt

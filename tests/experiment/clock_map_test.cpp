@@ -1,0 +1,141 @@
+#include "experiment/clock_map.h"
+
+#include <cmath>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "experiment/random.h"
+
+using namespace overt;
+
+namespace {
+
+/// A tracker whose clock has an origin and a rate of its own.
+struct TrackerTruth {
+    SessionTime origin; ///< session time at which the tracker's clock shows `shows`
+    TrackerTime shows;
+    double drift_ppm = 40.0; ///< a second of the tracker's lasts this much longer than one of the session's
+
+    TrackerTime tracker_at(SessionTime time) const {
+        const double ns = static_cast<double>((time - origin).count()) / (1.0 + 1e-6 * drift_ppm);
+        return shows + TrackerClock::duration(static_cast<std::int64_t>(std::floor(ns / 1000.0)));
+    }
+    /// The tracker is read at a random instant of a round trip that is long now and then.
+    ClockPair read(SessionTime at, RandomStream& random, double round_trip_us) const {
+        const double trip_ns = 1000.0 * round_trip_us * (0.2 + random.exponential(1.0));
+        const SessionTime read_at = at + SessionDuration(std::llround(random.uniform() * trip_ns));
+        return {at, tracker_at(read_at), at + SessionDuration(std::llround(trip_ns))};
+    }
+};
+
+SessionTime at_s(double seconds) { return SessionTime(from_seconds(seconds)); }
+
+TrackerTruth example_truth(double drift_ppm = 40.0) {
+    return {at_s(17.25), TrackerTime(std::chrono::hours(30)), drift_ppm};
+}
+
+} // namespace
+
+TEST_CASE("the clock map finds the tracker's offset and drift to within its stated uncertainty", "[unit]") {
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+        RandomStream random(seed, "clock map test");
+        const TrackerTruth truth = example_truth(random.uniform(-150.0, 150.0));
+        std::vector<ClockPair> pairs;
+        for (int i = 0; i < 60; ++i)
+            pairs.push_back(truth.read(at_s(20.0 + 10.0 * i), random, 100.0));
+        const ClockMap map(pairs);
+        CHECK(std::abs(map.drift_ppm() - truth.drift_ppm) <= map.drift_uncertainty_ppm());
+        CHECK(map.drift_uncertainty_ppm() < 1.0);
+        for (int i = 0; i < 200; ++i) {
+            const SessionTime time = at_s(random.uniform(0.0, 700.0));
+            const MappedTime mapped = map.to_session(truth.tracker_at(time));
+            CHECK(std::chrono::abs(mapped.time - time) <= mapped.uncertainty);
+            CHECK(mapped.uncertainty < std::chrono::microseconds(500));
+        }
+    }
+}
+
+TEST_CASE("one slow reading of the clocks hardly moves the map", "[unit]") {
+    RandomStream random(1, "clock map test");
+    const TrackerTruth truth = example_truth();
+    std::vector<ClockPair> pairs;
+    for (int i = 0; i < 20; ++i)
+        pairs.push_back(truth.read(at_s(20.0 + 10.0 * i), random, 20.0));
+    const ClockMap without(pairs);
+    // 30 ms of waiting, all of it before the tracker was read.
+    const SessionTime slow = at_s(150.0);
+    pairs.push_back(
+        {slow, truth.tracker_at(slow + std::chrono::milliseconds(30)), slow + std::chrono::milliseconds(30)});
+    const ClockMap with(pairs);
+    for (int i = 0; i < 20; ++i) {
+        const TrackerTime time = truth.tracker_at(at_s(10.0 * i));
+        CHECK(std::chrono::abs(with.to_session(time).time - without.to_session(time).time) <
+              std::chrono::microseconds(1));
+        CHECK(with.to_session(time).uncertainty <
+              without.to_session(time).uncertainty + std::chrono::microseconds(2));
+    }
+}
+
+TEST_CASE("with one pair the rate is taken as 1, and the uncertainty grows with the distance", "[unit]") {
+    const TrackerTruth truth = example_truth();
+    RandomStream random(2, "clock map test");
+    const std::vector<ClockPair> pairs{truth.read(at_s(20.0), random, 50.0)};
+    const ClockMap map(pairs);
+    CHECK(map.drift_ppm() == 0.0);
+    CHECK(map.drift_uncertainty_ppm() == Approx(ClockMap::largest_drift_ppm));
+    const MappedTime first = map.to_session(pairs[0].tracker);
+    CHECK(first.time >= pairs[0].before);
+    CHECK(first.time <= pairs[0].after);
+    const MappedTime later = map.to_session(pairs[0].tracker + std::chrono::seconds(100));
+    CHECK(later.time - first.time == std::chrono::seconds(100));
+    CHECK(later.uncertainty >= std::chrono::milliseconds(20));
+    CHECK(std::chrono::abs(later.time - (first.time + std::chrono::microseconds(100'004'000))) <=
+          later.uncertainty);
+}
+
+TEST_CASE("pairs that are close together do not pretend to know the rate", "[unit]") {
+    const TrackerTruth truth = example_truth(-40.0);
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        RandomStream random(seed, "clock map test");
+        const std::vector<ClockPair> pairs{truth.read(at_s(20.0), random, 200.0),
+                                           truth.read(at_s(20.01), random, 200.0)};
+        const ClockMap map(pairs);
+        const SessionTime time = at_s(600.0);
+        const MappedTime mapped = map.to_session(truth.tracker_at(time));
+        CHECK(std::chrono::abs(mapped.time - time) <= mapped.uncertainty);
+        CHECK(mapped.uncertainty < std::chrono::milliseconds(130));
+    }
+}
+
+TEST_CASE("no nanosecond is lost after years of uptime", "[unit]") {
+    const SessionTime session(SessionDuration(3'000'000'000'000'000'001));
+    const TrackerTime tracker(TrackerClock::duration(4'000'000'000'000'003));
+    std::vector<ClockPair> pairs;
+    for (int i = 0; i < 10; ++i)
+        pairs.push_back({session + std::chrono::seconds(i), tracker + std::chrono::seconds(i),
+                         session + std::chrono::seconds(i)});
+    const ClockMap map(pairs);
+    for (std::int64_t microseconds : {0, 1, 999'999, 86'400'000})
+        CHECK(map.to_session(tracker + TrackerClock::duration(microseconds)).time ==
+              session + std::chrono::microseconds(microseconds));
+}
+
+TEST_CASE("a rate that was not constant widens the uncertainty until every pair fits", "[unit]") {
+    TrackerTruth truth = example_truth();
+    std::vector<ClockPair> pairs;
+    for (int i = 0; i < 40; ++i) {
+        // The crystal warms up: its error against a straight line reaches about half a millisecond.
+        const SessionTime time = at_s(20.0 + 10.0 * i);
+        pairs.push_back({time, truth.tracker_at(time) + TrackerClock::duration(2 * i * (40 - i) / 2), time});
+    }
+    const ClockMap map(pairs);
+    bool was_needed = false;
+    for (const ClockPair& pair : pairs) {
+        const MappedTime mapped = map.to_session(pair.tracker);
+        CHECK(std::chrono::abs(mapped.time - pair.before) <= mapped.uncertainty);
+        was_needed =
+            was_needed || std::chrono::abs(mapped.time - pair.before) > std::chrono::microseconds(50);
+    }
+    CHECK(was_needed);
+}
