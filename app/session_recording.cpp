@@ -105,12 +105,24 @@ void put_files(const SessionDirectory& directory, const SessionHeader& header,
     }
     for (const RecordedMap& map : header.maps)
         copy_into(library.map_file(map.sculpture, map.pose), directory.path() / map.file);
+    for (const RecordedStimulus& stimulus : header.stimuli) {
+        const std::filesystem::path file = directory.path() / preview_file(header, stimulus.condition);
+        std::filesystem::create_directories(file.parent_path());
+        write_srgb_png(file,
+                       library.page(stimulus.condition, library.page_of_frame(stimulus.condition).front()));
+    }
     std::ofstream protocol(directory.path() / "protocol.toml", std::ios::binary);
     protocol << header.protocol.text;
     if (!protocol.flush())
         throw RecordError(
             fmt::format("{}: cannot be written", (directory.path() / "protocol.toml").string()));
     create_session_file(directory.session_file(), header);
+}
+
+std::string preview_file(const SessionHeader& header, const Condition& condition) {
+    return fmt::format("stimuli/{}_{}.png",
+                       header.sculptures[static_cast<std::size_t>(condition.sculpture)].id,
+                       header.materials[static_cast<std::size_t>(condition.material)].id);
 }
 
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }

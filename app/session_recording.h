@@ -16,10 +16,13 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
                                   const GlDescription& graphics, const TrackerDescription& tracker,
                                   ClockKind clock);
 
-/// Puts the meshes and the maps into the directory as the header names them, the header itself into a new
-/// session file, and a copy of the protocol beside it. Throws RecordError.
+/// Puts the meshes, the maps and a picture of each stimulus into the directory as the header names them, the
+/// header itself into a new session file, and a copy of the protocol beside it. Throws RecordError.
 void put_files(const SessionDirectory& directory, const SessionHeader& header,
                std::span<const Sculpture> sculptures, const StimulusLibrary& library);
+
+/// Where in a session's folder animation frame 0 of a stimulus lies, as an 8-bit sRGB PNG to look at.
+std::string preview_file(const SessionHeader& header, const Condition& condition);
 
 /// Now, by the wall clock: 2026-11-21T09:30:00Z.
 std::string utc_now();

@@ -68,7 +68,7 @@ struct WindowContext::State {
                                   : key == GLFW_KEY_ENTER  ? WindowKey::enter
                                   : key == GLFW_KEY_ESCAPE ? WindowKey::escape
                                                            : WindowKey::other;
-        state.presses[(state.first + state.count++) % state.presses.size()] = {pressed, glfwGetTime()};
+        state.presses[(state.first + state.count++) % state.presses.size()] = {pressed};
     }
 };
 

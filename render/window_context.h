@@ -20,7 +20,6 @@ struct WindowRequest {
 enum class WindowKey { space, enter, escape, other };
 struct WindowKeyPress {
     WindowKey key;
-    double glfw_time_s; ///< by GLFW's timer, at the time the event was taken
 };
 
 /// GLFW allows windows on the main thread only: construct, use and destroy this there.

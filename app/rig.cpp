@@ -1,0 +1,67 @@
+#include "app/rig.h"
+
+#include "devices/clocks.h"
+#include "experiment/error.h"
+
+namespace overt {
+
+namespace {
+
+bool wants_window(const RigRequest& request) {
+    if (request.context)
+        return request.context == ContextKind::window;
+    return display_is_available();
+}
+
+std::unique_ptr<GlContext> make_context(const Protocol& protocol, const RigRequest& request) {
+    const bool window = wants_window(request);
+    if (!window && !request.simulate_observer) {
+        throw InputError("without a window nobody can answer: give --simulate-observer SEED, or a display");
+    }
+    if (!window)
+        return make_headless_context(request.context);
+    const DisplaySettings& display = protocol.display;
+    // In virtual time nothing is lit for as long as it should be: a rehearsal, for which no screen is taken
+    // over.
+    const bool fullscreen = !request.windowed && !request.virtual_time;
+    return std::make_unique<WindowContext>(
+        WindowRequest{{display.width_px, display.height_px}, "overt: " + protocol.name, fullscreen});
+}
+
+} // namespace
+
+Rig::Rig(const Protocol& protocol, std::span<const Sculpture> sculptures, const RigRequest& request,
+         const std::filesystem::path& cache)
+    : protocol_(&protocol), sculptures_(sculptures), request_(request),
+      context_(make_context(protocol, request)), window_(dynamic_cast<WindowContext*>(context_.get())),
+      library_(*context_, protocol, sculptures, cache) {}
+
+void Rig::open() {
+    if (request_.virtual_time) {
+        clock_ = std::make_unique<VirtualClock>();
+    } else {
+        clock_ = std::make_unique<SteadyClock>();
+    }
+    const ScreenGeometry geometry = screen_geometry_of(*protocol_);
+    const double refresh_hz = protocol_->display.refresh_hz;
+    if (window_) {
+        surface_ = std::make_unique<WindowDisplay>(*window_, *clock_, refresh_hz, request_.virtual_time);
+    } else {
+        surface_ = std::make_unique<VirtualDisplay>(*context_, *clock_, refresh_hz);
+    }
+    presenter_ = std::make_unique<PagePresenter>(*context_, *surface_, library_, geometry, protocol_->display,
+                                                 protocol_->screens);
+    observer_ = std::make_unique<SimulatedObserver>(make_observed_scene(*protocol_, sculptures_, geometry),
+                                                    request_.seed);
+    tracker_ = std::make_unique<SimulatedEyeTracker>(*clock_, *observer_, request_.seed,
+                                                     simulated_tracker_settings(protocol_->tracker));
+    if (request_.simulate_observer)
+        simulated_panel_ = std::make_unique<SimulatedResponsePanel>(*clock_, *observer_);
+    panel_ = simulated_panel_.get();
+    if (window_) {
+        window_panel_ = std::make_unique<WindowResponsePanel>(*window_, *clock_, panel_);
+        panel_ = window_panel_.get();
+    }
+}
+
+} // namespace overt

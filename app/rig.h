@@ -1,0 +1,68 @@
+/// The rig of a session: clock, display, tracker and response panel, built from the protocol and the options,
+/// and handed to the session as the ports it declared.
+#pragma once
+
+#include <memory>
+
+#include "app/commands.h"
+#include "devices/simulated_eye_tracker.h"
+#include "devices/simulated_observer.h"
+#include "devices/simulated_response_panel.h"
+#include "experiment/record/session_header.h"
+#include "render/display_surface.h"
+#include "render/page_presenter.h"
+#include "render/stimulus_library.h"
+#include "render/window_response_panel.h"
+
+namespace overt {
+
+struct RigRequest {
+    ContextChoice context;
+    bool virtual_time = false;
+    bool windowed = false;
+    bool simulate_observer = false; ///< else somebody answers at the window's keyboard
+    std::uint64_t seed = 0;         ///< of everything simulated
+};
+
+class Rig {
+  public:
+    /// `protocol` and `sculptures` must outlive the rig. Opens the display and starts the clock. Throws
+    /// GraphicsError, or InputError for a request that makes no sense on this machine.
+    Rig(const Protocol& protocol, std::span<const Sculpture> sculptures, const RigRequest& request,
+        const std::filesystem::path& cache);
+
+    const GlContext& context() const { return *context_; }
+    StimulusLibrary& library() { return library_; }
+    Clock& clock() { return *clock_; }
+    ClockKind clock_kind() const {
+        return request_.virtual_time ? ClockKind::virtual_time : ClockKind::steady;
+    }
+
+    /// Makes presenter, tracker and panel. To be called once, when all stimuli are prepared: the session
+    /// clock starts here.
+    void open();
+
+    Presenter& presenter() { return *presenter_; }
+    EyeTracker& tracker() { return *tracker_; }
+    ResponsePanel& panel() { return *panel_; }
+    DisplayWitness& observer() { return *observer_; }
+
+  private:
+    const Protocol* protocol_;
+    std::span<const Sculpture> sculptures_;
+    RigRequest request_;
+    // Objects of OpenGL go before the context they live in.
+    std::unique_ptr<GlContext> context_;
+    WindowContext* window_ = nullptr; ///< the context, if it is a window
+    StimulusLibrary library_;
+    std::unique_ptr<Clock> clock_;
+    std::unique_ptr<DisplaySurface> surface_;
+    std::unique_ptr<PagePresenter> presenter_;
+    std::unique_ptr<SimulatedObserver> observer_;
+    std::unique_ptr<SimulatedEyeTracker> tracker_;
+    std::unique_ptr<SimulatedResponsePanel> simulated_panel_;
+    std::unique_ptr<WindowResponsePanel> window_panel_;
+    ResponsePanel* panel_ = nullptr;
+};
+
+} // namespace overt

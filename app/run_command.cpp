@@ -1,0 +1,123 @@
+#include <fstream>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "app/cache_folder.h"
+#include "app/commands.h"
+#include "app/progress_bar.h"
+#include "app/protocol_file.h"
+#include "app/rig.h"
+#include "app/session_recording.h"
+#include "experiment/record/session_store.h"
+#include "experiment/schedule.h"
+#include "experiment/session.h"
+
+namespace overt {
+
+namespace {
+
+std::uint64_t fresh_seed() {
+    std::random_device device;
+    return (std::uint64_t{device()} << 32) | device();
+}
+
+/// Prints where the session stands after each trial.
+class TrialProgress {
+  public:
+    TrialProgress(const Protocol& protocol, int total) : protocol_(&protocol), total_(total) {}
+
+    void operator()(const Trial& trial, const TrialOutcome& outcome, int done) {
+        const auto name = [](const auto& list, int index) {
+            return list[static_cast<std::size_t>(index)].id;
+        };
+        bar_.update("trials", done, total_);
+        if (outcome.missed_refreshes > 0) {
+            bar_.finish();
+            fmt::print(stderr, "trial {} ({}, {}, {}): {} refreshes missed\n", trial.index + 1,
+                       name(protocol_->tasks, trial.task),
+                       name(protocol_->sculptures, trial.condition.sculpture),
+                       name(protocol_->materials, trial.condition.material), outcome.missed_refreshes);
+        }
+    }
+    void finish() { bar_.finish(); }
+
+  private:
+    const Protocol* protocol_;
+    int total_;
+    ProgressBar bar_;
+};
+
+void say_before(const Protocol& protocol, const Schedule& schedule, const GlDescription& graphics,
+                const RunOptions& options) {
+    fmt::print("{}: observer {} (number {}), {} trials, seed {}\n",
+               protocol.title.empty() ? protocol.name : protocol.title, schedule.observer.label,
+               schedule.observer.number, schedule.trials.size(), schedule.seed);
+    fmt::print("display: {} ({}), {}\n", name_of(graphics.kind), graphics.renderer,
+               options.virtual_time ? "in virtual time" : "in real time");
+    if (!options.simulate_observer)
+        fmt::print("tracker: simulated; the gaze in this session is nobody's\n");
+}
+
+} // namespace
+
+int run_session(const RunOptions& options) {
+    const Protocol protocol = read_protocol_or_report(options.protocol);
+    const Observer observer = observer_labelled(options.observer);
+    const std::uint64_t seed = options.seed             ? *options.seed
+                               : protocol.schedule.seed ? *protocol.schedule.seed
+                                                        : fresh_seed();
+    Schedule schedule = make_schedule(protocol, observer, seed);
+    if (options.trials && *options.trials < static_cast<int>(schedule.trials.size()))
+        schedule.trials.resize(static_cast<std::size_t>(*options.trials));
+
+    const std::vector<Sculpture> sculptures = load_sculptures(protocol, cache_folder());
+    for (const Sculpture& sculpture : sculptures) {
+        for (const std::string& remark : sculpture.remarks)
+            fmt::print(stderr, "sculpture «{}»: {}\n", sculpture.id, remark);
+    }
+    // What is simulated has a seed of its own, so that one order can be rehearsed with several observers.
+    RigRequest request{options.context, options.virtual_time, options.windowed,
+                       options.simulate_observer.has_value(), options.simulate_observer.value_or(seed)};
+    Rig rig(protocol, sculptures, request, cache_folder());
+    say_before(protocol, schedule, rig.context().description(), options);
+    {
+        ProgressBar bar;
+        rig.library().prepare(
+            [&](std::string_view what, int done, int total) { bar.update(what, done, total); });
+    }
+    rig.open();
+
+    SessionHeader header =
+        make_session_header(protocol, schedule, sculptures, rig.library(), rig.context().description(),
+                            rig.tracker().description(), rig.clock_kind());
+    SessionDirectory directory({options.sessions, protocol.name, observer.label}, options.session_number);
+    header.session_number = directory.session_number();
+    put_files(directory, header, sculptures, rig.library());
+    directory.publish();
+
+    SessionStore store(
+        directory.session_file(),
+        {.wait_when_full = options.virtual_time, .ring_capacity = 65536, .started_utc = header.started_utc});
+    Session session(protocol, schedule, screen_geometry_of(protocol).centre(),
+                    {rig.clock(), rig.presenter(), rig.tracker(), rig.panel(), store, {&rig.observer()}});
+    TrialProgress progress(protocol, static_cast<int>(schedule.trials.size()));
+    const SessionResult result = session.run(
+        [&](const Trial& trial, const TrialOutcome& outcome, int done) { progress(trial, outcome, done); });
+    progress.finish();
+    store.close();
+    const LostRows lost = store.lost();
+    if (lost.flips + lost.samples > 0)
+        fmt::print(stderr, "the disk was too slow: {} flips and {} samples were not recorded\n", lost.flips,
+                   lost.samples);
+
+    fmt::print("{} of {} trials completed, {} refreshes missed\nsession: {}\n", result.completed_trials,
+               schedule.trials.size(), result.missed_refreshes, directory.path().string());
+    if (!options.print_session_to.empty())
+        std::ofstream(options.print_session_to) << directory.path().string() << "\n";
+    if (result.aborted)
+        fmt::print(stderr, "the session ended early: {}\n", result.reason);
+    return result.aborted ? 1 : 0;
+}
+
+} // namespace overt
