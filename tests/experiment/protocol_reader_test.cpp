@@ -1,5 +1,7 @@
 #include "experiment/protocol/protocol_reader.h"
 
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 
 #include "experiment/protocol_fixtures.h"
@@ -186,6 +188,15 @@ TEST_CASE("lines lost to syntax errors raise no complaints about what they may h
     CHECK_THAT(lines[1], Catch::StartsWith("5:"));
 }
 
+TEST_CASE("headings without a name are found, whatever stands in their place", "[unit]") {
+    for (const char* heading : {"[=]\n", "[.a]\n", "[[{]]\n", "  [[ é ]]\n", "[]\n"}) {
+        CAPTURE(heading);
+        const ReadText read(minimal_protocol, heading);
+        REQUIRE(read.diagnostics.findings().size() == 1);
+        CHECK(read.diagnostics.findings()[0].place.line == 12);
+    }
+}
+
 TEST_CASE("a whole number may stand for a number, never a number for a whole one", "[unit]") {
     CHECK(ReadText(minimal_protocol, "[display]\nrefresh_hz = 60\n").protocol);
     CHECK(ReadText(minimal_protocol, "[display]\nheight_px = 1080.0\n").lines() ==
@@ -309,6 +320,49 @@ TEST_CASE("a file that cannot be read is named, without a place", "[unit]") {
                    Catch::Contains(": error: this is a folder"));
 }
 
+TEST_CASE("files that are there are found, and those of a sequence that are not are counted", "[unit]") {
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / fmt::format("overt_protocol_test_{}", ::getpid());
+    std::filesystem::create_directories(folder / "frames");
+    for (const char* name : {"m.ply", "p.toml", "frames/g_09.exr", "frames/g_11.exr", "frames/g_12.exr"})
+        std::ofstream(folder / name) << "\n";
+    const std::string text = std::string(minimal_protocol) +
+                             "[[sculpture]]\nid = \"m\"\nmesh = \"m.ply\"\n[[frames]]\nsculpture = \"m\"\n"
+                             "material = \"gold\"\nfiles = \"frames/g_##.exr\"\nfirst_number = 9\n"
+                             "[animation]\nframe_count = 5\n";
+    std::ofstream(folder / "p.toml") << text;
+    Diagnostics diagnostics;
+    CHECK_FALSE(read_protocol(folder / "p.toml", shipped_names, diagnostics));
+    REQUIRE(diagnostics.findings().size() == 1);
+    CHECK(diagnostics.findings()[0].place == Place{18, 9});
+    CHECK(diagnostics.findings()[0].message == "2 of 5 frames are missing");
+    CHECK(diagnostics.findings()[0].hint == "the first is " + (folder / "frames/g_10.exr").string());
+    for (const char* name : {"frames/g_10.exr", "frames/g_13.exr"})
+        std::ofstream(folder / name) << "\n";
+    Diagnostics complete;
+    CHECK(read_protocol(folder / "p.toml", shipped_names, complete));
+    CHECK(complete.print() == "");
+    std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("the protocols shown in docs/laser_scans.md are sound", "[unit]") {
+    const std::string page = text_of_file(source_path("docs/laser_scans.md"));
+    const auto block_after = [&](std::size_t from) {
+        const std::size_t begin = page.find("```toml\n", from) + 8;
+        return page.substr(begin, page.find("```", begin) - begin);
+    };
+    const std::string whole = block_after(0);
+    const ReadText read(whole);
+    CHECK(read.diagnostics.print() == "");
+    REQUIRE(read.protocol);
+    CHECK(read.protocol->sculptures.size() == 3);
+    CHECK(read.protocol->sculptures.at(1).head_planes.size() == 1);
+    const ReadText with_frames(whole, block_after(page.find("## Frames rendered elsewhere")));
+    CHECK(with_frames.diagnostics.print() == "");
+    REQUIRE(with_frames.protocol);
+    CHECK(frame_file(with_frames.protocol->frames.at(0), {1}) == "frames/hermes_smooth_0002.exr");
+}
+
 TEST_CASE("the protocols that overt brings are sound", "[unit]") {
     for (const char* file : {"protocols/overt_2019.toml", "protocols/quick_look.toml"}) {
         Diagnostics diagnostics;
@@ -330,7 +384,7 @@ TEST_CASE("no change of its bytes makes reading a protocol fail in any way but b
         std::string text = sound;
         for (int changes = 1 + static_cast<int>(random.below(8)); changes > 0; --changes) {
             const std::size_t at = random.below(static_cast<std::uint32_t>(text.size()));
-            switch (random.below(4)) {
+            switch (random.below(5)) {
             case 0:
                 text[at] = static_cast<char>(random.below(256));
                 break;
@@ -340,6 +394,9 @@ TEST_CASE("no change of its bytes makes reading a protocol fail in any way but b
             case 2:
                 text.insert(
                     at, text.substr(random.below(static_cast<std::uint32_t>(text.size())), random.below(60)));
+                break;
+            case 3:
+                text.insert(at, std::array{"é", "\u2003", "😀", "\\\n ", "\"\"\""}[random.below(5)]);
                 break;
             default:
                 text[at] = "[]{}=\"'#.,\n0-"[random.below(13)];
