@@ -1,5 +1,6 @@
 #include "experiment/protocol/protocol_reference.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <set>
 
