@@ -64,7 +64,7 @@ bool BlinkTrain::eye_closed_at(SessionTime time) const noexcept {
     const double t = to_seconds(time);
     const double stretch = std::floor(t / stretch_s);
     RandomStream random(seed_, "blinks", static_cast<std::uint64_t>(static_cast<std::int64_t>(stretch)));
-    const double length_s = std::min(random.uniform(shortest_blink_s, longest_blink_s), 0.5 * stretch_s);
+    const double length_s = std::min(random.uniform(shortest_blink_s, longest_blink_s), stretch_s);
     const double begin_s = random.uniform(0.0, stretch_s - length_s);
     const double within_s = t - stretch * stretch_s;
     return within_s >= begin_s && within_s < begin_s + length_s;

@@ -93,7 +93,7 @@ std::optional<Degrees> SimulatedEyeTracker::drift_check(ScreenPoint target) {
         int seen = 0;
         const std::int64_t first = first_tick_from(begin), last = first_tick_from(end);
         for (std::int64_t tick = first; tick < last; ++tick) {
-            if (const std::optional<ScreenPoint> gaze = sample_at(tick).gaze) {
+            if (const std::optional<ScreenPoint> gaze = sample_at(tick, offset_deg_).gaze) {
                 sum += glm::dvec2(gaze->x_px, gaze->y_px);
                 ++seen;
             }
@@ -121,6 +121,7 @@ ClockPair SimulatedEyeTracker::read_clocks() noexcept {
 void SimulatedEyeTracker::start_recording() {
     next_tick_ = std::max(next_tick_, first_tick_from(clock_->now()));
     end_tick_ = next_tick_;
+    recorded_offset_deg_ = offset_deg_;
     recording_ = true;
 }
 
@@ -129,6 +130,7 @@ void SimulatedEyeTracker::stop_recording() {
         return;
     end_tick_ = std::max(next_tick_, first_tick_from(clock_->now()));
     recording_ = false;
+    draw_offset();
 }
 
 std::size_t SimulatedEyeTracker::poll(std::span<GazeSample> into) noexcept {
@@ -141,7 +143,7 @@ std::size_t SimulatedEyeTracker::poll(std::span<GazeSample> into) noexcept {
     }
     std::size_t taken = 0;
     while (taken < into.size() && next_tick_ < arrived)
-        into[taken++] = sample_at(next_tick_++);
+        into[taken++] = sample_at(next_tick_++, recorded_offset_deg_);
     return taken;
 }
 
@@ -181,7 +183,7 @@ std::int64_t SimulatedEyeTracker::first_tick_from(SessionTime time) const noexce
     return tick;
 }
 
-GazeSample SimulatedEyeTracker::sample_at(std::int64_t tick) const noexcept {
+GazeSample SimulatedEyeTracker::sample_at(std::int64_t tick, glm::dvec2 offset_deg) const noexcept {
     const std::int64_t ns = ns_of_tick(tick);
     const SessionTime time = session_time_of_ns(ns);
     const TrueGaze gaze = observer_->gaze_at(time);
@@ -192,7 +194,7 @@ GazeSample SimulatedEyeTracker::sample_at(std::int64_t tick) const noexcept {
         return sample;
     const SampleNoise noise = noise_of(seed_, tick);
     const glm::dvec2 error_px =
-        (offset_deg_ + settings_.noise_deg * glm::dvec2(noise.x, noise.y)) * px_per_deg_;
+        (offset_deg + settings_.noise_deg * glm::dvec2(noise.x, noise.y)) * px_per_deg_;
     sample.gaze = ScreenPoint{rounded(gaze.place.x_px + error_px.x, settings_.steps_per_px),
                               rounded(gaze.place.y_px + error_px.y, settings_.steps_per_px)};
     sample.pupil_area = pupil_area_at(time, noise.pupil);

@@ -65,7 +65,8 @@ class SimulatedEyeTracker final : public EyeTracker {
     TrackerTime tracker_time_at(SessionTime time) const noexcept;
     /// The instant at which its clock shows a time.
     SessionTime session_time_at(TrackerTime time) const noexcept;
-    /// The truth about the present recording's constant offset, x to the right, y down.
+    /// The truth about the constant offset of the recording under way or, between two, of the one to come; x
+    /// to the right, y down.
     glm::dvec2 offset_deg() const noexcept { return offset_deg_; }
     /// Samples lost because they were not polled in time.
     std::int64_t overflowed() const noexcept { return overflowed_; }
@@ -75,7 +76,7 @@ class SimulatedEyeTracker final : public EyeTracker {
     SessionTime session_time_of_ns(std::int64_t tracker_ns) const noexcept;
     std::int64_t ns_of_tick(std::int64_t tick) const noexcept;
     std::int64_t first_tick_from(SessionTime time) const noexcept;
-    GazeSample sample_at(std::int64_t tick) const noexcept;
+    GazeSample sample_at(std::int64_t tick, glm::dvec2 offset_deg) const noexcept;
     float pupil_area_at(SessionTime time, double noise) const noexcept;
     void draw_offset();
 
@@ -87,7 +88,8 @@ class SimulatedEyeTracker final : public EyeTracker {
     std::int64_t clock_origin_ns_ = 0; ///< its time at the session's start
     RandomStream link_random_;
     std::uint64_t offsets_drawn_ = 0, calibrations_ = 0;
-    glm::dvec2 offset_deg_{0.0};
+    glm::dvec2 offset_deg_{0.0};          ///< of the recording under way or to come
+    glm::dvec2 recorded_offset_deg_{0.0}; ///< of the samples that can be polled
     bool recording_ = false;
     std::int64_t next_tick_ = 0; ///< to be polled next
     std::int64_t end_tick_ = 0;  ///< after the last of a recording that was stopped

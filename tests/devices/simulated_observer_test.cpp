@@ -123,7 +123,6 @@ TEST_CASE("halfway through a lit frame the eye is exactly on its target in that 
 TEST_CASE("the surface under the gaze is that of the frame really lit, missed refreshes included", "[unit]") {
     Sitting sitting(45, test::without_wandering());
     const RayCaster caster(sitting.mesh);
-    const ObservedScene& scene = sitting.observer.scene();
     sitting.present({0, 0, {}}, {3, 100, 101, 102, 480, 700});
     int checked = 0, between_steps = 0;
     double farthest_off_px = 0.0;
