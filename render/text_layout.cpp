@@ -94,7 +94,7 @@ LinearImage draw_fixation_target(double diameter_px, float grey, float backgroun
     cairo_arc(cairo, middle, middle, 0.5 * diameter_px, 0.0, 2.0 * std::numbers::pi);
     cairo_fill(cairo);
     // The cross is cut out of the disc, as wide as the dot that is put back: 0.2 of 0.6 degrees.
-    cairo_set_operator(cairo, CAIRO_OPERATOR_CLEAR);
+    cairo_set_operator(cairo, CAIRO_OPERATOR_DEST_OUT);
     cairo_set_line_width(cairo, diameter_px / 3.0);
     for (const bool upright : {false, true}) {
         cairo_move_to(cairo, upright ? middle : 0.0, upright ? 0.0 : middle);
