@@ -41,7 +41,7 @@ FlipRecord flip_number(int trial, int number) {
     flip.planned = {number % 3};
     flip.shown = {(number + 1) % 3};
     flip.page = {(number + 2) % 3};
-    const SessionTime blank(SessionDuration(123'456'789'012'345 + 10'000'000 * number));
+    const SessionTime blank(SessionDuration(123'456'789'012'345 + 10'000'000LL * number));
     flip.report = {{5'000'000'000 + number},
                    blank - SessionDuration(3),
                    blank - SessionDuration(2),
