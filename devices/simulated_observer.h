@@ -55,7 +55,8 @@ class SimulatedObserver final : public DisplayWitness {
     /// Throws GraphicsError if a sculpture's rays cannot be cast. The scene's meshes must outlive this.
     SimulatedObserver(ObservedScene scene, std::uint64_t seed, const ObserverSettings& settings = {});
 
-    /// A screen must have been seen since the presentation before. Casts some thousand rays (milliseconds).
+    /// A screen must have been seen since the presentation before. Casts some thousand rays, which takes
+    /// about a millisecond.
     void presentation_begins(const Trial& trial) noexcept override;
     void saw(const FlipRecord& flip) noexcept override;
     /// Ends a presentation: 150 ms later the eye returns to the middle of the screen.
