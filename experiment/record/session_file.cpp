@@ -37,8 +37,9 @@ SQLite::Database open_session_file(const std::filesystem::path& file, SessionFil
     try {
         SQLite::Database database(file.string(), use == SessionFileUse::write ? SQLite::OPEN_READWRITE
                                                                               : SQLite::OPEN_READONLY);
-        // A writer folding its file holds the lock for a moment only.
-        database.setBusyTimeout(2000);
+        // Readers wait while a writer folds its file. A writer can wait longer for somebody who looks into
+        // the session with a tool that locks it: its ring holds what comes in meanwhile.
+        database.setBusyTimeout(use == SessionFileUse::write ? 20'000 : 2'000);
         check_identity(database, file);
         return database;
     } catch (const SQLite::Exception& reason) {

@@ -101,7 +101,7 @@ void require_same(const FlipRecord& a, const FlipRecord& b) {
 } // namespace
 
 TEST_CASE("a session's header comes back from the disk in every field", "[unit]") {
-    const TemporaryDirectory root;
+    const TemporaryFolder root;
     const SessionHeader in = example_header();
     const SessionRecord record(make_session(root.path(), in));
     const SessionHeader& out = record.header();
@@ -178,7 +178,7 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
 }
 
 TEST_CASE("rows, outcomes, events and clock pairs come back as they were written", "[unit]") {
-    const TemporaryDirectory root;
+    const TemporaryFolder root;
     const SessionHeader header = example_header();
     const fs::path session = make_session(root.path(), header);
     const ClockPair pair{at_ms(1), TrackerTime(std::chrono::microseconds(77)), at_ms(2)};
@@ -252,7 +252,7 @@ TEST_CASE("rows, outcomes, events and clock pairs come back as they were written
 }
 
 TEST_CASE("a closed session is one file, and a read-only folder does not hinder its readers", "[unit]") {
-    const TemporaryDirectory root;
+    const TemporaryFolder root;
     const fs::path session = make_session(root.path(), example_header());
     SessionStore store(session / session_file_name, patient());
     write_trial(store, example_header().schedule.trials[0]);
@@ -305,7 +305,7 @@ TEST_CASE("a ring takes as many items as it holds and then refuses", "[unit]") {
 }
 
 TEST_CASE("each row is either kept or counted as lost when the ring overflows", "[unit]") {
-    const TemporaryDirectory root;
+    const TemporaryFolder root;
     const SessionHeader header = example_header();
     const fs::path session = make_session(root.path(), header);
     constexpr int count = 20'000;
@@ -329,7 +329,7 @@ TEST_CASE("each row is either kept or counted as lost when the ring overflows", 
 }
 
 TEST_CASE("a session whose program is killed keeps every completed trial, and goes on", "[unit]") {
-    const TemporaryDirectory root;
+    const TemporaryFolder root;
     const SessionHeader header = example_header();
     const fs::path session = make_session(root.path(), header);
     const int status = in_child([&] {
@@ -371,7 +371,7 @@ TEST_CASE("a session whose program is killed keeps every completed trial, and go
 }
 
 TEST_CASE("rows of a running trial can be read before it ends", "[unit]") {
-    const TemporaryDirectory root;
+    const TemporaryFolder root;
     const SessionHeader header = example_header();
     const fs::path session = make_session(root.path(), header);
     SessionStore store(session / session_file_name, patient());
@@ -388,7 +388,7 @@ TEST_CASE("rows of a running trial can be read before it ends", "[unit]") {
 }
 
 TEST_CASE("a full disk is reported, again and again, and leaves the earlier trials readable", "[unit]") {
-    const TemporaryDirectory root;
+    const TemporaryFolder root;
     const SessionHeader header = example_header();
     const fs::path session = make_session(root.path(), header);
     enum : int { finish_did_not_throw = 2, start_did_not_throw, close_did_not_throw, nothing_lost };
@@ -429,14 +429,14 @@ TEST_CASE("a full disk is reported, again and again, and leaves the earlier tria
 }
 
 TEST_CASE("one session cannot be run twice at the same time", "[unit]") {
-    const TemporaryDirectory root;
+    const TemporaryFolder root;
     const fs::path session = make_session(root.path(), example_header());
     const SessionStore store(session / session_file_name, patient());
     CHECK_THROWS_WITH(SessionStore(session / session_file_name, patient()), Contains("another program"));
 }
 
 TEST_CASE("files that are no session are refused with the reason", "[unit]") {
-    const TemporaryDirectory root;
+    const TemporaryFolder root;
     CHECK_THROWS_WITH(SessionRecord(root.path()), Contains("no session file here"));
 
     const fs::path file = root.path() / session_file_name;
@@ -474,7 +474,7 @@ TEST_CASE("files that are no session are refused with the reason", "[unit]") {
 }
 
 TEST_CASE("sessions of an observer are numbered on, and none is overwritten", "[unit]") {
-    const TemporaryDirectory root;
+    const TemporaryFolder root;
     const SessionHeader header = example_header();
     const SessionPlace place{root.path() / "sessions", "tiny", "AB7"};
     CHECK(next_session_number(place) == 1);
@@ -488,7 +488,7 @@ TEST_CASE("sessions of an observer are numbered on, and none is overwritten", "[
 }
 
 TEST_CASE("names that would not make one folder are refused", "[unit]") {
-    const TemporaryDirectory root;
+    const TemporaryFolder root;
     for (const char* label : {"", "a b", "../x", "sub-1", "ä"})
         CHECK_THROWS_AS(session_path({root.path(), "tiny", label}, 1), InputError);
     for (const char* name : {"", "a/b", "..", ".hidden", "a b"})
@@ -496,7 +496,7 @@ TEST_CASE("names that would not make one folder are refused", "[unit]") {
 }
 
 TEST_CASE("a session that was never published leaves nothing behind", "[unit]") {
-    const TemporaryDirectory root;
+    const TemporaryFolder root;
     const SessionPlace place{root.path(), "tiny", "1"};
     {
         const SessionDirectory directory(place);
@@ -510,7 +510,7 @@ TEST_CASE("a session that was never published leaves nothing behind", "[unit]") 
 }
 
 TEST_CASE("of two sessions made at once under one number only the first gets its name", "[unit]") {
-    const TemporaryDirectory root;
+    const TemporaryFolder root;
     const SessionPlace place{root.path(), "tiny", "1"};
     SessionDirectory first(place, 1), second(place, 1);
     create_session_file(first.session_file(), example_header());

@@ -74,7 +74,7 @@ void record_trial(SessionStore& store, const PageCycle& plan, const Trial& trial
 }
 
 struct Recorded {
-    TemporaryDirectory root;
+    TemporaryFolder root;
     fs::path session;
     explicit Recorded(const std::vector<int>& missed = {}) {
         const SessionHeader header = example_header();
@@ -265,7 +265,7 @@ TEST_CASE("an export replaces an earlier export only when asked, and other folde
 }
 
 TEST_CASE("cells keep their numbers to the last decimal, and texts in one cell", "[unit]") {
-    const TemporaryDirectory root;
+    const TemporaryFolder root;
     TsvWriter writer(root.path(), {"t.tsv", "", {{"a", "", "", {}}, {"b", "", "", {}}}});
     const auto row = [&](auto&& first, auto&& second) {
         first(), second();
