@@ -1,0 +1,149 @@
+#include <cmath>
+#include <numbers>
+
+#include "experiment/scene/sculptures/head.h"
+
+namespace overt {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// The surface that locks lie on.
+struct Scalp {
+    glm::dvec3 centre{0, 0.055, 0.12};
+    glm::dvec3 half_axes{0.315, 0.42, 0.36};
+
+    glm::dvec3 at(const glm::dvec3& direction, double height = 0.0) const {
+        const glm::dvec3 d = glm::normalize(direction);
+        return centre + d * ((1.0 + height) / glm::length(d / half_axes));
+    }
+};
+
+/// The opening of the hair for the face.
+void carve_face(Clay& hair, double hairline) {
+    hair.carve(ellipsoid({0, -0.44, hairline - 0.40}, {0.275, 0.30, 0.40}), 0.04);
+    hair.carve(ellipsoid({0, -0.20, -0.50}, {0.50, 0.36, 0.42}), 0.04);
+}
+
+/// Ridge with a round crest and a narrow valley, 0 to 1, once per unit of `phase`.
+double strand(double phase) {
+    const double s = std::sin(pi * phase);
+    return std::sqrt(s * s + 0.02) - 0.14;
+}
+
+/// Hair that runs in waves from a parting over the forehead to a knot behind, as great circles run from pole
+/// to pole.
+void add_parted_hair(Clay& head) {
+    Clay hair;
+    const Scalp scalp;
+    hair.add(ellipsoid(scalp.centre, scalp.half_axes), 0.05);
+    hair.add(ellipsoid({0, -0.05, 0.17}, {0.33, 0.35, 0.30}), 0.08);
+    carve_face(hair, 0.27);
+    const glm::dvec3 front(0, -0.40, 0.36);
+    const glm::dvec3 knot(0, 0.50, -0.02);
+    const glm::dvec3 axis = glm::normalize(knot - front);
+    const glm::dmat3 axes = frame_of(axis, {0, 0, 1});
+    const double length = glm::distance(front, knot);
+    hair.emboss({[=](const glm::dvec3& point, double) {
+                     const glm::dvec3 local = (point - front) * axes;
+                     const double share = local.z / length;
+                     const double angle = std::atan2(local.x, local.y) / pi;
+                     const double wave = 0.35 * std::sin(2.0 * pi * 3.2 * share) * (angle < 0 ? -1.0 : 1.0);
+                     const double parting = 1.0 - std::exp(-angle * angle / 0.0012);
+                     const double ends =
+                         smooth_step((share + 0.05) / 0.2) * smooth_step((1.02 - share) / 0.2);
+                     return 0.022 * ends * parting *
+                            (strand(angle * 13.0 + wave * parting) + 0.3 * strand(angle * 39.0 + wave));
+                 },
+                 {scalp.centre, 0.6}});
+    Clay bun;
+    bun.add(ellipsoid(knot, {0.15, 0.13, 0.14}, axes), 0.02);
+    bun.emboss({[=](const glm::dvec3& point, double) {
+                    const glm::dvec3 local = (point - knot) * axes;
+                    const double radius = std::hypot(local.x, local.y);
+                    const double turn = std::atan2(local.x, local.y) / (2.0 * pi);
+                    return 0.018 * smooth_step(radius / 0.06) * strand(turn * 5.0 + radius * 9.0);
+                },
+                {knot, 0.25}});
+    hair.add(bun, 0.04);
+    // A fillet holds the hair.
+    head.add(hair, 0.02);
+}
+
+/// Comma-shaped locks in a spiral from the crown to the hairline.
+void add_locks(Clay& hair, int count, double length, double thickness, double drop) {
+    const Scalp scalp;
+    for (int i = 0; i < count; ++i) {
+        const double z = 1.0 - 1.75 * (i + 0.5) / count;
+        const double turn = 2.39996323 * i;
+        const double ring = std::sqrt(1.0 - z * z);
+        // The pole of the spiral is the crown, a little behind the top.
+        const glm::dvec3 crown =
+            frame_of({0, 0.35, 1.0}, {0, 1, 0}) * glm::dvec3(ring * std::cos(turn), ring * std::sin(turn), z);
+        const glm::dvec3 root = scalp.at(crown, 0.02);
+        const glm::dvec3 from_face = root - glm::dvec3(0, -0.36, -0.10);
+        if (glm::length(from_face / glm::dvec3(0.27, 0.30, 0.37)) < 1.0 || root.z < -0.26 ||
+            (root.z < -0.02 && root.y < 0.10))
+            continue;
+        const glm::dvec3 down =
+            glm::normalize(glm::dvec3(0, -0.25, -1.0) - crown * glm::dot(glm::dvec3(0, -0.25, -1.0), crown));
+        const double side = (i % 2 == 0 ? 1.0 : -1.0) * (root.x < 0 ? -1.0 : 1.0);
+        const glm::dvec3 across = glm::cross(crown, down) * side;
+        const glm::dvec3 bend = root + length * (0.55 * down + 0.45 * across) + 0.045 * crown;
+        const glm::dvec3 tip = scalp.at(root + length * (drop * down - 0.25 * across) - scalp.centre, 0.01);
+        hair.add(cord(root, bend, tip, {0.6 * thickness, 1.25 * thickness, 0.35 * thickness}), 0.014);
+        hair.add(cord(root + 0.4 * thickness * across, bend + 0.9 * thickness * across + 0.01 * crown,
+                      tip + 0.9 * thickness * across, {0.4 * thickness, 0.8 * thickness, 0.25 * thickness}),
+                 0.010);
+    }
+}
+
+} // namespace
+
+void add_hair(Clay& head, Hair hair) {
+    if (hair == Hair::parted) {
+        add_parted_hair(head);
+        return;
+    }
+    Clay mass;
+    mass.add(ellipsoid(Scalp{}.centre, Scalp{}.half_axes * 0.985), 0.05);
+    carve_face(mass, hair == Hair::curls ? 0.25 : 0.28);
+    if (hair == Hair::curls)
+        add_locks(mass, 120, 0.13, 0.036, 0.55);
+    else
+        add_locks(mass, 90, 0.20, 0.036, 0.95);
+    head.add(mass, 0.02);
+}
+
+void add_beard(Clay& head) {
+    Clay beard;
+    beard.add(ellipsoid({0, -0.245, -0.45}, {0.185, 0.135, 0.17}), 0.05);
+    for (const double s : {-1.0, 1.0}) {
+        beard.add(bar({s * 0.262, -0.10, -0.13}, {s * 0.17, -0.22, -0.38}, 0.035, 0.075), 0.06);
+        beard.add(cord({s * 0.012, -0.402, -0.232}, {s * 0.075, -0.425, -0.250}, {s * 0.150, -0.338, -0.360},
+                       {0.018, 0.034, 0.012}),
+                  0.015);
+    }
+    // Locks in rows from the cheeks and the chin downwards, each curling outwards at its tip.
+    for (int row = 0; row < 4; ++row) {
+        const int locks = 9 - row;
+        for (int i = 0; i < locks; ++i) {
+            const double u = locks == 1 ? 0.0 : 2.0 * i / (locks - 1) - 1.0;
+            const double reach = 1.0 - 0.10 * row;
+            const double angle = u * 1.25 * reach;
+            const glm::dvec3 root(0.225 * reach * std::sin(angle),
+                                  -0.165 - 0.185 * std::cos(angle) * (1.0 - 0.08 * row),
+                                  -0.335 - 0.085 * row + 0.17 * u * u * (1.0 - 0.2 * row));
+            const double side = u < -0.01 ? -1.0 : u > 0.01 ? 1.0 : (row % 2 == 0 ? 1.0 : -1.0);
+            const glm::dvec3 out(std::sin(angle), -std::cos(angle), 0);
+            const glm::dvec3 across(side * std::cos(angle), side * std::sin(angle), 0);
+            const glm::dvec3 bend = root + 0.035 * out + glm::dvec3(0, 0, -0.13) - 0.05 * across;
+            const glm::dvec3 tip = root + 0.010 * out + glm::dvec3(0, 0, -0.15) + 0.055 * across;
+            beard.add(cord(root, bend, tip, {0.026, 0.040, 0.010}), 0.014);
+        }
+    }
+    head.add(beard, 0.02);
+}
+
+} // namespace overt
