@@ -94,6 +94,9 @@ class SessionStore::Writer {
     std::future<void> send(decltype(Message::content) content);
     void throw_failure();
     void wake() noexcept { bell_.ring(); }
+    /// Ends the thread when it has written all that was pushed.
+    void stop() noexcept;
+    /// After stop().
     void close();
 
     LostRows lost() const noexcept { return {lost_flips_, lost_samples_}; }
@@ -107,7 +110,6 @@ class SessionStore::Writer {
     void write_message(const Message& message);
     void fail(const SQLite::Exception& reason);
     void count_lost(const Row& row) noexcept;
-    void stop() noexcept;
 
     const std::filesystem::path file_;
     const bool wait_when_full_;
@@ -253,7 +255,6 @@ void SessionStore::Writer::stop() noexcept {
 }
 
 void SessionStore::Writer::close() {
-    stop();
     throw_failure();
     try {
         rows_.close();
@@ -301,11 +302,15 @@ void SessionStore::trial_finished(const Trial& trial, const TrialOutcome& outcom
 
 void SessionStore::map_made(const RecordedMap& map) { writer_->send(map); }
 
-LostRows SessionStore::lost() const noexcept { return writer_ ? writer_->lost() : LostRows{}; }
+LostRows SessionStore::lost() const noexcept { return writer_ ? writer_->lost() : lost_in_all_; }
 
 void SessionStore::close() {
-    if (const auto writer = std::move(writer_))
-        writer->close();
+    const std::unique_ptr<Writer> writer = std::move(writer_);
+    if (!writer)
+        return;
+    writer->stop();
+    lost_in_all_ = writer->lost();
+    writer->close();
 }
 
 } // namespace overt

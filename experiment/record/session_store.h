@@ -53,8 +53,8 @@ class SessionStore final : public SessionLog {
     /// Notes a map made while the session runs, replacing one of the same sculpture and pose.
     void map_made(const RecordedMap& map);
 
-    /// Since the store was opened. Rows that a failed transaction took with it count from the moment the
-    /// failure is known.
+    /// Since the store was opened. After a failure of writing, rows count as the writer comes to them: all of
+    /// them do once close() has returned or thrown.
     LostRows lost() const noexcept;
 
     /// Writes all that is left, syncs it and folds the file into one that needs no companions. Throws
@@ -63,7 +63,8 @@ class SessionStore final : public SessionLog {
 
   private:
     class Writer;
-    std::unique_ptr<Writer> writer_;
+    std::unique_ptr<Writer> writer_; ///< null once closed
+    LostRows lost_in_all_;           ///< once closed
 };
 
 } // namespace overt

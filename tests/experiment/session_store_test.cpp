@@ -410,9 +410,9 @@ TEST_CASE("a full disk is reported, again and again, and leaves the earlier tria
             ::_exit(finish_did_not_throw);
         if (!fails([&] { store.trial_started(header.schedule.trials[2], at_ms(20000)); }))
             ::_exit(start_did_not_throw);
-        std::ofstream(root.path() / "lost") << store.lost().samples << ' ' << store.lost().flips;
         if (!fails([&] { store.close(); }))
             ::_exit(close_did_not_throw);
+        std::ofstream(root.path() / "lost") << store.lost().samples << ' ' << store.lost().flips;
     });
     REQUIRE(WIFEXITED(status));
     REQUIRE(WEXITSTATUS(status) == 0);
