@@ -39,8 +39,11 @@ void describe_sculptures(SessionHeader& header, const Protocol& protocol,
                          std::span<const Sculpture> sculptures, const StimulusLibrary& library) {
     for (std::size_t i = 0; i < sculptures.size(); ++i) {
         const Sculpture& sculpture = sculptures[i];
-        RecordedSculpture recorded{sculpture.id, protocol.sculptures[i].title, sculpture.mesh_hash, "",
-                                   sculpture.mesh.part_names};
+        RecordedSculpture recorded;
+        recorded.id = sculpture.id;
+        recorded.title = protocol.sculptures[i].title;
+        recorded.mesh_sha256 = sculpture.mesh_hash;
+        recorded.part_names = sculpture.mesh.part_names;
         if (sculpture.has_mesh()) {
             recorded.mesh_file = fmt::format("meshes/{}.ply", sculpture.id);
             recorded.camera = sculpture.scene.view.camera;

@@ -5,6 +5,7 @@
 
 #include "experiment/error.h"
 #include "experiment/parallel.h"
+#include "experiment/scene/mesh_topology.h"
 #include "experiment/scene/ray_caster.h"
 
 namespace overt {
@@ -73,6 +74,7 @@ MeshBuffers::MeshBuffers(const GlContext& context, const Mesh& mesh, std::span<c
     const std::vector<glm::vec3> positions = positions_about(mesh, centre_);
     attribute(0, 3, std::as_bytes(std::span(positions)));
     if (!openness.empty()) {
+        is_closed_ = count_edges(mesh.triangles, mesh.positions.size()).bounds_volume();
         const std::vector<glm::vec3> normals = mesh.vertex_normals();
         attribute(1, 3, std::as_bytes(std::span(normals)));
         attribute(2, 4, std::as_bytes(openness));

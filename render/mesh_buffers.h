@@ -26,12 +26,16 @@ class MeshBuffers {
     /// What was subtracted from all positions.
     glm::dvec3 centre() const { return centre_; }
 
+    /// No edge is open: back faces are never seen from outside.
+    bool is_closed() const { return is_closed_; }
+
   private:
     const GlContext* context_;
     VertexArray array_;
     std::vector<Buffer> buffers_;
     GLsizei index_count_;
     glm::dvec3 centre_;
+    bool is_closed_ = false;
 };
 
 } // namespace overt

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "experiment/error.h"
-#include "experiment/parallel.h"
 #include "render_shaders.h"
 
 namespace overt {
@@ -15,27 +14,6 @@ Texture2D texture_of(const GlContext& context, const LightProbe& probe) {
     texture.upload(std::as_bytes(std::span(probe.radiance.pixels)));
     texture.set_linear_filter_wrapped();
     return texture;
-}
-
-/// Means of square blocks of samples.
-LinearImage box_filtered(const std::vector<glm::vec4>& samples, glm::ivec2 image_px, int per_side) {
-    LinearImage image(image_px);
-    const std::size_t row_length = static_cast<std::size_t>(image_px.x * per_side);
-    const float weight = 1.0f / static_cast<float>(per_side * per_side);
-    parallel_for(image_px.y, [&](int y) {
-        for (int x = 0; x < image_px.x; ++x) {
-            glm::vec4 sum(0.0f);
-            for (int sub_y = 0; sub_y < per_side; ++sub_y) {
-                const glm::vec4* first =
-                    &samples[static_cast<std::size_t>(y * per_side + sub_y) * row_length +
-                             static_cast<std::size_t>(x * per_side)];
-                for (int sub_x = 0; sub_x < per_side; ++sub_x)
-                    sum += first[sub_x];
-            }
-            image.at(x, y) = weight * sum;
-        }
-    });
-    return image;
 }
 
 } // namespace
@@ -54,7 +32,9 @@ StimulusRenderer::StimulusRenderer(const GlContext& context, const LightSettings
       program_(context, "stimulus", embedded::stimulus_vert, embedded::stimulus_frag),
       sharp_(texture_of(context, probe_)), soft_(texture_of(context, irradiance_over_pi(probe_, {64, 32}))),
       samples_(context, image_px * samples_per_side, PixelFormat::rgba32f),
-      target_(context, {&samples_}, true) {}
+      target_(context, {&samples_}, true),
+      resolve_(context, "resolve", embedded::encode_vert, embedded::resolve_frag), no_attributes_(context),
+      image_(context, image_px, PixelFormat::rgba32f), image_target_(context, {&image_}, false) {}
 
 void StimulusRenderer::set_material(const MaterialSettings& material) {
     material_ = material;
@@ -120,12 +100,28 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     mirrored_->bind(0);
     sharp_.bind(1);
     soft_.bind(2);
+    // The projection turns the picture upside down, and with it the fronts. What a closed surface has behind
+    // is never seen.
+    if (mesh.is_closed()) {
+        gl.Enable(GL_CULL_FACE);
+        gl.CullFace(GL_BACK);
+        gl.FrontFace(GL_CW);
+    }
     mesh.draw();
+    gl.Disable(GL_CULL_FACE);
 
-    const glm::ivec2 size = target_.size_px();
-    std::vector<glm::vec4> samples(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
-    read_pixels(*context_, 0, {0, 0}, size, PixelFormat::rgba32f, std::as_writable_bytes(std::span(samples)));
-    return box_filtered(samples, image_px_, samples_per_side);
+    image_target_.bind();
+    gl.Disable(GL_DEPTH_TEST);
+    resolve_.use();
+    resolve_.set("samples", 0);
+    resolve_.set("per_side", samples_per_side);
+    samples_.bind(0);
+    no_attributes_.bind();
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    LinearImage image(image_px_);
+    read_pixels(*context_, 0, {0, 0}, image_px_, PixelFormat::rgba32f,
+                std::as_writable_bytes(std::span(image.pixels)));
+    return image;
 }
 
 } // namespace overt

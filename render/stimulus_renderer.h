@@ -15,7 +15,7 @@
 namespace overt {
 
 /// Changes whenever the same inputs would give other pixels: part of the key under which frames are kept.
-constexpr int stimulus_renderer_version = 1;
+constexpr int stimulus_renderer_version = 2;
 
 /// One light for all stimuli of a protocol.
 class StimulusRenderer {
@@ -27,12 +27,12 @@ class StimulusRenderer {
     /// unknown metal.
     void set_material(const MaterialSettings& material);
 
-    /// Linear display RGB, alpha = share of each pixel that the object covers. 3 x 3 samples a pixel, box
+    /// Linear display RGB, alpha = share of each pixel that the object covers. 2 x 2 samples a pixel, box
     /// filter.
     LinearImage draw(const MeshBuffers& mesh, const SceneView& scene, Degrees angle);
 
   private:
-    static constexpr int samples_per_side = 3;
+    static constexpr int samples_per_side = 2;
     const GlContext* context_;
     LightSettings light_;
     LightProbe probe_;
@@ -44,6 +44,10 @@ class StimulusRenderer {
     MaterialSettings material_;
     Texture2D samples_;
     Framebuffer target_;
+    ShaderProgram resolve_;
+    VertexArray no_attributes_;
+    Texture2D image_;
+    Framebuffer image_target_;
 };
 
 /// Reflectance at normal incidence of "Au" or "Ag" in linear sRGB under D65, seen from a medium of refractive

@@ -31,7 +31,7 @@ vec3 probe(sampler2D picture, vec3 direction) {
 
 // Fresnel reflectance of a metal from its reflectance at normal incidence (Schlick 1994).
 vec3 metal_fresnel(vec3 at_normal, float cosine) {
-    return at_normal + (vec3(1.0) - at_normal) * pow(1.0 - cosine, 5.0);
+    return at_normal + (vec3(1.0) - at_normal) * pow(clamp(1.0 - cosine, 0.0, 1.0), 5.0);
 }
 
 // Exact Fresnel reflectance from air into a dielectric, unpolarised.
