@@ -38,9 +38,9 @@ void add_parted_hair(Clay& head) {
     Clay hair;
     const Scalp scalp;
     hair.add(ellipsoid(scalp.centre, scalp.half_axes), 0.05);
-    hair.add(ellipsoid({0, -0.05, 0.17}, {0.33, 0.35, 0.30}), 0.08);
+    hair.add(ellipsoid({0, -0.04, 0.16}, {0.328, 0.335, 0.295}), 0.08);
     carve_face(hair, 0.27);
-    const glm::dvec3 front(0, -0.40, 0.36);
+    const glm::dvec3 front(0, -0.30, 0.50);
     const glm::dvec3 knot(0, 0.50, -0.02);
     const glm::dvec3 axis = glm::normalize(knot - front);
     const glm::dmat3 axes = frame_of(axis, {0, 0, 1});
@@ -52,7 +52,7 @@ void add_parted_hair(Clay& head) {
                      const double wave = 0.35 * std::sin(2.0 * pi * 3.2 * share) * (angle < 0 ? -1.0 : 1.0);
                      const double parting = 1.0 - std::exp(-angle * angle / 0.0012);
                      const double ends =
-                         smooth_step((share + 0.05) / 0.2) * smooth_step((1.02 - share) / 0.2);
+                         smooth_step((share + 0.02) / 0.12) * smooth_step((1.02 - share) / 0.2);
                      return 0.022 * ends * parting *
                             (strand(angle * 13.0 + wave * parting) + 0.3 * strand(angle * 39.0 + wave));
                  },
@@ -67,7 +67,6 @@ void add_parted_hair(Clay& head) {
                 },
                 {knot, 0.25}});
     hair.add(bun, 0.04);
-    // A fillet holds the hair.
     head.add(hair, 0.02);
 }
 
@@ -110,37 +109,41 @@ void add_hair(Clay& head, Hair hair) {
     mass.add(ellipsoid(Scalp{}.centre, Scalp{}.half_axes * 0.985), 0.05);
     carve_face(mass, hair == Hair::curls ? 0.25 : 0.28);
     if (hair == Hair::curls)
-        add_locks(mass, 120, 0.13, 0.036, 0.55);
+        add_locks(mass, 190, 0.12, 0.036, 0.6);
     else
-        add_locks(mass, 90, 0.20, 0.036, 0.95);
+        add_locks(mass, 150, 0.20, 0.033, 0.95);
     head.add(mass, 0.02);
 }
 
 void add_beard(Clay& head) {
     Clay beard;
-    beard.add(ellipsoid({0, -0.245, -0.45}, {0.185, 0.135, 0.17}), 0.05);
+    beard.add(ellipsoid({0, -0.235, -0.43}, {0.19, 0.15, 0.17}), 0.05);
     for (const double s : {-1.0, 1.0}) {
-        beard.add(bar({s * 0.262, -0.10, -0.13}, {s * 0.17, -0.22, -0.38}, 0.035, 0.075), 0.06);
-        beard.add(cord({s * 0.012, -0.402, -0.232}, {s * 0.075, -0.425, -0.250}, {s * 0.150, -0.338, -0.360},
-                       {0.018, 0.034, 0.012}),
-                  0.015);
+        beard.add(bar({s * 0.255, -0.06, -0.14}, {s * 0.185, -0.19, -0.36}, 0.035, 0.085), 0.10);
+        beard.add(cord({s * 0.008, -0.402, -0.236}, {s * 0.085, -0.432, -0.245}, {s * 0.160, -0.335, -0.375},
+                       {0.018, 0.030, 0.010}),
+                  0.012);
+        beard.add(cord({s * 0.012, -0.398, -0.222}, {s * 0.085, -0.418, -0.222}, {s * 0.185, -0.310, -0.330},
+                       {0.012, 0.026, 0.008}),
+                  0.012);
     }
     // Locks in rows from the cheeks and the chin downwards, each curling outwards at its tip.
-    for (int row = 0; row < 4; ++row) {
-        const int locks = 9 - row;
+    for (int row = 0; row < 5; ++row) {
+        const int locks = 13 - 2 * row;
         for (int i = 0; i < locks; ++i) {
-            const double u = locks == 1 ? 0.0 : 2.0 * i / (locks - 1) - 1.0;
-            const double reach = 1.0 - 0.10 * row;
-            const double angle = u * 1.25 * reach;
-            const glm::dvec3 root(0.225 * reach * std::sin(angle),
-                                  -0.165 - 0.185 * std::cos(angle) * (1.0 - 0.08 * row),
-                                  -0.335 - 0.085 * row + 0.17 * u * u * (1.0 - 0.2 * row));
+            const double u = 2.0 * i / (locks - 1) - 1.0;
+            const double angle = u * (1.45 - 0.12 * row);
+            const double out_x = 0.25 - 0.022 * row;
+            const double out_y = 0.235 - 0.012 * row;
+            const glm::dvec3 root(out_x * std::sin(angle), -0.145 - out_y * std::cos(angle),
+                                  -0.335 - 0.070 * row + (0.20 - 0.03 * row) * u * u);
             const double side = u < -0.01 ? -1.0 : u > 0.01 ? 1.0 : (row % 2 == 0 ? 1.0 : -1.0);
             const glm::dvec3 out(std::sin(angle), -std::cos(angle), 0);
             const glm::dvec3 across(side * std::cos(angle), side * std::sin(angle), 0);
-            const glm::dvec3 bend = root + 0.035 * out + glm::dvec3(0, 0, -0.13) - 0.05 * across;
-            const glm::dvec3 tip = root + 0.010 * out + glm::dvec3(0, 0, -0.15) + 0.055 * across;
-            beard.add(cord(root, bend, tip, {0.026, 0.040, 0.010}), 0.014);
+            const double length = 0.115 + 0.02 * std::sin(2.3 * i + row);
+            const glm::dvec3 bend = root + 0.030 * out + glm::dvec3(0, 0, -0.9 * length) - 0.045 * across;
+            const glm::dvec3 tip = root + 0.004 * out + glm::dvec3(0, 0, -length) + 0.050 * across;
+            beard.add(cord(root, bend, tip, {0.024, 0.036, 0.010}), 0.012);
         }
     }
     head.add(beard, 0.02);

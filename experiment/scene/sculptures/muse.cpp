@@ -42,53 +42,170 @@ BodyPose muse_pose() {
     return pose;
 }
 
-/// The long robe, from the shoulders to the ground, without folds.
+/// Points on her, from a height above the ground in heads.
+double height(double heads) { return ground + heads * head_mm; }
+
+/// The long robe, from the breast to the ground, without folds.
 Clay bare_robe(const BodyPose& pose) {
     Clay robe;
-    const auto axis =
-        LoftAxis::straight({2, 4, ground + 1}, {2, 2, ground + 5.0 * head_mm}, {0, -1, 0}, {1, 0, 0});
+    const auto axis = LoftAxis::straight({0, 2, ground + 1}, {2, 2, height(5.0)}, {0, -1, 0}, {1, 0, 0});
     robe.add(loft(axis,
-                  {{0.0, 63, 46, 0, 2},
-                   {0.04, 62, 46, 0, 2},
-                   {0.2, 57, 43, 0, 3},
-                   {0.4, 52, 38, 0, 2},
+                  {{0.0, 70, 54, 0, 4},
+                   {0.05, 67, 52, 0, 4},
+                   {0.2, 60, 46, 0, 4},
+                   {0.4, 53, 39, 0, 2},
                    {0.62, 48, 33, 1, 0},
                    {0.76, 45, 31, 1, 0},
-                   {0.9, 37, 27, 0, 0},
-                   {1.0, 35, 26, 0, 0}},
+                   {0.9, 38, 28, 0, 0},
+                   {1.0, 38, 28, 0, 0}},
                   0.1),
              1.0);
-    robe.add(grown(sculpt_torso(pose).shape(), 2.2), 16.0);
     robe.add(grown(sculpt_leg(pose, pose.right_leg).shape(), 4.0), 34.0);
     robe.add(grown(sculpt_leg(pose, pose.left_leg).shape(), 3.0), 30.0);
+    Clay bodice;
+    bodice.add(grown(sculpt_torso(pose).shape(), 3.0), 1.0);
+    Clay below_neckline;
+    below_neckline.add(common(bodice.shape(), half_space({0, -36, height(5.52)}, {-0.06, -0.62, 0.8}), 3.0),
+                       1.0);
+    robe.add(below_neckline, 12.0);
     return robe;
 }
 
-std::vector<Fold> skirt_folds(const Clay& robe) {
-    std::vector<Fold> folds;
-    const glm::dvec2 axis(2, 0);
-    // Pipes that fall from the belt along the standing leg, and between the legs.
-    struct Pipe {
-        double top, bottom, z_top, width, height;
+/// From each shoulder over the breast to the belt, and the hollow between.
+void add_bodice_folds(std::vector<Fold>& folds, const BodyPose& pose) {
+    const auto chest = [&](double x, double y, double z) { return pose.chest.to_world({x, y, z}); };
+    struct Line {
+        double x_top, z_top, x_mid, z_mid, x_belt, width, height;
     };
-    for (const Pipe& p : {Pipe{62, 80, 300, 9, 6},
-                          {45, 60, 330, 9, 6.5},
-                          {33, 42, 345, 8, 6},
-                          {22, 26, 330, 9, 7},
-                          {12, 12, 350, 8, 6},
-                          {2, -1, 320, 9, 6.5},
-                          {-6, -14, 260, 8, 5.5},
-                          {-62, -58, 250, 9, 5},
-                          {-78, -76, 300, 10, 6},
-                          {-95, -97, 320, 10, 6},
-                          {82, 98, 320, 10, 6},
-                          {100, 116, 330, 10, 6},
-                          {-36, -34, 150, 8, 5},
-                          {-45, -46, 140, 8, 4.5},
-                          {-26, -24, 150, 7, 5}})
-        folds.push_back({falling_path(robe, axis, p.top, p.z_top, p.bottom, ground + 3), 0.7 * p.width,
-                         p.width, p.height, 0.45, 0.0});
+    for (const double s : {-1.0, 1.0})
+        for (const Line& l :
+             {Line{0.52, 0.60, 0.50, 0.10, 0.40, 5.0, 3.0}, Line{0.46, 0.58, 0.38, 0.05, 0.31, 4.5, 2.6},
+              Line{0.40, 0.54, 0.27, 0.02, 0.22, 4.5, 2.6}, Line{0.33, 0.46, 0.15, 0.00, 0.13, 4.5, 3.4},
+              Line{0.22, 0.30, 0.06, -0.05, 0.045, 4.0, 3.0}})
+            folds.push_back(
+                {hanging_path({chest(s * l.x_top, -0.28, l.z_top),
+                               chest(s * 0.5 * (l.x_top + l.x_mid), -0.42, 0.5 * (l.z_top + l.z_mid) + 0.04),
+                               chest(s * l.x_mid, -0.5, l.z_mid), chest(s * l.x_belt, -0.42, -0.42)}),
+                 0.7 * l.width, l.width, l.height, 0.15, 0.1});
+    // Swags between the breasts, under the neckline.
+    for (const double z : {0.22, 0.10})
+        folds.push_back({hanging_path({chest(-0.30, -0.42, z + 0.22), chest(-0.12, -0.46, z + 0.03),
+                                       chest(0.0, -0.45, z - 0.03), chest(0.12, -0.46, z + 0.03),
+                                       chest(0.30, -0.42, z + 0.22)}),
+                         3.5, 3.5, 2.2, 0.2, 0.2});
+    // The blouse over the belt.
+    for (int i = -5; i <= 5; ++i)
+        folds.push_back({hanging_path({chest(0.105 * i, -0.5, -0.46), chest(0.11 * i, -0.5, -0.60),
+                                       chest(0.12 * i + 0.02 * (i % 2), -0.5, -0.80 - 0.03 * (i % 3))}),
+                         3.6, 5.0, 3.0, 0.15, 0.5});
+}
+
+/// Pipes that fall to the ground.
+void add_skirt_folds(std::vector<Fold>& folds, const Clay& robe) {
+    struct Pipe {
+        double top, z_top, bottom, width, height;
+    };
+    for (const Pipe& p : {Pipe{-112, 330, -118, 12, 7},
+                          {-92, 330, -97, 11, 7.5},
+                          {-74, 300, -78, 10, 7},
+                          {-60, 240, -62, 9, 6.5},
+                          {-52, 170, -48, 8, 6},
+                          {-38, 150, -35, 7, 5.5},
+                          {-27, 150, -23, 7, 6},
+                          {-15, 260, -11, 8, 7.5},
+                          {-4, 320, 1, 8.5, 8},
+                          {8, 340, 13, 8.5, 8},
+                          {20, 340, 26, 8.5, 8},
+                          {32, 330, 39, 8.5, 7.5},
+                          {45, 320, 52, 9, 7.5},
+                          {58, 310, 66, 9, 7.5},
+                          {73, 320, 82, 10, 7.5},
+                          {90, 330, 100, 11, 7.5},
+                          {110, 330, 120, 12, 7}})
+        folds.push_back({falling_path(robe, {1, 2}, p.top, p.z_top, p.bottom, ground + 2), 0.75 * p.width,
+                         p.width, p.height, 0.4, 0.0});
+}
+
+/// The cloak about the hips: a second layer over the robe between a roll and a slanting hem.
+Clay bare_cloak(const Clay& robe) {
+    Clay layer;
+    layer.add(
+        common(common(grown(robe.shape(), 6.0), half_space({0, -30, height(4.02)}, {-0.40, 0.16, 1.0}), 4.0),
+               half_space({0, -40, height(1.55)}, {-0.42, -0.12, -1.0}), 4.0),
+        1.0);
+    return layer;
+}
+
+/// A fan of pulls from the left hip over the right thigh, knee and shin.
+std::vector<Fold> cloak_folds() {
+    std::vector<Fold> folds;
+    struct Pull {
+        glm::dvec3 from, through, to;
+        double width, height;
+    };
+    for (const Pull& p : {Pull{{50, -30, 392}, {5, -55, 338}, {-58, -14, 322}, 7, 5},
+                          {{52, -28, 380}, {8, -55, 315}, {-60, -16, 296}, 7, 5},
+                          {{54, -26, 368}, {10, -55, 290}, {-60, -18, 266}, 7.5, 5.5},
+                          {{55, -26, 352}, {14, -55, 262}, {-58, -22, 232}, 8, 6},
+                          {{55, -26, 335}, {18, -55, 236}, {-56, -26, 192}, 8, 6},
+                          {{55, -26, 315}, {20, -55, 215}, {-40, -48, 165}, 8, 6.5},
+                          {{57, -24, 300}, {28, -50, 205}, {-12, -52, 158}, 8, 6.5},
+                          {{59, -22, 285}, {38, -46, 205}, {18, -52, 165}, 8, 6},
+                          {{61, -20, 280}, {50, -36, 220}, {44, -42, 180}, 8, 6}})
+        folds.push_back(
+            {hanging_path({p.from, p.through, p.to}), 0.55 * p.width, p.width, p.height, 0.3, 0.35});
     return folds;
+}
+
+/// The end of the cloak that falls from the left forearm.
+Clay falling_end() {
+    Clay end;
+    const auto axis =
+        LoftAxis::straight({72, -30, height(4.55)}, {76, -26, height(1.6)}, {0, -1, 0}, {1, 0, 0});
+    end.add(loft(axis, {{0, 14, 24}, {0.1, 13, 25}, {0.5, 13, 24}, {1, 17, 28}}, 0.2), 1.0);
+    end.carve(half_space({76, -26, height(1.75)}, {0.1, -0.55, 1.0}), 3.0);
+    std::vector<Fold> folds;
+    for (const auto& [angle, w] : {std::pair{-80.0, 6.0},
+                                   {-42.0, 6.0},
+                                   {-8.0, 6.5},
+                                   {24.0, 6.0},
+                                   {58.0, 7.0},
+                                   {90.0, 8.0},
+                                   {122.0, 8.0}})
+        folds.push_back({falling_path(end, {74, -28}, angle, height(4.35), angle * 1.05, height(1.72)),
+                         0.7 * w, w, 5.5, 0.2, 0.0});
+    end.emboss(fold_relief(end, folds));
+    return end;
+}
+
+Clay sculpt_garments(const BodyPose& pose) {
+    Clay robe = bare_robe(pose);
+    Clay cloak = bare_cloak(robe);
+    std::vector<Fold> folds;
+    add_bodice_folds(folds, pose);
+    add_skirt_folds(folds, robe);
+    robe.emboss(fold_relief(robe, folds));
+    cloak.emboss(fold_relief(cloak, cloak_folds()));
+    robe.add(cloak, 2.5);
+    // The belt, and the roll that the cloak's upper edge makes.
+    for (const double side : {-1.0, 1.0})
+        robe.add(cord(pose.chest.to_world({0, -0.46, -0.44}),
+                      pose.chest.to_world({side * 0.50, -0.46, -0.44}),
+                      pose.chest.to_world({side * 0.56, 0.05, -0.43}), glm::dvec3(2.6)),
+                 2.0);
+    robe.add(twisted_roll(hanging_path({{-40, 40, 318},
+                                        {-62, 6, 318},
+                                        {-48, -32, 328},
+                                        {-14, -46, 346},
+                                        {24, -45, 372},
+                                        {52, -38, 392},
+                                        {70, -22, 396}}),
+                          11.0, 3, 1.6),
+             4.0);
+    robe.add(falling_end(), 5.0);
+    robe.add(bar(pose.left_arm.elbow, glm::mix(pose.left_arm.elbow, pose.left_arm.wrist, 0.72), 17.0, 16.0),
+             7.0);
+    return robe;
 }
 
 } // namespace
@@ -96,23 +213,18 @@ std::vector<Fold> skirt_folds(const Clay& robe) {
 Figure model_muse() {
     const BodyPose pose = muse_pose();
     Figure figure;
-    figure.head = sculpt_head({Hair::parted, false, 0.88, 0.6});
-    Clay head;
-    head.add(pose.head.place(figure.head.shape()), 1.0);
-    head.add(sculpt_neck(pose), 5.0);
-    figure.head = head;
-    Clay robe = bare_robe(pose);
-    robe.emboss(fold_relief(robe, skirt_folds(robe)));
-    figure.body.add(robe, 1.0);
-    figure.body.add(sculpt_arm(pose, pose.right_arm), 4.0);
-    figure.body.add(sculpt_arm(pose, pose.left_arm), 4.0);
+    figure.head.add(pose.head.place(sculpt_head({Hair::parted, false, 0.85, 0.6}).shape()), 1.0);
+    figure.head.add(sculpt_neck(pose), 5.0);
+    figure.body.add(sculpt_torso(pose), 1.0);
+    figure.body.add(sculpt_arm(pose, pose.right_arm), 6.0);
+    figure.body.add(sculpt_arm(pose, pose.left_arm), 6.0);
+    figure.body.add(sculpt_garments(pose), 1.5);
     figure.body.add(placed_hand(pose, pose.right_arm, false), 3.0);
     figure.body.add(placed_hand(pose, pose.left_arm, true), 3.0);
     figure.body.add(placed_foot(pose, pose.right_leg, false), 2.0);
     figure.body.add(placed_foot(pose, pose.left_leg, true), 2.0);
     figure.plinth = round_plinth(98);
     figure.mid_neck = glm::mix(pose.chest.to_world({0, 0, 0.95}), pose.head.to_world({0, 0.1, -0.45}), 0.5);
-    figure.neck_axis = {0, 0, 1};
     figure.fovea = {{pose.head.origin, 52.0}, 0.55};
     figure.box_mm = {{-120, -120, 0}, {120, 120, 640}};
     return figure;
