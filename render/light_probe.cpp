@@ -64,6 +64,19 @@ float cloud_cover(glm::vec3 direction) {
     return 1.0f + 0.35f * broad + 0.15f * fine;
 }
 
+/// Paving slabs of unequal shade, seen from 1.2 m above; darker near the foot, where the stand is in the way.
+float pavement(glm::vec3 direction) {
+    const glm::vec2 place = 1.2f * glm::vec2(direction.x, direction.y) / std::max(-direction.z, 0.02f);
+    const glm::vec2 slab = glm::floor(place / 0.8f);
+    const float shade = std::sin(12.9f * slab.x + 78.2f * slab.y) * 0.5f + 0.5f;
+    const glm::vec2 within = glm::abs(place / 0.8f - slab - 0.5f);
+    const float joint = std::max(within.x, within.y) > 0.47f ? 0.55f : 1.0f;
+    const float far = glm::length(place), open_sky = far / (far + 0.6f);
+    // Too fine to be seen far away: there only the mean is left.
+    return glm::mix(joint * (0.6f + 0.8f * shade), 0.97f, glm::clamp(far / 12.0f, 0.0f, 1.0f)) *
+           (0.25f + 0.9f * open_sky);
+}
+
 /// Two low-discrepancy numbers in [0, 1): Martin Roberts' R2 sequence (2018).
 glm::vec2 r2_point(int i) {
     const double x = 0.5 + 0.7548776662466927 * i, y = 0.5 + 0.5698402909980532 * i;
@@ -102,7 +115,7 @@ LightProbe overcast_city_probe() {
     return probe_of({1024, 512}, [&](glm::vec3 direction) {
         const float elevation = std::asin(glm::clamp(direction.z, -1.0f, 1.0f));
         if (elevation < 0.0f)
-            return glm::vec3(ground) * glm::vec3(1.0f, 0.97f, 0.92f);
+            return ground * pavement(direction) * glm::vec3(1.0f, 0.97f, 0.92f);
         const float azimuth = std::atan2(direction.x, direction.y);
         for (const House& house : houses) {
             if (azimuth < house.azimuth_from || azimuth >= house.azimuth_to || elevation > house.height)

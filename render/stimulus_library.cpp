@@ -1,5 +1,7 @@
 #include "render/stimulus_library.h"
 
+#include <future>
+
 #include <fmt/format.h>
 
 #include "experiment/error.h"
@@ -87,19 +89,26 @@ void StimulusLibrary::prepare(const Condition& condition, const Progress& progre
         renderer_.emplace(*context_, protocol_->light, sculpture.scene.view.image_px);
     renderer_->set_material(material);
     int done = count - static_cast<int>(missing.size());
+    // While one frame is compressed and written, the next is drawn.
+    std::future<void> writing;
     for (const int pose : missing) {
         if (progress)
             progress("drawing " + name, done++, count);
         const Degrees angle = poses_.angles[static_cast<std::size_t>(pose)];
-        const LinearImage image =
-            renderer_->draw(buffers_of(condition.sculpture, true), sculpture.scene, angle);
-        write_linear_exr(page_file(condition, pose), image,
-                         {{"overt:sculpture", sculpture.id},
-                          {"overt:material", material.id},
-                          {"overt:mesh_sha256", sculpture.mesh_hash},
-                          {"overt:angle_deg", fmt::format("{}", angle.value)},
-                          {"overt:renderer", "OpenGL preview"}});
+        LinearImage image = renderer_->draw(buffers_of(condition.sculpture, true), sculpture.scene, angle);
+        if (writing.valid())
+            writing.get();
+        ImageAttributes attributes{{"overt:sculpture", sculpture.id},
+                                   {"overt:material", material.id},
+                                   {"overt:mesh_sha256", sculpture.mesh_hash},
+                                   {"overt:angle_deg", fmt::format("{}", angle.value)},
+                                   {"overt:renderer", "OpenGL preview"}};
+        writing = std::async(std::launch::async, [file = page_file(condition, pose), image = std::move(image),
+                                                  attributes = std::move(attributes)] {
+            write_linear_exr(file, image, attributes);
+        });
     }
+    writing.get();
     if (progress)
         progress("drawing " + name, count, count);
 }

@@ -18,8 +18,8 @@ struct DesignAssumptions {
     double calibration_s = 180.0;   ///< calibrating and validating once a session
     double question_s = 4.0;        ///< reading a question; screens.task_min_s if that is longer
     double answer_s = 10.0;         ///< answering aloud, kept within response_min_s … response_max_s
-    double bytes_per_page_px = 8.0; ///< a page of the frame store: four channels of 16 bits
-    double bytes_per_map_px = 16.0; ///< a coordinate map while it is drawn: four floats
+    double bytes_per_page_px = 4.0; ///< a page of the frame store: the four bytes that are sent
+    double bytes_per_map_px = 4.0;  ///< a coordinate map: a triangle's number
 };
 
 struct AnimationFacts {
