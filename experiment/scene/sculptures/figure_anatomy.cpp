@@ -22,9 +22,9 @@ std::vector<Section> trunk_sections(bool is_woman) {
         return {{0.0, 0.44, 0.33, 0, 0.0},     {0.13, 0.60, 0.40, 0, -0.01}, {0.24, 0.585, 0.385, 0, -0.01},
                 {0.42, 0.43, 0.315, 0, 0.0},   {0.56, 0.485, 0.345, 0, 0},   {0.70, 0.53, 0.37, 0, 0.0},
                 {0.82, 0.54, 0.345, 0, -0.02}, {0.93, 0.43, 0.27, 0, -0.03}, {1.0, 0.25, 0.20, 0, -0.03}};
-    return {{0.0, 0.45, 0.34, 0, 0.0},     {0.13, 0.575, 0.40, 0, -0.02}, {0.24, 0.565, 0.385, 0, -0.01},
-            {0.40, 0.52, 0.355, 0, 0.0},   {0.55, 0.585, 0.39, 0, 0},     {0.68, 0.66, 0.435, 0, 0.0},
-            {0.80, 0.665, 0.42, 0, -0.02}, {0.92, 0.54, 0.33, 0, -0.05},  {1.0, 0.29, 0.23, 0, -0.05}};
+    return {{0.0, 0.42, 0.33, 0, 0.0},      {0.13, 0.55, 0.40, 0, -0.02}, {0.24, 0.565, 0.385, 0, -0.01},
+            {0.40, 0.545, 0.36, 0, 0.0},    {0.55, 0.60, 0.395, 0, 0},    {0.68, 0.665, 0.44, 0, 0.0},
+            {0.80, 0.665, 0.425, 0, -0.02}, {0.92, 0.54, 0.33, 0, -0.05}, {1.0, 0.29, 0.23, 0, -0.05}};
 }
 
 /// Relief along a cord: a groove (negative) or a ridge.
@@ -43,40 +43,45 @@ void model_man(Clay& torso, const Placement& chest, const Placement& pelvis) {
     const auto on_chest = [&](double x, double y, double z) { return chest.to_world({x, y, z}); };
     const auto on_pelvis = [&](double x, double y, double z) { return pelvis.to_world({x, y, z}); };
     for (const double s : {-1.0, 1.0}) {
-        const glm::dmat3 tilt = chest.axes * frame_of({s * 0.35, 0.28, 1.0}, {s * 0.35, 1.0, -0.2});
-        torso.add(ellipsoid(on_chest(s * 0.315, -0.30, 0.20), h * glm::dvec3(0.335, 0.125, 0.25), tilt),
-                  0.13 * h);
-        // Shoulder blade, flank and the flat muscle of the back.
-        torso.add(ellipsoid(on_chest(s * 0.36, 0.33, 0.12), h * glm::dvec3(0.24, 0.09, 0.33), chest.axes),
-                  0.16 * h);
-        torso.add(bar(on_chest(s * 0.56, 0.12, 0.12), on_chest(s * 0.36, 0.16, -0.62), 0.16 * h, 0.13 * h),
-                  0.16 * h);
-        torso.add(bar(on_chest(s * 0.07, 0.29, 0.30), on_pelvis(s * 0.10, 0.31, 0.42), 0.09 * h, 0.10 * h),
-                  0.13 * h);
+        const glm::dmat3 tilt = chest.axes * frame_of({s * 0.30, 0.22, 1.0}, {s * 0.40, 1.0, -0.2});
+        torso.add(ellipsoid(on_chest(s * 0.32, -0.275, 0.23), h * glm::dvec3(0.36, 0.105, 0.27), tilt),
+                  0.20 * h);
+        torso.add(ellipsoid(on_chest(s * 0.30, -0.33, 0.10), h * glm::dvec3(0.27, 0.075, 0.12), tilt),
+                  0.20 * h);
+        // Shoulder blade, flank and the long muscle of the back.
+        torso.add(ellipsoid(on_chest(s * 0.36, 0.31, 0.12), h * glm::dvec3(0.24, 0.09, 0.33), chest.axes),
+                  0.26 * h);
+        torso.add(bar(on_chest(s * 0.54, 0.12, 0.12), on_chest(s * 0.36, 0.16, -0.62), 0.16 * h, 0.13 * h),
+                  0.22 * h);
+        torso.add(bar(on_chest(s * 0.09, 0.28, 0.30), on_pelvis(s * 0.11, 0.28, 0.42), 0.10 * h, 0.11 * h),
+                  0.22 * h);
         // The fold of the flank over the hip, which ancient sculptors stress, down to the groin.
-        torso.add(ellipsoid(on_pelvis(s * 0.43, -0.06, 0.53), h * glm::dvec3(0.14, 0.27, 0.13), pelvis.axes),
-                  0.10 * h);
-        torso.emboss(line_relief(on_pelvis(s * 0.56, -0.18, 0.37), on_pelvis(s * 0.40, -0.48, 0.26),
-                                 on_pelvis(s * 0.14, -0.40, -0.06), 0.09 * h, -0.035 * h));
-        // The straight muscle of the belly.
+        torso.add(ellipsoid(on_pelvis(s * 0.37, -0.05, 0.56), h * glm::dvec3(0.19, 0.30, 0.24), pelvis.axes),
+                  0.26 * h);
+        torso.emboss(line_relief(on_pelvis(s * 0.60, -0.10, 0.36), on_pelvis(s * 0.44, -0.46, 0.30),
+                                 on_pelvis(s * 0.12, -0.38, -0.10), 0.11 * h, -0.035 * h));
+        // The straight muscle of the belly, and its inscriptions.
         torso.add(
-            bar(on_chest(s * 0.115, -0.355, -0.33), on_pelvis(s * 0.10, -0.315, 0.36), 0.125 * h, 0.11 * h),
-            0.10 * h);
-        torso.emboss(line_relief(on_chest(s * 0.05, -0.46, -0.36), on_chest(s * 0.26, -0.46, -0.36),
-                                 on_chest(s * 0.44, -0.36, -0.60), 0.07 * h, -0.026 * h));
-        torso.emboss(line_relief(on_chest(s * 0.03, -0.47, -0.62), on_chest(s * 0.13, -0.47, -0.64),
-                                 on_chest(s * 0.24, -0.43, -0.60), 0.055 * h, -0.022 * h));
-        torso.add(ellipsoid(on_pelvis(s * 0.25, 0.27, -0.02), h * glm::dvec3(0.29, 0.25, 0.33), pelvis.axes),
-                  0.12 * h);
-        torso.add(sphere(on_chest(s * 0.36, -0.435, 0.05), 0.028 * h), 0.03 * h);
+            bar(on_chest(s * 0.14, -0.27, -0.33), on_pelvis(s * 0.10, -0.255, 0.30), 0.17 * h, 0.14 * h),
+            0.22 * h);
+        torso.emboss(line_relief(on_chest(s * 0.02, -0.46, -0.26), on_chest(s * 0.30, -0.46, -0.28),
+                                 on_chest(s * 0.50, -0.32, -0.62), 0.10 * h, -0.028 * h));
+        torso.emboss(line_relief(on_chest(s * 0.30, -0.42, -0.35), on_chest(s * 0.31, -0.42, -0.75),
+                                 on_pelvis(s * 0.22, -0.40, 0.30), 0.10 * h, -0.022 * h));
+        for (const double z : {-0.50, -0.72})
+            torso.emboss(line_relief(on_chest(s * 0.03, -0.45, z), on_chest(s * 0.14, -0.45, z - 0.02),
+                                     on_chest(s * 0.25, -0.42, z + 0.02), 0.06 * h, -0.015 * h));
+        torso.add(ellipsoid(on_pelvis(s * 0.25, 0.26, -0.04), h * glm::dvec3(0.28, 0.25, 0.33), pelvis.axes),
+                  0.18 * h);
+        torso.add(sphere(on_chest(s * 0.37, -0.405, 0.06), 0.028 * h), 0.03 * h);
     }
-    torso.emboss(line_relief(on_chest(0, -0.46, 0.34), on_chest(0, -0.46, -0.2), on_chest(0, -0.48, -0.50),
-                             0.06 * h, -0.030 * h));
-    torso.emboss(line_relief(on_chest(0, -0.48, -0.40), on_chest(0, -0.48, -0.75), on_pelvis(0, -0.43, 0.50),
-                             0.05 * h, -0.024 * h));
+    torso.emboss(line_relief(on_chest(0, -0.42, 0.40), on_chest(0, -0.44, -0.0), on_chest(0, -0.46, -0.34),
+                             0.09 * h, -0.030 * h));
+    torso.emboss(line_relief(on_chest(0, -0.46, -0.30), on_chest(0, -0.46, -0.75), on_pelvis(0, -0.42, 0.46),
+                             0.07 * h, -0.020 * h));
     torso.emboss(line_relief(on_chest(0, 0.36, 0.35), on_chest(0, 0.46, -0.35), on_pelvis(0, 0.36, 0.35),
-                             0.09 * h, -0.045 * h));
-    torso.carve(sphere(on_pelvis(0, -0.445, 0.47), 0.030 * h), 0.04 * h);
+                             0.13 * h, -0.035 * h));
+    torso.carve(sphere(on_pelvis(0, -0.42, 0.44), 0.030 * h), 0.04 * h);
 }
 
 void model_woman(Clay& torso, const Placement& chest, const Placement& pelvis) {
@@ -112,7 +117,7 @@ Clay sculpt_torso(const BodyPose& pose) {
     for (const ArmPose* arm : {&pose.right_arm, &pose.left_arm}) {
         // From the neck to the shoulder, and the collar bone before it.
         const double breadth = pose.is_woman ? 0.8 : 1.0;
-        torso.add(bar(pose.chest.to_world({0, 0.10, 0.96}),
+        torso.add(bar(pose.chest.to_world({0, 0.10, 0.90}),
                       glm::mix(arm->shoulder, pose.chest.to_world({0, 0.1, 0.9}), 0.18), 0.20 * h * breadth,
                       0.14 * h * breadth),
                   0.22 * h);
@@ -140,7 +145,7 @@ Clay sculpt_neck(const BodyPose& pose) {
                         -pose.head.axes[1],
                         pose.chest.axes[0]};
     Clay neck;
-    neck.add(loft(axis, scaled({{0, 0.34, 0.25}, {0.3, 0.275, 0.25}, {0.6, 0.235, 0.25}, {1, 0.235, 0.255}},
+    neck.add(loft(axis, scaled({{0, 0.34, 0.25}, {0.3, 0.275, 0.25}, {0.6, 0.225, 0.24}, {1, 0.225, 0.245}},
                                h, breadth)),
              1.0);
     for (const double s : {-1.0, 1.0}) // from behind the ear to the pit of the throat
@@ -170,8 +175,9 @@ Clay sculpt_arm(const BodyPose& pose, const ArmPose& arm) {
         loft(LoftAxis::straight(arm.shoulder, arm.elbow, bend, side), scaled({{0, 0.22, 0.235},
                                                                               {0.25, 0.215, 0.235, 0, 0.01},
                                                                               {0.5, 0.19, 0.225, 0, 0.02},
-                                                                              {0.75, 0.175, 0.195, 0, 0.01},
-                                                                              {1, 0.178, 0.165}},
+                                                                              {0.75, 0.165, 0.19, 0, 0.01},
+                                                                              {0.9, 0.155, 0.165},
+                                                                              {1, 0.13, 0.13}},
                                                                              h, breadth)),
         1.0);
     const glm::dvec3 outwards = glm::normalize(arm.shoulder - pose.chest.to_world({0, 0, 0.45}));
@@ -189,11 +195,11 @@ Clay sculpt_arm(const BodyPose& pose, const ArmPose& arm) {
     forearm.front_at_start = glm::normalize(palm + 1.2 * glm::normalize(bend));
     forearm.front_at_end = palm;
     forearm.side = glm::cross(lower, palm);
-    clay.add(loft(forearm, scaled({{0, 0.165, 0.165},
-                                   {0.22, 0.195, 0.185},
+    clay.add(loft(forearm, scaled({{0, 0.13, 0.13},
+                                   {0.22, 0.19, 0.18},
                                    {0.5, 0.165, 0.15},
-                                   {0.8, 0.122, 0.10},
-                                   {1, 0.118, 0.088}},
+                                   {0.8, 0.118, 0.098},
+                                   {1, 0.106, 0.080}},
                                   h, breadth)),
              0.10 * h);
     clay.add(sphere(arm.elbow - 0.05 * h * glm::normalize(lower - upper + 0.01 * bend), 0.13 * h * breadth),
@@ -221,17 +227,17 @@ Clay sculpt_leg(const BodyPose& pose, const LegPose& leg) {
     const glm::dvec3 outer = glm::normalize(leg.hip - pose.pelvis.origin);
     Clay clay;
     clay.add(
-        loft(LoftAxis::straight(leg.hip, leg.knee, front, outer), scaled({{0, 0.345, 0.385, 0.0, 0},
-                                                                          {0.2, 0.35, 0.38, -0.02, 0.01},
+        loft(LoftAxis::straight(leg.hip, leg.knee, front, outer), scaled({{0, 0.275, 0.34, -0.03, 0},
+                                                                          {0.2, 0.335, 0.375, -0.02, 0.01},
                                                                           {0.45, 0.315, 0.345, 0.0, 0.025},
                                                                           {0.7, 0.255, 0.275, 0.01, 0.02},
-                                                                          {0.88, 0.215, 0.225, 0, 0.01},
-                                                                          {1, 0.205, 0.205}},
+                                                                          {0.9, 0.190, 0.205, 0, 0.005},
+                                                                          {1, 0.150, 0.155}},
                                                                          h, breadth)),
         1.0);
     clay.add(loft(LoftAxis::straight(leg.knee, leg.ankle, front, outer),
-                  scaled({{0, 0.20, 0.205, 0, 0},
-                          {0.12, 0.188, 0.20, 0, -0.01},
+                  scaled({{0, 0.150, 0.155, 0, 0},
+                          {0.12, 0.178, 0.195, 0, -0.015},
                           {0.30, 0.218, 0.235, 0.01, -0.055},
                           {0.5, 0.19, 0.20, 0.005, -0.05},
                           {0.75, 0.125, 0.14, 0, -0.02},
@@ -253,7 +259,7 @@ Clay sculpt_leg(const BodyPose& pose, const LegPose& leg) {
                      0.10 * h);
     }
     clay.add(
-        ellipsoid(leg.knee + 0.155 * h * front, h * glm::dvec3(0.10, 0.075, 0.12), frame_of(-shank, -front)),
+        ellipsoid(leg.knee + 0.125 * h * front, h * glm::dvec3(0.095, 0.075, 0.12), frame_of(-shank, -front)),
         0.09 * h);
     return clay;
 }

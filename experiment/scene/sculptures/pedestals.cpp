@@ -21,36 +21,39 @@ Shape disc(double z, double half_height, double radius, double rounding) {
 
 Clay round_plinth(double radius_mm) {
     Clay plinth;
-    plinth.add(disc(9, 9, radius_mm, 2.5), 1.0);
-    plinth.add(disc(30, 30, radius_mm - 9, 2.5), 6.0);
-    plinth.add(disc(51, 9, radius_mm - 3, 3.5), 6.0);
+    plinth.add(disc(9, 9, radius_mm, 4.5), 1.0);
+    plinth.add(disc(30, 30, radius_mm - 9, 4.5), 6.0);
+    plinth.add(disc(51, 9, radius_mm - 3, 5.0), 6.0);
     return plinth;
 }
 
 Clay square_plinth(const glm::dvec2& half_size_mm) {
     Clay plinth;
-    plinth.add(block({0, 0, 9}, {half_size_mm, 9}, 2.5), 1.0);
-    plinth.add(block({0, 0, 30}, {half_size_mm - 9.0, 30}, 2.5), 6.0);
-    plinth.add(block({0, 0, 51}, {half_size_mm - 3.0, 9}, 3.5), 6.0);
+    plinth.add(block({0, 0, 9}, {half_size_mm, 9}, 4.5), 1.0);
+    plinth.add(block({0, 0, 30}, {half_size_mm - 9.0, 30}, 4.5), 6.0);
+    plinth.add(block({0, 0, 51}, {half_size_mm - 3.0, 9}, 5.0), 6.0);
     return plinth;
 }
 
 Clay rock(const glm::dvec3& base_centre, const glm::dvec3& half_size_mm) {
-    Clay stone;
     const glm::dvec3 centre = base_centre + glm::dvec3(0, 0, half_size_mm.z - 4.0);
-    stone.add(block(centre, half_size_mm, 10.0), 1.0);
-    // Chisel facets: shallow bowls struck at even angles.
-    for (int i = 0; i < 46; ++i) {
-        const double z = 0.85 - 1.75 * (i + 0.5) / 46;
+    Clay stone;
+    stone.add(block(centre, half_size_mm, 12.0), 1.0);
+    // Broken faces: planes that cut off the corners and edges, at even angles about the block.
+    for (int i = 0; i < 17; ++i) {
         const double turn = 2.39996323 * i;
-        const glm::dvec3 direction(std::sqrt(1 - z * z) * std::cos(turn),
-                                   std::sqrt(1 - z * z) * std::sin(turn), z);
-        const glm::dvec3 scaled = glm::abs(direction) / half_size_mm;
-        const glm::dvec3 on_face = centre + direction / std::max({scaled.x, scaled.y, scaled.z});
-        const double radius = 11.0 + 5.0 * std::sin(3.7 * i);
-        if (on_face.z < centre.z + half_size_mm.z - 3.0)
-            stone.carve(sphere(on_face + direction * radius * 0.78, radius), 5.0);
+        const double rise = 0.75 * std::sin(1.9 * i + 0.4) + 0.1;
+        const glm::dvec3 outwards = glm::normalize(glm::dvec3(std::cos(turn), std::sin(turn), rise));
+        const double reach = glm::dot(glm::abs(outwards), half_size_mm);
+        const glm::dvec3 point = centre + outwards * reach * (0.80 + 0.05 * std::sin(5.3 * i));
+        stone.carve({[=](const glm::dvec3& p) { return glm::dot(point - p, outwards); },
+                     {centre + outwards * (reach + 60.0), reach + 150.0}},
+                    4.0);
     }
+    // The top is dressed, for the foot.
+    stone.add(block(base_centre + glm::dvec3(0, 0, 2.0 * half_size_mm.z - 12.0),
+                    {0.86 * half_size_mm.x, 0.80 * half_size_mm.y, 8.0}, 5.0),
+              6.0);
     return stone;
 }
 
