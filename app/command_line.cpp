@@ -163,6 +163,28 @@ int run_command_line(int argc, char** argv) {
     doctor_command.add_flag("--json", doctor.json, "Print JSON");
     doctor_command.callback([&] { command = [&] { return run_doctor(doctor); }; });
 
+    BenchOptions bench;
+    auto& bench_command = add_command(app, "bench", "The program's own benchmarks",
+                                      "overt bench lut --json\n"
+                                      "  overt bench lut --mesh statue.ply --up y");
+    bench_command.add_option("WHICH", bench.what, "lut: the hidden pass, its exactness, time and memory")
+        ->required()
+        ->check(CLI::IsMember({"lut"}));
+    bench_command
+        .add_option("--mesh", bench.mesh,
+                    "Measure on this mesh (PLY, OBJ, STL) instead of the shipped sculptures")
+        ->type_name("FILE");
+    bench_command.add_option("--up", bench.up, "Axis of the mesh file that points up")
+        ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
+        ->capture_default_str();
+    bench_command.add_option("--size", bench.size_px, "Width and height of the picture")
+        ->type_name("PX")
+        ->check(CLI::Range(16, 8192))
+        ->capture_default_str();
+    add_context_option(bench_command, bench.context);
+    bench_command.add_flag("--json", bench.json, "Print JSON");
+    bench_command.callback([&] { command = [&] { return run_bench(bench); }; });
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -70,4 +70,14 @@ struct DoctorOptions {
 };
 int run_doctor(const DoctorOptions& options);
 
+struct BenchOptions {
+    std::string what;           ///< which benchmark
+    std::filesystem::path mesh; ///< measure on this one instead of the shipped sculptures
+    std::string up = "z";       ///< axis of the mesh file that points up
+    int size_px = 1024;         ///< width and height of the picture
+    ContextChoice context;
+    bool json = false;
+};
+int run_bench(const BenchOptions& options);
+
 } // namespace overt

@@ -1,0 +1,96 @@
+#include "app/bench_command.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/cache_folder.h"
+#include "experiment/error.h"
+#include "experiment/scene/sculptures/sculptures.h"
+
+namespace overt {
+
+namespace {
+
+struct Benchmark {
+    std::string_view name;
+    BenchFigures (*measure)(const BenchOptions&);
+};
+
+constexpr Benchmark benchmarks[] = {{"lut", bench_lut}};
+
+nlohmann::ordered_json to_json(const BenchFigures& figures) {
+    auto list = nlohmann::ordered_json::array();
+    for (const BenchFigure& figure : figures) {
+        nlohmann::ordered_json item{
+            {"figure", figure.figure}, {"value", figure.value}, {"unit", figure.unit}};
+        if (figure.holds) {
+            item["target"] = figure.target;
+            item["holds"] = *figure.holds;
+        }
+        list.push_back(std::move(item));
+    }
+    return {{"figures", list}};
+}
+
+void print_table(const BenchFigures& figures) {
+    std::size_t width = 0;
+    for (const BenchFigure& figure : figures)
+        width = std::max(width, figure.figure.size());
+    for (const BenchFigure& figure : figures) {
+        fmt::print("{:<{}}  {:>12.5g} {:<10}", figure.figure, width, figure.value, figure.unit);
+        if (figure.holds)
+            fmt::print(" {:<12} {}", figure.target, *figure.holds ? "holds" : "MISSED");
+        fmt::print("\n");
+    }
+}
+
+} // namespace
+
+BenchFigure at_most(std::string figure, double value, std::string unit, double bound) {
+    return {std::move(figure), value, std::move(unit), fmt::format("<= {}", bound), value <= bound};
+}
+
+BenchFigure at_least(std::string figure, double value, std::string unit, double bound) {
+    return {std::move(figure), value, std::move(unit), fmt::format(">= {}", bound), value >= bound};
+}
+
+BenchScene bench_scene(const BenchOptions& options) {
+    BenchScene scene;
+    scene.protocol.name = "bench";
+    scene.protocol.view.width_px = scene.protocol.view.height_px = options.size_px;
+    if (!options.mesh.empty()) {
+        SculptureSettings settings;
+        settings.id = options.mesh.stem().string();
+        settings.mesh = options.mesh;
+        settings.up = options.up;
+        scene.protocol.sculptures.push_back(std::move(settings));
+    } else {
+        for (const SculptureDescription& shipped : shipped_sculptures()) {
+            SculptureSettings settings;
+            settings.id = settings.shipped = std::string(shipped.name);
+            scene.protocol.sculptures.push_back(std::move(settings));
+        }
+    }
+    scene.sculptures = load_sculptures(scene.protocol, cache_folder());
+    return scene;
+}
+
+int run_bench(const BenchOptions& options) {
+    const auto chosen = std::find_if(std::begin(benchmarks), std::end(benchmarks),
+                                     [&](const Benchmark& one) { return one.name == options.what; });
+    if (chosen == std::end(benchmarks))
+        throw InputError(fmt::format("there is no benchmark «{}»: see overt bench --help", options.what));
+    const BenchFigures figures = chosen->measure(options);
+    if (options.json) {
+        fmt::print("{}\n", to_json(figures).dump(2));
+    } else {
+        print_table(figures);
+    }
+    const bool all_hold = std::all_of(figures.begin(), figures.end(),
+                                      [](const BenchFigure& figure) { return figure.holds.value_or(true); });
+    return all_hold ? 0 : 1;
+}
+
+} // namespace overt
