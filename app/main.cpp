@@ -8,6 +8,8 @@
 #include "experiment/error.h"
 
 int main(int argc, char** argv) {
+    // What is said comes line by line, also through a pipe, and in order with the progress on standard error.
+    std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
     try {
         return overt::run_command_line(argc, argv);
     } catch (const overt::FindingsPrinted&) {

@@ -98,7 +98,7 @@ LinearImage map_as_colours(const CoordinateMaps& maps, const Mesh& mesh, PoseInd
 
 LinearImage draw_trial_picture(const TrialPictureContent& content) {
     const glm::ivec2 panel = content.frame.size_px;
-    LinearImage picture({3 * panel.x + 4 * margin_px, panel.y + 3 * margin_px + 3 * caption_px});
+    LinearImage picture({3 * panel.x + 4 * margin_px, panel.y + 2 * margin_px + 2 * caption_px});
     std::fill(picture.pixels.begin(), picture.pixels.end(), glm::vec4(glm::vec3(paper), 1.0f));
     LinearImage frame = content.frame;
     for (glm::vec4& pixel : frame.pixels)

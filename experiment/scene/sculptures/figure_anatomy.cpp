@@ -138,20 +138,19 @@ Clay sculpt_torso(const BodyPose& pose) {
 Clay sculpt_neck(const BodyPose& pose) {
     const double h = pose.head.scale;
     const double breadth = pose.is_woman ? 0.84 : 1.0;
-    const LoftAxis axis{pose.chest.to_world({0, 0.07, 0.72}),
+    const LoftAxis axis{pose.chest.to_world({0, 0.03, 0.62}),
                         0.5 * (pose.chest.to_world({0, 0.04, 1.05}) + pose.head.to_world({0, 0.12, -0.52})),
                         pose.head.to_world({0, 0.10, -0.18}),
                         -pose.chest.axes[1],
                         -pose.head.axes[1],
                         pose.chest.axes[0]};
     Clay neck;
-    neck.add(loft(axis, scaled({{0, 0.34, 0.25}, {0.3, 0.275, 0.25}, {0.6, 0.225, 0.24}, {1, 0.225, 0.245}},
+    neck.add(loft(axis, scaled({{0, 0.27, 0.20}, {0.3, 0.255, 0.235}, {0.6, 0.225, 0.24}, {1, 0.225, 0.245}},
                                h, breadth)),
              1.0);
     for (const double s : {-1.0, 1.0}) // from behind the ear to the pit of the throat
         neck.add(bar(pose.head.to_world({s * 0.22, 0.10, -0.22}),
-                     pose.chest.to_world({s * 0.06, -0.17, 0.72}), 0.065 * h * breadth, 0.04 * h * breadth),
-                 0.09 * h);
+                     pose.chest.to_world({s * 0.06, -0.13, 0.70}), 0.06 * h * breadth, 0.025 * h * breadth), 0.12 * h);
     if (!pose.is_woman)
         neck.add(sphere(glm::mix(pose.head.to_world({0, -0.15, -0.42}), pose.chest.to_world({0, -0.17, 0.85}),
                                  0.4),

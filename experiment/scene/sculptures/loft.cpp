@@ -65,17 +65,29 @@ class SectionSpline {
     std::vector<Values> bends_;
 };
 
+/// Farther off than this a loft gives a lower bound of its distance, which costs less: no seam is filled and
+/// no block of the grid decided upon so far from the surface.
+constexpr double bound_suffices_mm = 45.0;
+
 class Loft {
   public:
-    Loft(const LoftAxis& axis, const std::vector<Section>& sections, double cap)
-        : axis_(axis), curve_{axis.start, axis.control, axis.end}, spline_(sections), cap_(cap) {
-        const glm::dvec3 natural =
-            glm::cross(curve_.derivative(0.5), axis.front_at_start + axis.front_at_end);
+    Loft(const LoftAxis& axis, const std::vector<Section>& sections, double cap, double reach)
+        : axis_(axis), curve_{axis.start, axis.control, axis.end}, spline_(sections), cap_(cap), reach_(reach) {
+        const glm::dvec3 natural = glm::cross(curve_.derivative(0.5), axis.front_at_start + axis.front_at_end);
         hand_ = glm::dot(natural, axis.side) < 0.0 ? -1.0 : 1.0;
+        const double bend = glm::distance(axis.control, 0.5 * (axis.start + axis.end));
+        is_straight_ = bend < 1e-6;
+        reach_ += 0.5 * bend;
     }
 
     double distance(const glm::dvec3& point) const {
-        const double t = parameter(point);
+        const glm::dvec3 chord = curve_.b - curve_.a;
+        const double on_chord =
+            std::clamp(glm::dot(point - curve_.a, chord) / glm::dot(chord, chord), 0.0, 1.0);
+        const double bound = glm::distance(point, curve_.a + on_chord * chord) - reach_;
+        if (bound > bound_suffices_mm)
+            return bound;
+        const double t = is_straight_ ? on_chord : parameter(point, on_chord);
         const glm::dvec3 along = glm::normalize(curve_.derivative(t));
         glm::dvec3 front = glm::mix(axis_.front_at_start, axis_.front_at_end, t);
         front = glm::normalize(front - along * glm::dot(front, along));
@@ -83,16 +95,13 @@ class Loft {
         const auto [half_side, half_front, side_shift, front_shift] = spline_.at(t);
         const glm::dvec3 offset = point - curve_.at(t);
         const double beyond = (t <= 0.0 || t >= 1.0) ? glm::dot(offset, along) : 0.0;
-        const glm::dvec3 inside(glm::dot(offset, side) - side_shift, glm::dot(offset, front) - front_shift,
-                                beyond);
+        const glm::dvec3 inside(glm::dot(offset, side) - side_shift, glm::dot(offset, front) - front_shift, beyond);
         return ellipsoid_distance(inside, {half_side, half_front, cap_ * std::min(half_side, half_front)});
     }
 
   private:
     /// Newton steps from the chord; the curve is bent too little for a second foot near the surface.
-    double parameter(const glm::dvec3& point) const {
-        const glm::dvec3 chord = curve_.b - curve_.a;
-        double t = std::clamp(glm::dot(point - curve_.a, chord) / glm::dot(chord, chord), 0.0, 1.0);
+    double parameter(const glm::dvec3& point, double t) const {
         const glm::dvec3 bend = 2.0 * (curve_.a - 2.0 * curve_.control + curve_.b);
         for (int i = 0; i < 4; ++i) {
             const glm::dvec3 slope = curve_.derivative(t);
@@ -108,21 +117,24 @@ class Loft {
     QuadraticCurve curve_;
     SectionSpline spline_;
     double cap_;
+    double reach_;
     double hand_;
+    bool is_straight_;
 };
 
 } // namespace
 
 Shape loft(const LoftAxis& axis, const std::vector<Section>& sections, double cap) {
     Ball ball{axis.start, 0.0};
+    double farthest = 0.0;
     const QuadraticCurve curve{axis.start, axis.control, axis.end};
     for (const Section& s : sections) {
-        const double reach =
-            1.15 * std::max(s.half_side, s.half_front) + std::hypot(s.side_shift, s.front_shift);
+        // Splines may swing a little beyond the sections.
+        const double reach = 1.15 * std::max(s.half_side, s.half_front) + std::hypot(s.side_shift, s.front_shift);
         ball = enclosing_ball(ball, {curve.at(s.along), reach});
+        farthest = std::max(farthest, reach);
     }
-    return {[solid = Loft(axis, sections, cap)](const glm::dvec3& point) { return solid.distance(point); },
-            ball};
+    return {[solid = Loft(axis, sections, cap, farthest)](const glm::dvec3& point) { return solid.distance(point); }, ball};
 }
 
 } // namespace overt

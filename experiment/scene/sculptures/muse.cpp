@@ -18,7 +18,7 @@ BodyPose muse_pose() {
     pose.is_woman = true;
     pose.pelvis = {{5, 0, ground + 3.85 * head_mm}, posture(-4, 0, -6), head_mm};
     pose.chest = {{0, 1, ground + 5.40 * head_mm}, posture(3, -2, 5), head_mm};
-    pose.head = {{-4, -7, ground + 7.0 * head_mm}, posture(-20, 9, -5), head_mm};
+    pose.head = {{-4, -7, ground + 6.94 * head_mm}, posture(-20, 9, -5), head_mm};
     pose.right_leg = {pose.pelvis.to_world({-0.36, 0, 0}),
                       {-30, -36, ground + 2.02 * head_mm},
                       {-40, 8, ground + 0.30 * head_mm},
@@ -65,7 +65,7 @@ Clay bare_robe(const BodyPose& pose) {
     Clay bodice;
     bodice.add(grown(sculpt_torso(pose).shape(), 3.0), 1.0);
     Clay below_neckline;
-    below_neckline.add(common(bodice.shape(), half_space({0, -36, height(5.52)}, {-0.06, -0.62, 0.8}), 3.0),
+    below_neckline.add(common(bodice.shape(), half_space({0, -36, height(5.56)}, {-0.05, -0.88, 0.47}), 3.0),
                        1.0);
     robe.add(below_neckline, 12.0);
     return robe;
@@ -79,8 +79,8 @@ void add_bodice_folds(std::vector<Fold>& folds, const BodyPose& pose) {
     };
     for (const double s : {-1.0, 1.0})
         for (const Line& l :
-             {Line{0.52, 0.60, 0.50, 0.10, 0.40, 5.0, 3.0}, Line{0.46, 0.58, 0.38, 0.05, 0.31, 4.5, 2.6},
-              Line{0.40, 0.54, 0.27, 0.02, 0.22, 4.5, 2.6}, Line{0.33, 0.46, 0.15, 0.00, 0.13, 4.5, 3.4},
+             {Line{0.56, 0.66, 0.50, 0.10, 0.40, 5.0, 3.0}, Line{0.50, 0.66, 0.38, 0.05, 0.31, 4.5, 2.6},
+              Line{0.44, 0.64, 0.27, 0.02, 0.22, 4.5, 2.6}, Line{0.38, 0.60, 0.15, 0.00, 0.13, 4.5, 3.4},
               Line{0.22, 0.30, 0.06, -0.05, 0.045, 4.0, 3.0}})
             folds.push_back(
                 {hanging_path({chest(s * l.x_top, -0.28, l.z_top),
@@ -94,10 +94,9 @@ void add_bodice_folds(std::vector<Fold>& folds, const BodyPose& pose) {
                                        chest(0.30, -0.42, z + 0.22)}),
                          3.5, 3.5, 2.2, 0.2, 0.2});
     // The blouse over the belt.
-    for (int i = -5; i <= 5; ++i)
-        folds.push_back({hanging_path({chest(0.105 * i, -0.5, -0.46), chest(0.11 * i, -0.5, -0.60),
-                                       chest(0.12 * i + 0.02 * (i % 2), -0.5, -0.80 - 0.03 * (i % 3))}),
-                         3.6, 5.0, 3.0, 0.15, 0.5});
+    for (int i = -4; i <= 4; ++i)
+        folds.push_back({hanging_path({chest(0.13 * i, -0.5, -0.47), chest(0.135 * i, -0.5, -0.70), chest(0.14 * i, -0.5, -0.92), chest(0.145 * i + 0.03 * (i % 2), -0.5, -1.12 - 0.06 * (i % 3))}),
+                         4.2, 7.0, 3.8, 0.15, 0.55});
 }
 
 /// Pipes that fall to the ground.
@@ -186,7 +185,7 @@ Clay sculpt_garments(const BodyPose& pose) {
     add_skirt_folds(folds, robe);
     robe.emboss(fold_relief(robe, folds));
     cloak.emboss(fold_relief(cloak, cloak_folds()));
-    robe.add(cloak, 2.5);
+    robe.add(cloak, 4.0);
     // The belt, and the roll that the cloak's upper edge makes.
     for (const double side : {-1.0, 1.0})
         robe.add(cord(pose.chest.to_world({0, -0.46, -0.44}),
@@ -194,7 +193,7 @@ Clay sculpt_garments(const BodyPose& pose) {
                       pose.chest.to_world({side * 0.56, 0.05, -0.43}), glm::dvec3(2.6)),
                  2.0);
     robe.add(twisted_roll(hanging_path({{-40, 40, 318},
-                                        {-62, 6, 318},
+                                        {-60, 6, 320},
                                         {-48, -32, 328},
                                         {-14, -46, 346},
                                         {24, -45, 372},
@@ -218,7 +217,7 @@ Figure model_muse() {
     figure.body.add(sculpt_torso(pose), 1.0);
     figure.body.add(sculpt_arm(pose, pose.right_arm), 6.0);
     figure.body.add(sculpt_arm(pose, pose.left_arm), 6.0);
-    figure.body.add(sculpt_garments(pose), 1.5);
+    figure.body.add(sculpt_garments(pose), 3.0);
     figure.body.add(placed_hand(pose, pose.right_arm, false), 3.0);
     figure.body.add(placed_hand(pose, pose.left_arm, true), 3.0);
     figure.body.add(placed_foot(pose, pose.right_leg, false), 2.0);

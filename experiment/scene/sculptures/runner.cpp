@@ -69,13 +69,8 @@ Clay sculpt_cloak(const BodyPose& pose, const Clay& skin) {
     struct Pipe {
         double thigh, x_end, drop, width, height;
     };
-    for (const Pipe& p : {Pipe{0.24, 50, 150, 7.5, 7.5},
-                          {0.36, 34, 148, 7, 6},
-                          {0.42, 25, 146, 5, 8.5},
-                          {0.52, 8, 140, 7.5, 6.5},
-                          {0.58, -4, 132, 5.5, 9},
-                          {0.68, -22, 118, 8, 7},
-                          {0.75, -36, 105, 6, 7.5}}) {
+    for (const Pipe& p : {Pipe{0.22, 50, 150, 9.5, 9.0}, {0.36, 30, 147, 8.5, 7.5}, {0.44, 19, 118, 5.5, 5.5}, {0.50, 9, 142, 9.5, 10.0},
+                          {0.60, -9, 130, 8.0, 7.5}, {0.66, -18, 96, 5.5, 5.5}, {0.74, -32, 108, 9.0, 9.0}}) {
         const glm::dvec3 start = on_thigh(p.thigh) + glm::dvec3(3, 6, 30);
         const double x_middle = glm::mix(on_thigh(p.thigh).x, top.x + p.x_end, 0.45);
         folds.push_back({hanging_path({start,
@@ -161,7 +156,7 @@ Figure model_runner() {
     skin.add(sculpt_arm(pose, pose.left_arm), 14.0);
     skin.add(sculpt_arm(pose, pose.right_arm), 14.0);
     figure.body.add(skin, 1.0);
-    figure.body.add(cloak, 2.0);
+    figure.body.add(cloak, 4.0);
     figure.body.add(placed_hand(pose, pose.right_arm, false), 5.0);
     figure.body.add(placed_hand(pose, pose.left_arm, true), 5.0);
     figure.body.add(placed_foot(pose, pose.right_leg, false), 6.0);
@@ -171,6 +166,7 @@ Figure model_runner() {
     figure.plinth = square_plinth({162, 86});
     figure.plinth.add(rock({-100, 8, ground}, {52, 48, 0.5 * (rock_top - ground) + 3.0}), 3.0);
     figure.plinth.add(sculpt_trunk(), 4.0);
+    figure.neck_blend_mm = 14.0;
     figure.plinth_blend_mm = 3.0;
     figure.mid_neck = glm::mix(pose.chest.to_world({0, 0, 0.95}), pose.head.to_world({0, 0.1, -0.45}), 0.5);
     figure.neck_axis = pose.head.origin - pose.chest.to_world({0, 0, 0.9});

@@ -111,7 +111,7 @@ std::vector<Fold> mantle_folds(const Clay& mantle, const BodyPose& pose) {
                                        pose.chest.to_world({0.42 + 0.22 * s, -0.62, 0.12}),
                                        pose.chest.to_world({0.46 + 0.26 * s, -0.66, -0.50}),
                                        {44 + 16 * s, -40, height(4.50)}}),
-                         5.0, 5.5, 4.5, 0.2, 0.3});
+                         5.5, 6.0, 4.5, 0.5, 0.3});
     }
     // About the arm, drawn together at the elbow.
     for (int i = 0; i < 4; ++i) {
@@ -189,7 +189,7 @@ Clay sculpt_cloak(const BodyPose& pose) {
     layer.emboss(fold_relief(layer, layer_folds()));
     cloak.emboss(fold_relief(cloak, skirt_folds(cloak)));
     mantle.emboss(fold_relief(mantle, mantle_folds(mantle, pose)));
-    cloak.add(layer, 2.5);
+    cloak.add(layer, 4.0);
     cloak.add(mantle, 8.0);
     cloak.add(twisted_roll(hanging_path({{-46, 36, 366},
                                          {-60, 4, 362},
@@ -222,7 +222,7 @@ Figure model_scholar() {
     figure.body.add(sculpt_leg(pose, pose.left_leg), 20.0);
     figure.body.add(sculpt_leg(pose, pose.right_leg), 20.0);
     figure.body.add(sculpt_arm(pose, pose.right_arm), 14.0);
-    figure.body.add(sculpt_cloak(pose), 2.0);
+    figure.body.add(sculpt_cloak(pose), 4.0);
     figure.body.add(placed_hand(pose, pose.right_arm, false), 5.0);
     figure.body.add(sculpt_scroll(pose.right_arm), 1.5);
     figure.body.add(placed_foot(pose, pose.right_leg, false), 5.0);
