@@ -54,8 +54,8 @@ TEST_CASE("a session is as long as its parts, each as the protocol and the assum
 
 TEST_CASE("frames and maps need a page for each distinct pose", "[unit]") {
     const DesignReport report = make_design_report(paper_protocol(), {});
-    CHECK(report.memory.pages_per_stimulus_bytes == 31.0 * 1024 * 1024 * 8);
-    CHECK(report.memory.maps_per_stimulus_bytes == 31.0 * 1024 * 1024 * 16);
+    CHECK(report.memory.pages_per_stimulus_bytes == 31.0 * 1024 * 1024 * 4);
+    CHECK(report.memory.maps_per_stimulus_bytes == 31.0 * 1024 * 1024 * 4);
 }
 
 TEST_CASE("the incidence table adds up to all trials of all observers", "[unit]") {
