@@ -1,16 +1,12 @@
-/// Meshes and mesh files for tests. Files are written into a folder that vanishes with its test.
+/// Meshes and mesh files for tests.
 #pragma once
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -18,35 +14,9 @@
 #include <glm/glm.hpp>
 
 #include "experiment/scene/mesh.h"
+#include "support/temporary_folder.h"
 
 namespace overt::test {
-
-class MeshFolder {
-  public:
-    MeshFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "overt-mesh-XXXXXX").string();
-        if (!::mkdtemp(name.data()))
-            throw std::runtime_error("no temporary folder");
-        path_ = name;
-    }
-    ~MeshFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    MeshFolder(const MeshFolder&) = delete;
-    MeshFolder& operator=(const MeshFolder&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-
-    /// Writes a file of that name and gives its path.
-    std::filesystem::path file(const std::string& name, std::string_view content) const {
-        std::ofstream(path_ / name, std::ios::binary).write(content.data(), std::streamsize(content.size()));
-        return path_ / name;
-    }
-
-  private:
-    std::filesystem::path path_;
-};
 
 inline Mesh with_one_part(Mesh mesh) {
     mesh.triangle_parts.assign(mesh.triangles.size(), PartIndex{0});

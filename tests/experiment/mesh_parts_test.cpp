@@ -109,7 +109,7 @@ TEST_CASE("impossible regions and regions that miss the mesh are refused with th
 }
 
 TEST_CASE("integer labels of PLY faces become parts in the labels' order", "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     MeshCleaningReport report;
     const auto read = [&](const std::string& text) {
         return import_mesh(folder.file("l.ply", text), {}, report);
@@ -131,7 +131,7 @@ TEST_CASE("integer labels of PLY faces become parts in the labels' order", "[uni
 }
 
 TEST_CASE("integer labels of PLY vertices label the triangles by their middle corner", "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     MeshCleaningReport report;
     const auto path = folder.file("l.ply", labelled_ply("short", "vertex", "", {"7", "1", "7", "9"}, {}));
     const Mesh mesh = import_mesh(path, {}, report);
@@ -143,7 +143,7 @@ TEST_CASE("integer labels of PLY vertices label the triangles by their middle co
 }
 
 TEST_CASE("OBJ groups become parts when there is more than one", "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     MeshCleaningReport report;
     const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\n";
     const auto read = [&](const std::string& faces) {
@@ -157,7 +157,7 @@ TEST_CASE("OBJ groups become parts when there is more than one", "[unit]") {
 }
 
 TEST_CASE("more than 256 parts are refused, unless regions take their place", "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     std::string text = as_obj(cube());
     for (int i = 0; i < 257; ++i)
         text += fmt::format("g part{}\nf {} {} 8\n", i, i % 6 + 1, i % 5 + 2);
@@ -171,7 +171,7 @@ TEST_CASE("more than 256 parts are refused, unless regions take their place", "[
 }
 
 TEST_CASE("a mesh written as PLY is read back to the bit, with parts and their names", "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     Mesh mesh = bumpy_ball(40, 50);
     label_parts(mesh, std::vector<PartRegion>{{"the head", {{0, 0, 1.2, 0.5}}, {}},
                                               {"føtter", {{0, 0, -1, 0.3}}, {}}});
@@ -192,7 +192,7 @@ TEST_CASE("a mesh written as PLY is read back to the bit, with parts and their n
 }
 
 TEST_CASE("a PLY that cannot be written leaves nothing behind, and what was there stays", "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     CHECK_THROWS_AS(write_ply(folder.path() / "absent" / "m.ply", cube()), RecordError);
     std::filesystem::create_directory(folder.path() / "taken.ply");
     CHECK_THROWS_AS(write_ply(folder.path() / "taken.ply", cube()), RecordError);

@@ -14,8 +14,8 @@ using namespace overt::test;
 
 namespace {
 
-const MeshFolder& folder() {
-    static const MeshFolder shared;
+const TemporaryFolder& folder() {
+    static const TemporaryFolder shared;
     return shared;
 }
 

@@ -131,7 +131,7 @@ struct RandomPly {
 } // namespace
 
 TEST_CASE("a PLY file gives the same mesh in text and in both byte orders", "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     const Mesh ball = bumpy_ball();
     for (const PlyForm form : all_ply_forms) {
         const RawMesh raw = read_mesh_file(folder.file("ball.ply", as_ply(ball, form)));
@@ -143,7 +143,7 @@ TEST_CASE("a PLY file gives the same mesh in text and in both byte orders", "[un
 
 TEST_CASE("a PLY file may have any types, any order of properties and elements, polygons and extras",
           "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     for (unsigned seed = 0; seed < 60; ++seed) {
         RandomPly ply(seed);
         const PlyForm form = all_ply_forms[seed % 3];
@@ -155,7 +155,7 @@ TEST_CASE("a PLY file may have any types, any order of properties and elements, 
 }
 
 TEST_CASE("a text PLY file may have CR LF line ends, blank lines and plus signs", "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     const RawMesh raw = read_mesh_file(folder.file(
         "crlf.ply", "ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty float x\r\nproperty float "
                     "y\r\nproperty float z\r\nelement face 1\r\nproperty list uchar int "
@@ -165,7 +165,7 @@ TEST_CASE("a text PLY file may have CR LF line ends, blank lines and plus signs"
 }
 
 TEST_CASE("an OBJ file gives the mesh that was written", "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     const Mesh ball = bumpy_ball();
     const RawMesh raw = read_mesh_file(folder.file("ball.obj", as_obj(ball)));
     CHECK(raw.positions == ball.positions);
@@ -174,7 +174,7 @@ TEST_CASE("an OBJ file gives the mesh that was written", "[unit]") {
 }
 
 TEST_CASE("an OBJ file may use all forms of corners, polygons, joined lines and later vertices", "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     const RawMesh raw = read_mesh_file(folder.file(
         "forms.obj",
         "\xEF\xBB\xBF# forms\r\nmtllib none.mtl\r\nv 0 0 0 1.0\r\nv 1 0 \\\r\n 0\r\nv 1 1 0\nvt 0 0\n"
@@ -186,7 +186,7 @@ TEST_CASE("an OBJ file may use all forms of corners, polygons, joined lines and 
 }
 
 TEST_CASE("STL files, binary and text, give the triangles that were written with corners welded", "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     const Mesh ball = bumpy_ball();
     for (const std::string& content : {as_binary_stl(ball), as_binary_stl(ball, "solid, but binary"),
                                        as_text_stl(ball), as_text_stl(ball) + as_text_stl(cube())}) {
@@ -203,7 +203,7 @@ TEST_CASE("STL files, binary and text, give the triangles that were written with
 }
 
 TEST_CASE("the content decides the format, whatever the file is called", "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     for (const char* name : {"cube.ply", "cube.obj", "cube.stl", "cube.dat", "CUBE"}) {
         for (const std::string& content : {as_ply(cube(), PlyForm::text), as_ply(cube(), PlyForm::big_endian),
                                            as_binary_stl(cube(), "solid"), as_text_stl(cube())}) {
@@ -214,7 +214,7 @@ TEST_CASE("the content decides the format, whatever the file is called", "[unit]
 }
 
 TEST_CASE("an STL cube of separate triangles becomes a closed cube of eight vertices", "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     MeshCleaningReport report;
     const Mesh mesh = import_mesh(folder.file("cube.stl", as_binary_stl(cube())), {}, report);
     CHECK(mesh.positions.size() == 8);
@@ -244,7 +244,7 @@ TEST_CASE("every up axis is turned to +z by a rotation that keeps the front wher
 }
 
 TEST_CASE("import keeps volume and handedness under every up axis, and scales lengths", "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     const auto path = folder.file("ball.ply", as_ply(bumpy_ball(), PlyForm::little_endian));
     const double volume = signed_volume(bumpy_ball());
     REQUIRE(volume > 3.0);
@@ -261,7 +261,7 @@ TEST_CASE("import keeps volume and handedness under every up axis, and scales le
 }
 
 TEST_CASE("import labels by regions in the file's coordinates, before it turns and scales", "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     const auto path = folder.file("ball.ply", as_ply(bumpy_ball(), PlyForm::little_endian));
     MeshImport import;
     import.up = UpAxis::y;
@@ -276,7 +276,7 @@ TEST_CASE("import labels by regions in the file's coordinates, before it turns a
 }
 
 TEST_CASE("import refuses impossible scales and surfaces without area, and names the file", "[unit]") {
-    const MeshFolder folder;
+    const TemporaryFolder folder;
     MeshCleaningReport report;
     const auto path = folder.file("cube.ply", as_ply(cube(), PlyForm::text));
     for (const double scale : {0.0, -1.0, 1e39, std::nan("")}) {
