@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "experiment/error.h"
+#include "experiment/scene/spectra.h"
 #include "render_shaders.h"
 
 namespace overt {
@@ -17,15 +18,6 @@ Texture2D texture_of(const GlContext& context, const LightProbe& probe) {
 }
 
 } // namespace
-
-glm::vec3 metal_reflectance(const std::string& metal, double outside) {
-    const bool in_coat = outside > 1.2;
-    if (metal == "Au")
-        return in_coat ? glm::vec3(1.0111f, 0.7413f, 0.2499f) : glm::vec3(1.0203f, 0.7824f, 0.3431f);
-    if (metal == "Ag")
-        return in_coat ? glm::vec3(0.9607f, 0.9489f, 0.8950f) : glm::vec3(0.9699f, 0.9607f, 0.9133f);
-    throw InputError(fmt::format("unknown metal «{}»: known are Au and Ag", metal));
-}
 
 StimulusRenderer::StimulusRenderer(const GlContext& context, const LightSettings& light, glm::ivec2 image_px)
     : context_(&context), light_(light), probe_(load_light_probe(light)), image_px_(image_px),
@@ -81,7 +73,8 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     program_.set("reflectance", diffuse
                                     ? glm::vec3(glm::dvec3(material_.reflectance[0], material_.reflectance[1],
                                                            material_.reflectance[2]))
-                                    : metal_reflectance(material_.metal, coated ? material_.coat_ior : 1.0));
+                                    : glm::vec3(linear_rec709_of(normal_reflectance(
+                                          metal_index(material_.metal), coated ? material_.coat_ior : 1.0))));
     program_.set("lobe_radius", diffuse ? 1.0f
                                 : material_.kind == MaterialKind::rough_conductor
                                     ? static_cast<float>(2.0 * material_.roughness)

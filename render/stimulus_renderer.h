@@ -15,7 +15,7 @@
 namespace overt {
 
 /// Changes whenever the same inputs would give other pixels: part of the key under which frames are kept.
-constexpr int stimulus_renderer_version = 3;
+constexpr int stimulus_renderer_version = 4;
 
 /// One light for all stimuli of a protocol.
 class StimulusRenderer {
@@ -49,10 +49,5 @@ class StimulusRenderer {
     Texture2D image_;
     Framebuffer image_target_;
 };
-
-/// Reflectance at normal incidence of "Au" or "Ag" in linear sRGB under D65, seen from a medium of refractive
-/// index `outside`: from n and k of Mitsuba's presets (Palik, CXRO) with CIE 1931. Only 1.0 and 1.4 are
-/// tabulated; others are taken from the nearer. Throws InputError for another metal.
-glm::vec3 metal_reflectance(const std::string& metal, double outside);
 
 } // namespace overt
