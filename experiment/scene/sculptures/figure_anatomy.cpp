@@ -21,10 +21,12 @@ std::vector<Section> trunk_sections(bool is_woman) {
     if (is_woman)
         return {{0.0, 0.44, 0.33, 0, 0.0},     {0.13, 0.60, 0.40, 0, -0.01}, {0.24, 0.585, 0.385, 0, -0.01},
                 {0.42, 0.43, 0.315, 0, 0.0},   {0.56, 0.485, 0.345, 0, 0},   {0.70, 0.53, 0.37, 0, 0.0},
-                {0.82, 0.54, 0.345, 0, -0.02}, {0.93, 0.43, 0.27, 0, -0.03}, {1.0, 0.25, 0.20, 0, -0.03}};
+                {0.82, 0.54, 0.345, 0, -0.02}, {0.92, 0.43, 0.27, 0, -0.03}, {0.97, 0.29, 0.205, 0, -0.03},
+                {1.0, 0.10, 0.10, 0, -0.03}};
     return {{0.0, 0.42, 0.33, 0, 0.0},      {0.13, 0.55, 0.40, 0, -0.02}, {0.24, 0.565, 0.385, 0, -0.01},
             {0.40, 0.545, 0.36, 0, 0.0},    {0.55, 0.60, 0.395, 0, 0},    {0.68, 0.665, 0.44, 0, 0.0},
-            {0.80, 0.665, 0.425, 0, -0.02}, {0.92, 0.54, 0.33, 0, -0.05}, {1.0, 0.29, 0.23, 0, -0.05}};
+            {0.80, 0.665, 0.425, 0, -0.02}, {0.90, 0.55, 0.34, 0, -0.04}, {0.965, 0.35, 0.24, 0, -0.05},
+            {1.0, 0.10, 0.10, 0, -0.05}};
 }
 
 /// Relief along a cord: a groove (negative) or a ridge.
@@ -58,12 +60,23 @@ void model_man(Clay& torso, const Placement& chest, const Placement& pelvis) {
         // The fold of the flank over the hip, which ancient sculptors stress, down to the groin.
         torso.add(ellipsoid(on_pelvis(s * 0.37, -0.05, 0.56), h * glm::dvec3(0.19, 0.30, 0.24), pelvis.axes),
                   0.26 * h);
-        torso.emboss(line_relief(on_pelvis(s * 0.60, -0.10, 0.36), on_pelvis(s * 0.44, -0.46, 0.30),
-                                 on_pelvis(s * 0.12, -0.38, -0.10), 0.11 * h, -0.035 * h));
-        // The straight muscle of the belly, and its inscriptions.
+        // The straight muscle of the belly.
         torso.add(
             bar(on_chest(s * 0.14, -0.27, -0.33), on_pelvis(s * 0.10, -0.255, 0.30), 0.17 * h, 0.14 * h),
             0.22 * h);
+        torso.add(ellipsoid(on_pelvis(s * 0.25, 0.26, -0.04), h * glm::dvec3(0.28, 0.25, 0.33), pelvis.axes),
+                  0.18 * h);
+    }
+}
+
+/// Grooves between the muscles, and the navel.
+void draw_muscles(Clay& torso, const Placement& chest, const Placement& pelvis) {
+    const double h = chest.scale;
+    const auto on_chest = [&](double x, double y, double z) { return chest.to_world({x, y, z}); };
+    const auto on_pelvis = [&](double x, double y, double z) { return pelvis.to_world({x, y, z}); };
+    for (const double s : {-1.0, 1.0}) {
+        torso.emboss(line_relief(on_pelvis(s * 0.60, -0.10, 0.36), on_pelvis(s * 0.44, -0.46, 0.30),
+                                 on_pelvis(s * 0.12, -0.38, -0.10), 0.11 * h, -0.035 * h));
         torso.emboss(line_relief(on_chest(s * 0.02, -0.46, -0.26), on_chest(s * 0.30, -0.46, -0.28),
                                  on_chest(s * 0.50, -0.32, -0.62), 0.10 * h, -0.028 * h));
         torso.emboss(line_relief(on_chest(s * 0.30, -0.42, -0.35), on_chest(s * 0.31, -0.42, -0.75),
@@ -71,13 +84,11 @@ void model_man(Clay& torso, const Placement& chest, const Placement& pelvis) {
         for (const double z : {-0.50, -0.72})
             torso.emboss(line_relief(on_chest(s * 0.03, -0.45, z), on_chest(s * 0.14, -0.45, z - 0.02),
                                      on_chest(s * 0.25, -0.42, z + 0.02), 0.06 * h, -0.015 * h));
-        torso.add(ellipsoid(on_pelvis(s * 0.25, 0.26, -0.04), h * glm::dvec3(0.28, 0.25, 0.33), pelvis.axes),
-                  0.18 * h);
         torso.add(sphere(on_chest(s * 0.37, -0.405, 0.06), 0.028 * h), 0.03 * h);
     }
-    torso.emboss(line_relief(on_chest(0, -0.42, 0.40), on_chest(0, -0.44, -0.0), on_chest(0, -0.46, -0.34),
+    torso.emboss(line_relief(on_chest(0, -0.42, 0.40), on_chest(0, -0.44, -0.0), on_chest(0, -0.46, -0.30),
                              0.09 * h, -0.030 * h));
-    torso.emboss(line_relief(on_chest(0, -0.46, -0.30), on_chest(0, -0.46, -0.75), on_pelvis(0, -0.42, 0.46),
+    torso.emboss(line_relief(on_chest(0, -0.46, -0.34), on_chest(0, -0.46, -0.75), on_pelvis(0, -0.42, 0.46),
                              0.07 * h, -0.020 * h));
     torso.emboss(line_relief(on_chest(0, 0.36, 0.35), on_chest(0, 0.46, -0.35), on_pelvis(0, 0.36, 0.35),
                              0.13 * h, -0.035 * h));
@@ -103,7 +114,7 @@ void model_woman(Clay& torso, const Placement& chest, const Placement& pelvis) {
 
 } // namespace
 
-Clay sculpt_torso(const BodyPose& pose) {
+Clay sculpt_trunk(const BodyPose& pose) {
     const double h = pose.head.scale;
     const LoftAxis spine{pose.pelvis.to_world({0, 0.02, -0.30}),
                          0.5 *
@@ -117,10 +128,10 @@ Clay sculpt_torso(const BodyPose& pose) {
     for (const ArmPose* arm : {&pose.right_arm, &pose.left_arm}) {
         // From the neck to the shoulder, and the collar bone before it.
         const double breadth = pose.is_woman ? 0.8 : 1.0;
-        torso.add(bar(pose.chest.to_world({0, 0.10, 0.90}),
-                      glm::mix(arm->shoulder, pose.chest.to_world({0, 0.1, 0.9}), 0.18), 0.20 * h * breadth,
-                      0.14 * h * breadth),
-                  0.22 * h);
+        const glm::dvec3 nape =
+            glm::mix(pose.chest.to_world({0, 0.10, 0.82}), pose.head.to_world({0, 0.20, -0.42}), 0.35);
+        torso.add(bar(nape, glm::mix(arm->shoulder, nape, 0.22), 0.10 * h * breadth, 0.14 * h * breadth),
+                  0.26 * h);
         torso.add(bar(pose.chest.to_world({0.0, -0.19, 0.70}), arm->shoulder + 0.05 * h * pose.chest.axes[2],
                       0.045 * h, 0.05 * h),
                   0.10 * h);
@@ -135,6 +146,13 @@ Clay sculpt_torso(const BodyPose& pose) {
     return torso;
 }
 
+Clay sculpt_torso(const BodyPose& pose) {
+    Clay torso = sculpt_trunk(pose);
+    if (!pose.is_woman)
+        draw_muscles(torso, pose.chest, pose.pelvis);
+    return torso;
+}
+
 Clay sculpt_neck(const BodyPose& pose) {
     const double h = pose.head.scale;
     const double breadth = pose.is_woman ? 0.84 : 1.0;
@@ -145,12 +163,13 @@ Clay sculpt_neck(const BodyPose& pose) {
                         -pose.head.axes[1],
                         pose.chest.axes[0]};
     Clay neck;
-    neck.add(loft(axis, scaled({{0, 0.27, 0.20}, {0.3, 0.255, 0.235}, {0.6, 0.225, 0.24}, {1, 0.225, 0.245}},
+    neck.add(loft(axis, scaled({{0, 0.22, 0.18}, {0.3, 0.24, 0.225}, {0.6, 0.225, 0.24}, {1, 0.225, 0.245}},
                                h, breadth)),
              1.0);
     for (const double s : {-1.0, 1.0}) // from behind the ear to the pit of the throat
         neck.add(bar(pose.head.to_world({s * 0.22, 0.10, -0.22}),
-                     pose.chest.to_world({s * 0.06, -0.13, 0.70}), 0.06 * h * breadth, 0.025 * h * breadth), 0.12 * h);
+                     pose.chest.to_world({s * 0.06, -0.13, 0.70}), 0.06 * h * breadth, 0.025 * h * breadth),
+                 0.12 * h);
     if (!pose.is_woman)
         neck.add(sphere(glm::mix(pose.head.to_world({0, -0.15, -0.42}), pose.chest.to_world({0, -0.17, 0.85}),
                                  0.4),

@@ -33,7 +33,11 @@ struct BodyPose {
     bool is_woman = false;
 };
 
-/// Trunk from the crotch to the shoulders, with the muscles of a man or the breasts of a woman.
+/// Trunk from the crotch to the shoulders, with the muscles of a man or the breasts of a woman, in large
+/// forms as a garment follows them.
+Clay sculpt_trunk(const BodyPose& pose);
+
+/// The same as bare skin, with the grooves between the muscles.
 Clay sculpt_torso(const BodyPose& pose);
 
 /// Neck from the chest into the head.

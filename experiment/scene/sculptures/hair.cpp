@@ -53,8 +53,7 @@ void add_parted_hair(Clay& head) {
                      const double parting = 1.0 - std::exp(-angle * angle / 0.0012);
                      const double ends =
                          smooth_step((share - 0.02) / 0.22) * smooth_step((1.02 - share) / 0.2);
-                     return 0.022 * ends * parting *
-                            strand(angle * 12.0 + wave * parting);
+                     return 0.022 * ends * parting * strand(angle * 12.0 + wave * parting);
                  },
                  {scalp.centre, 0.6}});
     Clay bun;

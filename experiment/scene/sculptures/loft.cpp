@@ -72,8 +72,10 @@ constexpr double bound_suffices_mm = 45.0;
 class Loft {
   public:
     Loft(const LoftAxis& axis, const std::vector<Section>& sections, double cap, double reach)
-        : axis_(axis), curve_{axis.start, axis.control, axis.end}, spline_(sections), cap_(cap), reach_(reach) {
-        const glm::dvec3 natural = glm::cross(curve_.derivative(0.5), axis.front_at_start + axis.front_at_end);
+        : axis_(axis), curve_{axis.start, axis.control, axis.end}, spline_(sections), cap_(cap),
+          reach_(reach) {
+        const glm::dvec3 natural =
+            glm::cross(curve_.derivative(0.5), axis.front_at_start + axis.front_at_end);
         hand_ = glm::dot(natural, axis.side) < 0.0 ? -1.0 : 1.0;
         const double bend = glm::distance(axis.control, 0.5 * (axis.start + axis.end));
         is_straight_ = bend < 1e-6;
@@ -95,7 +97,8 @@ class Loft {
         const auto [half_side, half_front, side_shift, front_shift] = spline_.at(t);
         const glm::dvec3 offset = point - curve_.at(t);
         const double beyond = (t <= 0.0 || t >= 1.0) ? glm::dot(offset, along) : 0.0;
-        const glm::dvec3 inside(glm::dot(offset, side) - side_shift, glm::dot(offset, front) - front_shift, beyond);
+        const glm::dvec3 inside(glm::dot(offset, side) - side_shift, glm::dot(offset, front) - front_shift,
+                                beyond);
         return ellipsoid_distance(inside, {half_side, half_front, cap_ * std::min(half_side, half_front)});
     }
 
@@ -130,11 +133,15 @@ Shape loft(const LoftAxis& axis, const std::vector<Section>& sections, double ca
     const QuadraticCurve curve{axis.start, axis.control, axis.end};
     for (const Section& s : sections) {
         // Splines may swing a little beyond the sections.
-        const double reach = 1.15 * std::max(s.half_side, s.half_front) + std::hypot(s.side_shift, s.front_shift);
+        const double reach =
+            1.15 * std::max(s.half_side, s.half_front) + std::hypot(s.side_shift, s.front_shift);
         ball = enclosing_ball(ball, {curve.at(s.along), reach});
         farthest = std::max(farthest, reach);
     }
-    return {[solid = Loft(axis, sections, cap, farthest)](const glm::dvec3& point) { return solid.distance(point); }, ball};
+    return {[solid = Loft(axis, sections, cap, farthest)](const glm::dvec3& point) {
+                return solid.distance(point);
+            },
+            ball};
 }
 
 } // namespace overt

@@ -63,7 +63,7 @@ Clay bare_robe(const BodyPose& pose) {
     robe.add(grown(sculpt_leg(pose, pose.right_leg).shape(), 4.0), 34.0);
     robe.add(grown(sculpt_leg(pose, pose.left_leg).shape(), 3.0), 30.0);
     Clay bodice;
-    bodice.add(grown(sculpt_torso(pose).shape(), 3.0), 1.0);
+    bodice.add(grown(sculpt_trunk(pose).shape(), 3.0), 1.0);
     Clay below_neckline;
     below_neckline.add(common(bodice.shape(), half_space({0, -36, height(5.56)}, {-0.05, -0.88, 0.47}), 3.0),
                        1.0);
@@ -95,7 +95,9 @@ void add_bodice_folds(std::vector<Fold>& folds, const BodyPose& pose) {
                          3.5, 3.5, 2.2, 0.2, 0.2});
     // The blouse over the belt.
     for (int i = -4; i <= 4; ++i)
-        folds.push_back({hanging_path({chest(0.13 * i, -0.5, -0.47), chest(0.135 * i, -0.5, -0.70), chest(0.14 * i, -0.5, -0.92), chest(0.145 * i + 0.03 * (i % 2), -0.5, -1.12 - 0.06 * (i % 3))}),
+        folds.push_back({hanging_path({chest(0.13 * i, -0.5, -0.47), chest(0.135 * i, -0.5, -0.70),
+                                       chest(0.14 * i, -0.5, -0.92),
+                                       chest(0.145 * i + 0.03 * (i % 2), -0.5, -1.12 - 0.06 * (i % 3))}),
                          4.2, 7.0, 3.8, 0.15, 0.55});
 }
 
@@ -217,7 +219,7 @@ Figure model_muse() {
     figure.body.add(sculpt_torso(pose), 1.0);
     figure.body.add(sculpt_arm(pose, pose.right_arm), 6.0);
     figure.body.add(sculpt_arm(pose, pose.left_arm), 6.0);
-    figure.body.add(sculpt_garments(pose), 3.0);
+    figure.body.add(sculpt_garments(pose), 5.0);
     figure.body.add(placed_hand(pose, pose.right_arm, false), 3.0);
     figure.body.add(placed_hand(pose, pose.left_arm, true), 3.0);
     figure.body.add(placed_foot(pose, pose.right_leg, false), 2.0);

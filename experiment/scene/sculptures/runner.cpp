@@ -45,13 +45,13 @@ BodyPose runner_pose() {
 }
 
 /// The short cloak: wound about the hips and the raised thigh, from where an end falls towards the viewer.
-Clay sculpt_cloak(const BodyPose& pose, const Clay& skin) {
+Clay sculpt_cloak(const BodyPose& pose, const Clay& loins) {
     const LegPose& leg = pose.right_leg;
     const auto on_thigh = [&](double share) { return glm::mix(leg.hip, leg.knee, share); };
     const glm::dvec3 waist =
         glm::normalize(pose.pelvis.axes[2] + 0.25 * pose.pelvis.axes[1] - 0.15 * pose.pelvis.axes[0]);
     Clay cloak;
-    cloak.add(common(common(common(grown(skin.shape(), 5.0),
+    cloak.add(common(common(common(grown(loins.shape(), 5.0),
                                    half_space(pose.pelvis.to_world({0, 0, 0.40}), waist), 4.0),
                             half_space({70, -10, 316}, {0.50, 0.05, -1.0}), 4.0),
                      half_space(on_thigh(0.80), leg.knee - leg.hip), 4.0),
@@ -69,8 +69,13 @@ Clay sculpt_cloak(const BodyPose& pose, const Clay& skin) {
     struct Pipe {
         double thigh, x_end, drop, width, height;
     };
-    for (const Pipe& p : {Pipe{0.22, 50, 150, 9.5, 9.0}, {0.36, 30, 147, 8.5, 7.5}, {0.44, 19, 118, 5.5, 5.5}, {0.50, 9, 142, 9.5, 10.0},
-                          {0.60, -9, 130, 8.0, 7.5}, {0.66, -18, 96, 5.5, 5.5}, {0.74, -32, 108, 9.0, 9.0}}) {
+    for (const Pipe& p : {Pipe{0.22, 50, 150, 9.5, 9.0},
+                          {0.36, 30, 147, 8.5, 7.5},
+                          {0.44, 19, 118, 5.5, 5.5},
+                          {0.50, 9, 142, 9.5, 10.0},
+                          {0.60, -9, 130, 8.0, 7.5},
+                          {0.66, -18, 96, 5.5, 5.5},
+                          {0.74, -32, 108, 9.0, 9.0}}) {
         const glm::dvec3 start = on_thigh(p.thigh) + glm::dvec3(3, 6, 30);
         const double x_middle = glm::mix(on_thigh(p.thigh).x, top.x + p.x_end, 0.45);
         folds.push_back({hanging_path({start,
@@ -119,26 +124,25 @@ Clay sculpt_sandal(const LegPose& leg) {
 }
 
 /// The trunk of a tree that takes the standing leg's load.
-Clay sculpt_trunk() {
-    Clay trunk;
+Clay sculpt_tree() {
+    Clay tree;
     const LoftAxis axis{{118, 34, ground - 4},
                         {122, 36, ground + 80},
                         {104, 26, ground + 200},
                         {0, -1, 0},
                         {0, -1, 0},
                         {1, 0, 0}};
-    trunk.add(loft(axis, {{0, 31, 29}, {0.12, 24, 22}, {0.5, 19, 18}, {0.85, 18, 17}, {1, 16, 15}}, 0.4),
-              1.0);
-    trunk.add(bar({116, 30, ground + 120}, {140, 20, ground + 150}, 9, 7), 8.0);
+    tree.add(loft(axis, {{0, 31, 29}, {0.12, 24, 22}, {0.5, 19, 18}, {0.85, 18, 17}, {1, 16, 15}}, 0.4), 1.0);
+    tree.add(bar({116, 30, ground + 120}, {140, 20, ground + 150}, 9, 7), 8.0);
     std::vector<Fold> bark;
     for (int i = 0; i < 11; ++i) {
         const double angle = -165.0 + 30.0 * i;
-        bark.push_back({falling_path(trunk, {118, 35}, angle, ground + 150 + 12 * std::sin(2.1 * i),
+        bark.push_back({falling_path(tree, {118, 35}, angle, ground + 150 + 12 * std::sin(2.1 * i),
                                      angle + 22 * std::sin(1.3 * i), ground + 2),
                         4.0, 7.0, 2.6, 0.3, 0.0});
     }
-    trunk.emboss(fold_relief(trunk, bark));
-    return trunk;
+    tree.emboss(fold_relief(tree, bark));
+    return tree;
 }
 
 } // namespace
@@ -148,15 +152,17 @@ Figure model_runner() {
     Figure figure;
     figure.head.add(pose.head.place(sculpt_head({Hair::curls, false, 0.97, 1.0}).shape()), 1.0);
     figure.head.add(sculpt_neck(pose), 5.0);
-    Clay skin;
-    skin.add(sculpt_torso(pose), 1.0);
-    skin.add(sculpt_leg(pose, pose.left_leg), 26.0);
-    skin.add(sculpt_leg(pose, pose.right_leg), 26.0);
-    const Clay cloak = sculpt_cloak(pose, skin);
+    // The cloak follows the large forms, the skin has the grooves too.
+    Clay loins = sculpt_trunk(pose);
+    Clay skin = sculpt_torso(pose);
+    for (Clay* clay : {&loins, &skin}) {
+        clay->add(sculpt_leg(pose, pose.left_leg), 26.0);
+        clay->add(sculpt_leg(pose, pose.right_leg), 26.0);
+    }
     skin.add(sculpt_arm(pose, pose.left_arm), 14.0);
     skin.add(sculpt_arm(pose, pose.right_arm), 14.0);
     figure.body.add(skin, 1.0);
-    figure.body.add(cloak, 4.0);
+    figure.body.add(sculpt_cloak(pose, loins), 7.0);
     figure.body.add(placed_hand(pose, pose.right_arm, false), 5.0);
     figure.body.add(placed_hand(pose, pose.left_arm, true), 5.0);
     figure.body.add(placed_foot(pose, pose.right_leg, false), 6.0);
@@ -165,8 +171,8 @@ Figure model_runner() {
     figure.body.add(sculpt_sandal(pose.left_leg), 1.5);
     figure.plinth = square_plinth({162, 86});
     figure.plinth.add(rock({-100, 8, ground}, {52, 48, 0.5 * (rock_top - ground) + 3.0}), 3.0);
-    figure.plinth.add(sculpt_trunk(), 4.0);
-    figure.neck_blend_mm = 14.0;
+    figure.plinth.add(sculpt_tree(), 4.0);
+    figure.neck_blend_mm = 28.0;
     figure.plinth_blend_mm = 3.0;
     figure.mid_neck = glm::mix(pose.chest.to_world({0, 0, 0.95}), pose.head.to_world({0, 0.1, -0.45}), 0.5);
     figure.neck_axis = pose.head.origin - pose.chest.to_world({0, 0, 0.9});

@@ -87,7 +87,7 @@ Clay bare_mantle(const BodyPose& pose) {
     mantle.add(bar(pose.left_arm.shoulder + glm::dvec3(-10, 2, -30), {60, 0, height(4.55)}, 24.0, 26.0),
                26.0);
     Clay chest;
-    chest.add(common(grown(sculpt_torso(pose).shape(), 6.0),
+    chest.add(common(grown(sculpt_trunk(pose).shape(), 6.0),
                      half_space(pose.chest.to_world({0.36, -0.3, 0.5}), {-0.86, -0.15, 0.42}), 5.0),
               1.0);
     mantle.add(chest, 22.0);
@@ -107,11 +107,12 @@ std::vector<Fold> mantle_folds(const Clay& mantle, const BodyPose& pose) {
     // From the shoulder down the chest's edge, and over the upper arm.
     for (int i = 0; i < 5; ++i) {
         const double s = i / 4.0;
-        folds.push_back({hanging_path({arm.shoulder + glm::dvec3(-34 + 30 * s, -8 - 14 * s, 24 - 6 * s),
+        folds.push_back({hanging_path({arm.shoulder + glm::dvec3(-36 + 34 * s, 24, 26 - 4 * s),
+                                       arm.shoulder + glm::dvec3(-32 + 28 * s, -14 - 10 * s, 14 - 6 * s),
                                        pose.chest.to_world({0.42 + 0.22 * s, -0.62, 0.12}),
                                        pose.chest.to_world({0.46 + 0.26 * s, -0.66, -0.50}),
                                        {44 + 16 * s, -40, height(4.50)}}),
-                         5.5, 6.0, 4.5, 0.5, 0.3});
+                         5.0, 6.0, 5.0, 0.3, 0.35});
     }
     // About the arm, drawn together at the elbow.
     for (int i = 0; i < 4; ++i) {
@@ -222,7 +223,7 @@ Figure model_scholar() {
     figure.body.add(sculpt_leg(pose, pose.left_leg), 20.0);
     figure.body.add(sculpt_leg(pose, pose.right_leg), 20.0);
     figure.body.add(sculpt_arm(pose, pose.right_arm), 14.0);
-    figure.body.add(sculpt_cloak(pose), 4.0);
+    figure.body.add(sculpt_cloak(pose), 7.0);
     figure.body.add(placed_hand(pose, pose.right_arm, false), 5.0);
     figure.body.add(sculpt_scroll(pose.right_arm), 1.5);
     figure.body.add(placed_foot(pose, pose.right_leg, false), 5.0);
