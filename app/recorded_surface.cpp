@@ -22,7 +22,10 @@ const CoordinateMaps* RecordedSurfaces::maps_of(int sculpture) {
     MeshCleaningReport unused;
     surface->mesh = import_mesh(record_->directory() / recorded.mesh_file, {}, unused);
     SceneView scene{{recorded.camera, header.display.screen.image_px}, surface->mesh.bounds()};
-    std::vector<TriangleMap> maps(header.poses.angles.size());
+    // A pose that was never lit in a session with live maps has an empty one.
+    const glm::ivec2 image_px = header.display.screen.image_px;
+    const std::size_t pixels = static_cast<std::size_t>(image_px.x) * static_cast<std::size_t>(image_px.y);
+    std::vector<TriangleMap> maps(header.poses.angles.size(), {image_px, std::vector<std::uint32_t>(pixels)});
     std::vector<const RecordedMap*> files;
     for (const RecordedMap& map : header.maps) {
         if (map.sculpture == sculpture)

@@ -36,6 +36,19 @@ Rig::Rig(const Protocol& protocol, std::span<const Sculpture> sculptures, const 
       context_(make_context(protocol, request)), window_(dynamic_cast<WindowContext*>(context_.get())),
       library_(*context_, protocol, sculptures, cache) {}
 
+bool Rig::maps_are_live() const {
+    // Software takes a tenth of a second for a map: far longer than a refresh.
+    return request_.maps == MapTime::live ||
+           (request_.maps == MapTime::automatic && !context_->description().is_software);
+}
+
+std::vector<DisplayWitness*> Rig::witnesses() {
+    std::vector<DisplayWitness*> all{observer_.get()};
+    if (live_maps_)
+        all.push_back(live_maps_.get());
+    return all;
+}
+
 void Rig::open() {
     if (request_.virtual_time) {
         clock_ = std::make_unique<VirtualClock>();
@@ -51,6 +64,8 @@ void Rig::open() {
     }
     presenter_ = std::make_unique<PagePresenter>(*context_, *surface_, library_, geometry, protocol_->display,
                                                  protocol_->screens);
+    if (maps_are_live())
+        live_maps_ = std::make_unique<LiveMaps>(*context_, sculptures_, library_.poses(), geometry.image_px);
     observer_ = std::make_unique<SimulatedObserver>(make_observed_scene(*protocol_, sculptures_, geometry),
                                                     request_.seed);
     tracker_ = std::make_unique<SimulatedEyeTracker>(*clock_, *observer_, request_.seed,

@@ -10,6 +10,7 @@
 #include "devices/simulated_response_panel.h"
 #include "experiment/record/session_header.h"
 #include "render/display_surface.h"
+#include "render/live_maps.h"
 #include "render/page_presenter.h"
 #include "render/stimulus_library.h"
 #include "render/window_response_panel.h"
@@ -22,6 +23,7 @@ struct RigRequest {
     bool windowed = false;
     bool simulate_observer = false; ///< else somebody answers at the window's keyboard
     std::uint64_t seed = 0;         ///< of everything simulated
+    MapTime maps = MapTime::automatic;
 };
 
 class Rig {
@@ -38,6 +40,9 @@ class Rig {
         return request_.virtual_time ? ClockKind::virtual_time : ClockKind::steady;
     }
 
+    /// Whether the hidden maps are drawn while their frames are shown; else they are to be prepared.
+    bool maps_are_live() const;
+
     /// Makes presenter, tracker and panel. To be called once, when all stimuli are prepared: the session
     /// clock starts here.
     void open();
@@ -45,7 +50,9 @@ class Rig {
     Presenter& presenter() { return *presenter_; }
     EyeTracker& tracker() { return *tracker_; }
     ResponsePanel& panel() { return *panel_; }
-    DisplayWitness& observer() { return *observer_; }
+    /// Those who see what is shown: the simulated observer, and the hidden pass if it is live.
+    std::vector<DisplayWitness*> witnesses();
+    LiveMaps* live_maps() { return live_maps_.get(); } ///< null unless maps_are_live()
 
   private:
     const Protocol* protocol_;
@@ -58,6 +65,7 @@ class Rig {
     std::unique_ptr<Clock> clock_;
     std::unique_ptr<DisplaySurface> surface_;
     std::unique_ptr<PagePresenter> presenter_;
+    std::unique_ptr<LiveMaps> live_maps_;
     std::unique_ptr<SimulatedObserver> observer_;
     std::unique_ptr<SimulatedEyeTracker> tracker_;
     std::unique_ptr<SimulatedResponsePanel> simulated_panel_;

@@ -77,21 +77,32 @@ int run_session(const RunOptions& options) {
             fmt::print(stderr, "sculpture «{}»: {}\n", sculpture.id, remark);
     }
     // What is simulated has a seed of its own, so that one order can be rehearsed with several observers.
-    RigRequest request{options.context, options.virtual_time, options.windowed,
-                       options.simulate_observer.has_value(), options.simulate_observer.value_or(seed)};
+    RigRequest request{options.context,
+                       options.virtual_time,
+                       options.windowed,
+                       options.simulate_observer.has_value(),
+                       options.simulate_observer.value_or(seed),
+                       options.maps};
+    // A session number that is taken is said before anything is drawn.
+    const SessionPlace place{options.sessions, protocol.name, observer.label};
+    SessionDirectory(place, options.session_number).abandon();
     Rig rig(protocol, sculptures, request, cache_folder());
     say_before(protocol, schedule, rig.context().description(), options);
     {
         ProgressBar bar;
-        rig.library().prepare(
-            [&](std::string_view what, int done, int total) { bar.update(what, done, total); });
+        const Progress show = [&](std::string_view what, int done, int total) {
+            bar.update(what, done, total);
+        };
+        if (!rig.maps_are_live())
+            rig.library().prepare_maps(show);
+        rig.library().prepare_frames(show);
     }
     rig.open();
 
     SessionHeader header =
         make_session_header(protocol, schedule, sculptures, rig.library(), rig.context().description(),
-                            rig.tracker().description(), rig.clock_kind());
-    SessionDirectory directory({options.sessions, protocol.name, observer.label}, options.session_number);
+                            rig.tracker().description(), rig.clock_kind(), !rig.maps_are_live());
+    SessionDirectory directory(place, options.session_number);
     header.session_number = directory.session_number();
     put_files(directory, header, sculptures, rig.library());
     directory.publish();
@@ -100,10 +111,13 @@ int run_session(const RunOptions& options) {
         directory.session_file(),
         {.wait_when_full = options.virtual_time, .ring_capacity = 65536, .started_utc = header.started_utc});
     Session session(protocol, schedule, screen_geometry_of(protocol).centre(),
-                    {rig.clock(), rig.presenter(), rig.tracker(), rig.panel(), store, {&rig.observer()}});
+                    {rig.clock(), rig.presenter(), rig.tracker(), rig.panel(), store, rig.witnesses()});
     TrialProgress progress(protocol, static_cast<int>(schedule.trials.size()));
-    const SessionResult result = session.run(
-        [&](const Trial& trial, const TrialOutcome& outcome, int done) { progress(trial, outcome, done); });
+    const SessionResult result = session.run([&](const Trial& trial, const TrialOutcome& outcome, int done) {
+        if (LiveMaps* live = rig.live_maps())
+            record_live_maps(live->take_finished(), directory, header, store);
+        progress(trial, outcome, done);
+    });
     progress.finish();
     store.close();
     const LostRows lost = store.lost();

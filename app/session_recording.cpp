@@ -7,6 +7,7 @@
 
 #include "build_info.h"
 #include "experiment/error.h"
+#include "experiment/parallel.h"
 #include "experiment/record/header_rows.h"
 #include "experiment/scene/ply_writer.h"
 
@@ -35,8 +36,13 @@ void copy_into(const std::filesystem::path& from, const std::filesystem::path& t
         throw RecordError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
 }
 
+std::string map_name(const std::string& sculpture, PoseIndex pose) {
+    return fmt::format("maps/{}/pose_{:02}.exr", sculpture, pose.value);
+}
+
 void describe_sculptures(SessionHeader& header, const Protocol& protocol,
-                         std::span<const Sculpture> sculptures, const StimulusLibrary& library) {
+                         std::span<const Sculpture> sculptures, const StimulusLibrary& library,
+                         bool with_prepared_maps) {
     for (std::size_t i = 0; i < sculptures.size(); ++i) {
         const Sculpture& sculpture = sculptures[i];
         RecordedSculpture recorded;
@@ -49,11 +55,11 @@ void describe_sculptures(SessionHeader& header, const Protocol& protocol,
             recorded.camera = sculpture.scene.view.camera;
             recorded.bounds = sculpture.scene.bounds;
             recorded.axis_point = sculpture.scene.bounds.centre();
-            for (int pose = 0; pose < static_cast<int>(library.poses().angles.size()); ++pose) {
-                const std::string file = fmt::format("maps/{}/pose_{:02}.exr", sculpture.id, pose);
+            const int poses = with_prepared_maps ? static_cast<int>(library.poses().angles.size()) : 0;
+            for (int pose = 0; pose < poses; ++pose) {
                 header.maps.push_back({static_cast<int>(i),
                                        {pose},
-                                       file,
+                                       map_name(sculpture.id, {pose}),
                                        hash_of_file(library.map_file(static_cast<int>(i), {pose})),
                                        RecordedMap::Made::prepared});
             }
@@ -67,7 +73,7 @@ void describe_sculptures(SessionHeader& header, const Protocol& protocol,
 SessionHeader make_session_header(const Protocol& protocol, const Schedule& schedule,
                                   std::span<const Sculpture> sculptures, const StimulusLibrary& library,
                                   const GlDescription& graphics, const TrackerDescription& tracker,
-                                  ClockKind clock) {
+                                  ClockKind clock, bool with_prepared_maps) {
     SessionHeader header;
     header.protocol = {protocol.name, protocol.title, protocol.text, hash_of_text(protocol.text)};
     header.schedule = schedule;
@@ -93,7 +99,7 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
                 {condition, library.source_of(condition), library.frames_hash(condition)});
         }
     }
-    describe_sculptures(header, protocol, sculptures, library);
+    describe_sculptures(header, protocol, sculptures, library, with_prepared_maps);
     return header;
 }
 
@@ -120,6 +126,26 @@ void put_files(const SessionDirectory& directory, const SessionHeader& header,
         throw RecordError(
             fmt::format("{}: cannot be written", (directory.path() / "protocol.toml").string()));
     create_session_file(directory.session_file(), header);
+}
+
+void record_live_maps(std::vector<LiveMap> maps, const SessionDirectory& directory,
+                      const SessionHeader& header, SessionStore& store) {
+    std::vector<RecordedMap> recorded(maps.size());
+    parallel_for(static_cast<int>(maps.size()), [&](int i) {
+        const LiveMap& map = maps[static_cast<std::size_t>(i)];
+        const RecordedSculpture& sculpture = header.sculptures[static_cast<std::size_t>(map.sculpture)];
+        const std::string name = map_name(sculpture.id, map.pose);
+        const std::filesystem::path file = directory.path() / name;
+        std::filesystem::create_directories(file.parent_path());
+        const double angle_deg = header.poses.angles[static_cast<std::size_t>(map.pose.value)].value;
+        write_triangle_map(
+            file, map.map,
+            {{"mesh_sha256", sculpture.mesh_sha256}, {"angle_deg", fmt::format("{}", angle_deg)}});
+        recorded[static_cast<std::size_t>(i)] = {map.sculpture, map.pose, name, hash_of_file(file),
+                                                 RecordedMap::Made::live};
+    });
+    for (const RecordedMap& map : recorded)
+        store.map_made(map);
 }
 
 std::string preview_file(const SessionHeader& header, const Condition& condition) {

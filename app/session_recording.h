@@ -5,21 +5,27 @@
 
 #include "experiment/record/session_directory.h"
 #include "experiment/record/session_header.h"
+#include "experiment/record/session_store.h"
+#include "render/live_maps.h"
 #include "render/stimulus_library.h"
 
 namespace overt {
 
-/// What a session is made of, gathered for its record. The library's stimuli must be prepared. File names are
-/// those that put_files() gives.
+/// What a session is made of, gathered for its record. The library's frames must be prepared, and its maps if
+/// they are to be in it. File names are those that put_files() gives.
 SessionHeader make_session_header(const Protocol& protocol, const Schedule& schedule,
                                   std::span<const Sculpture> sculptures, const StimulusLibrary& library,
                                   const GlDescription& graphics, const TrackerDescription& tracker,
-                                  ClockKind clock);
+                                  ClockKind clock, bool with_prepared_maps);
 
 /// Puts the meshes, the maps and a picture of each stimulus into the directory as the header names them, the
 /// header itself into a new session file, and a copy of the protocol beside it. Throws RecordError.
 void put_files(const SessionDirectory& directory, const SessionHeader& header,
                std::span<const Sculpture> sculptures, const StimulusLibrary& library);
+
+/// Writes maps that were made live into a published session. Throws RecordError.
+void record_live_maps(std::vector<LiveMap> maps, const SessionDirectory& directory,
+                      const SessionHeader& header, SessionStore& store);
 
 /// Where in a session's folder animation frame 0 of a stimulus lies, as an 8-bit sRGB PNG to look at.
 std::string preview_file(const SessionHeader& header, const Condition& condition);

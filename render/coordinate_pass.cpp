@@ -10,9 +10,7 @@ CoordinatePass::CoordinatePass(const GlContext& context, glm::ivec2 image_px)
       program_(context, "coordinate map", embedded::coordinate_vert, embedded::coordinate_frag),
       triangle_codes_(context, image_px, PixelFormat::r32ui), target_(context, {&triangle_codes_}, true) {}
 
-std::vector<std::uint32_t> CoordinatePass::draw(const MeshBuffers& mesh, const SceneView& scene,
-                                                Degrees angle) {
-    OVERT_EXPECTS(scene.view.image_px == target_.size_px());
+void CoordinatePass::render(const MeshBuffers& mesh, const glm::mat4& clip_from_object) noexcept {
     const GladGLContext& gl = context_->gl();
     target_.bind();
     // Whatever could mix two surfaces in one pixel is off: a pixel is on the object or not, never in between.
@@ -25,8 +23,15 @@ std::vector<std::uint32_t> CoordinatePass::draw(const MeshBuffers& mesh, const S
     gl.ClearBufferuiv(GL_COLOR, 0, nothing);
     gl.ClearBufferfv(GL_DEPTH, 0, &far);
     program_.use();
-    program_.set("clip_from_object", clip_from_centred_object(scene, angle));
+    program_.set("clip_from_object", clip_from_object);
     mesh.draw();
+    gl.Disable(GL_DEPTH_TEST);
+}
+
+std::vector<std::uint32_t> CoordinatePass::draw(const MeshBuffers& mesh, const SceneView& scene,
+                                                Degrees angle) {
+    OVERT_EXPECTS(scene.view.image_px == target_.size_px());
+    render(mesh, clip_from_centred_object(scene, angle));
     std::vector<std::uint32_t> codes(static_cast<std::size_t>(target_.size_px().x) *
                                      static_cast<std::size_t>(target_.size_px().y));
     read_pixels(*context_, 0, {0, 0}, target_.size_px(), PixelFormat::r32ui,

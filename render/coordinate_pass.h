@@ -18,6 +18,12 @@ class CoordinatePass {
     /// triangle count.
     std::vector<std::uint32_t> draw(const MeshBuffers& mesh, const SceneView& scene, Degrees angle);
 
+    /// Draws into the target and leaves it there, for an asynchronous read. Allocates and throws nothing.
+    void render(const MeshBuffers& mesh, const glm::mat4& clip_from_object) noexcept;
+
+    /// What render() drew: triangle index + 1, as R32UI in colour attachment 0.
+    const Framebuffer& target() const { return target_; }
+
   private:
     const GlContext* context_;
     ShaderProgram program_;

@@ -17,7 +17,7 @@ struct GlFormat {
     const char* name;
 };
 
-GlFormat gl_format(PixelFormat format) {
+GlFormat gl_format(PixelFormat format) noexcept {
     switch (format) {
     case PixelFormat::rgba8:
         return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, "RGBA8"};
@@ -57,6 +57,11 @@ GlName make_framebuffer(const GlContext& context) {
 } // namespace
 
 std::size_t bytes_per_pixel(PixelFormat format) { return gl_format(format).bytes; }
+
+TransferFormat transfer_format(PixelFormat format) noexcept {
+    const GlFormat pixel = gl_format(format);
+    return {pixel.format, pixel.type};
+}
 
 Texture2D::Texture2D(const GlContext& context, glm::ivec2 size_px, PixelFormat format)
     : name_(make_texture(context)), size_px_(size_px), format_(format) {
@@ -153,14 +158,19 @@ void Framebuffer::bind() const {
     gl.Viewport(0, 0, size_px_.x, size_px_.y);
 }
 
-Buffer::Buffer(const GlContext& context, GLenum target, std::span<const std::byte> content, GLenum usage) {
+Buffer::Buffer(const GlContext& context, GLenum target, std::span<const std::byte> content, GLenum usage)
+    : Buffer(context, target, content.size(), usage) {
+    context.gl().BufferSubData(target, 0, static_cast<GLsizeiptr>(content.size()), content.data());
+}
+
+Buffer::Buffer(const GlContext& context, GLenum target, std::size_t bytes, GLenum usage) {
     const GladGLContext& gl = context.gl();
     GLuint name = 0;
     gl.GenBuffers(1, &name);
     name_ = {context, name, [](const GladGLContext& g, GLuint buffer) { g.DeleteBuffers(1, &buffer); }};
     gl.BindBuffer(target, name);
-    gl.BufferData(target, static_cast<GLsizeiptr>(content.size()), content.data(), usage);
-    throw_on_gl_error(context, fmt::format("making a buffer of {} bytes", content.size()));
+    gl.BufferData(target, static_cast<GLsizeiptr>(bytes), nullptr, usage);
+    throw_on_gl_error(context, fmt::format("making a buffer of {} bytes", bytes));
 }
 
 VertexArray::VertexArray(const GlContext& context) {

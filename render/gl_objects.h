@@ -101,6 +101,8 @@ class Framebuffer {
 class Buffer {
   public:
     Buffer(const GlContext& context, GLenum target, std::span<const std::byte> content, GLenum usage);
+    /// Of a size, its content open.
+    Buffer(const GlContext& context, GLenum target, std::size_t bytes, GLenum usage);
     GLuint name() const { return *name_; }
 
   private:
@@ -122,5 +124,11 @@ void read_pixels(const GlContext& context, int index, glm::ivec2 origin_px, glm:
                  PixelFormat format, std::span<std::byte> into);
 
 std::size_t bytes_per_pixel(PixelFormat format);
+
+/// OpenGL's names for how pixels of a format lie in memory.
+struct TransferFormat {
+    GLenum format, type;
+};
+TransferFormat transfer_format(PixelFormat format) noexcept;
 
 } // namespace overt

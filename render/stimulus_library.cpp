@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiment/error.h"
+#include "render/ready_made_frames.h"
 
 namespace overt {
 
@@ -45,32 +46,21 @@ StimulusLibrary::StimulusLibrary(const GlContext& context, const Protocol& proto
     : context_(&context), protocol_(&protocol), sculptures_(sculptures), cache_(std::move(cache)),
       poses_(distinct_poses(protocol.animation)), light_hash_(hash_of_light(protocol.light)) {}
 
-void StimulusLibrary::prepare(const Progress& progress) {
+void StimulusLibrary::prepare_frames(const Progress& progress) {
     for (int sculpture = 0; sculpture < static_cast<int>(sculptures_.size()); ++sculpture) {
         for (int material = 0; material < static_cast<int>(protocol_->materials.size()); ++material) {
-            prepare({sculpture, material}, progress);
+            prepare_frames({sculpture, material}, progress);
         }
     }
 }
 
-void StimulusLibrary::prepare(const Condition& condition, const Progress& progress) {
+void StimulusLibrary::prepare_frames(const Condition& condition, const Progress& progress) {
     const Sculpture& sculpture = sculptures_[static_cast<std::size_t>(condition.sculpture)];
     const MaterialSettings& material = protocol_->materials[static_cast<std::size_t>(condition.material)];
     const std::string name = fmt::format("{}, {}", sculpture.id, material.id);
-    if (sculpture.has_mesh())
-        prepare_maps(condition.sculpture, progress);
     if (const FrameSequenceSettings* sequence = sequence_of(condition)) {
-        const glm::ivec2 wanted(protocol_->view.width_px, protocol_->view.height_px);
-        for (int frame = 0; frame < protocol_->animation.frame_count; ++frame) {
-            const std::filesystem::path file = frame_file(*sequence, {frame});
-            const glm::ivec2 size = image_size_px(file);
-            if (size != wanted) {
-                throw InputError(fmt::format(
-                    "{}: is {} x {} pixels, but [view] asks for {} x {}: correct width_px and height_px, "
-                    "or the frames; they are never resized",
-                    file.string(), size.x, size.y, wanted.x, wanted.y));
-            }
-        }
+        check_frame_sizes(*sequence, protocol_->animation.frame_count,
+                          {protocol_->view.width_px, protocol_->view.height_px});
         return;
     }
     if (!sculpture.has_mesh()) {
@@ -111,6 +101,13 @@ void StimulusLibrary::prepare(const Condition& condition, const Progress& progre
     writing.get();
     if (progress)
         progress("drawing " + name, count, count);
+}
+
+void StimulusLibrary::prepare_maps(const Progress& progress) {
+    for (int sculpture = 0; sculpture < static_cast<int>(sculptures_.size()); ++sculpture) {
+        if (sculptures_[static_cast<std::size_t>(sculpture)].has_mesh())
+            prepare_maps(sculpture, progress);
+    }
 }
 
 void StimulusLibrary::prepare_maps(int sculpture, const Progress& progress) {

@@ -26,11 +26,15 @@ class StimulusLibrary final : public FrameSource {
     StimulusLibrary(const GlContext& context, const Protocol& protocol, std::span<const Sculpture> sculptures,
                     std::filesystem::path cache);
 
-    /// Draws whatever the cache lacks, and checks the size of ready-made frames. Throws InputError,
+    /// Draws whatever frames the cache lacks, and checks the size of ready-made ones. Throws InputError,
     /// GraphicsError, RecordError.
-    void prepare(const Progress& progress);
-    /// The same for one stimulus, with the maps of its sculpture.
-    void prepare(const Condition& condition, const Progress& progress);
+    void prepare_frames(const Progress& progress);
+    void prepare_frames(const Condition& condition, const Progress& progress);
+
+    /// Draws whatever maps the cache lacks, of all sculptures with a mesh, or of one. Throws as above; an
+    /// object that is nowhere in the picture is an InputError.
+    void prepare_maps(const Progress& progress);
+    void prepare_maps(int sculpture, const Progress& progress);
 
     std::vector<int> page_of_frame(const Condition& condition) const override;
     LinearImage page(const Condition& condition, int page) const override;
@@ -45,7 +49,7 @@ class StimulusLibrary final : public FrameSource {
 
     /// The map's file in the cache; only for a sculpture with a mesh.
     std::filesystem::path map_file(int sculpture, PoseIndex pose) const;
-    /// All maps of a sculpture. prepare() must have been called.
+    /// All maps of a sculpture. prepare_maps() must have been called.
     CoordinateMaps maps_of(int sculpture) const;
 
     /// Draws one pose anew, past the cache: for a look and for measurements.
@@ -54,7 +58,6 @@ class StimulusLibrary final : public FrameSource {
   private:
     const FrameSequenceSettings* sequence_of(const Condition& condition) const;
     std::filesystem::path page_file(const Condition& condition, int page) const;
-    void prepare_maps(int sculpture, const Progress& progress);
     const MeshBuffers& buffers_of(int sculpture, bool for_light);
 
     const GlContext* context_;
