@@ -7,11 +7,12 @@ namespace overt {
 Degrees ScreenGeometry::angle_between(ScreenPoint a, ScreenPoint b) const {
     const glm::dvec2 mm_per_px = screen_mm / glm::dvec2(screen_px);
     const auto direction = [&](ScreenPoint point) {
-        return glm::normalize(glm::dvec3((point.x_px - centre().x_px) * mm_per_px.x,
-                                         (point.y_px - centre().y_px) * mm_per_px.y, viewing_distance_mm));
+        return glm::dvec3((point.x_px - centre().x_px) * mm_per_px.x,
+                          (point.y_px - centre().y_px) * mm_per_px.y, viewing_distance_mm);
     };
     const glm::dvec3 to_a = direction(a), to_b = direction(b);
-    // atan2 of sine and cosine keeps its accuracy at small angles, where acos loses it.
+    // atan2 of sine and cosine, both times the same lengths, keeps its accuracy at small angles, where acos
+    // loses it.
     return to_degrees({std::atan2(glm::length(glm::cross(to_a, to_b)), glm::dot(to_a, to_b))});
 }
 

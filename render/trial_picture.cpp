@@ -19,10 +19,10 @@ constexpr int caption_px = 34;
 /// Calls draw(point, pixel) for each pixel whose centre is on the object.
 template <class Draw>
 LinearImage picture_of_surface(const CoordinateMaps& maps, PoseIndex pose, const Draw& draw) {
-    LinearImage image(maps.map(pose).size_px);
+    LinearImage image(maps.image_px());
     parallel_for(image.size_px.y, [&](int y) {
         for (int x = 0; x < image.size_px.x; ++x) {
-            if (maps.map(pose).code_at(x, y) == 0)
+            if (!maps.cells(pose).cell({x, y}).is_covered())
                 continue;
             const auto surface = maps.surface_at(pose, {x + 0.5, y + 0.5});
             if (surface)

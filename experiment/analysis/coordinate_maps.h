@@ -2,20 +2,26 @@
 /// surface.
 #pragma once
 
-#include <array>
 #include <vector>
 
+#include "experiment/analysis/pose_cells.h"
+#include "experiment/analysis/sight_lines.h"
 #include "experiment/analysis/surface_point.h"
+#include "experiment/analysis/surface_walk.h"
 #include "experiment/analysis/triangle_map.h"
+#include "experiment/scene/ray_caster.h"
 #include "experiment/scene/viewing.h"
 
 namespace overt {
 
 /// One map per distinct pose, with the mesh and camera they were drawn from.
 ///
-/// A look-up is sub-pixel: the sight line through the place itself is met, in double, with the triangles that
-/// the map shows in the 3 x 3 pixels around it and, where it passes beside them, with their neighbours across
-/// the edges crossed. The nearest meeting counts.
+/// A look-up is sub-pixel, and gives what casting a ray through the place gives. Where no contour of the mesh
+/// touches the pixel, the map knows the one sheet of surface that is seen there: from the triangle at the
+/// pixel's centre it is a step or two along the surface to the place itself, in double. In the few per cent
+/// of pixels that a contour does touch, at silhouettes and where one part hides another, no map can know what
+/// lies between the centres, and a ray is cast. What is left is a mesh that passes through itself between the
+/// centres of neighbouring pixels without showing at either.
 class CoordinateMaps final : public SurfaceLookup {
   public:
     /// `mesh` must outlive this; `angles` and `maps` by PoseIndex, equally long. Throws InputError if a map
@@ -24,30 +30,39 @@ class CoordinateMaps final : public SurfaceLookup {
                    std::vector<TriangleMap> maps);
 
     std::optional<SurfacePoint> surface_at(PoseIndex pose, glm::dvec2 image_point_px) const override;
+    void look(std::span<const ImagePlace> places, std::span<Sight> sights) const override;
+    std::optional<PartIndex> part_near(PoseIndex pose, glm::dvec2 image_point_px) const override;
 
-    const TriangleMap& map(PoseIndex pose) const { return maps_[static_cast<std::size_t>(pose.value)]; }
-    std::size_t pose_count() const { return maps_.size(); }
+    const Mesh& mesh() const { return *mesh_; }
+    glm::ivec2 image_px() const { return image_px_; }
+    std::size_t pose_count() const { return cells_.size(); }
+    const PoseCells& cells(PoseIndex pose) const { return cells_[static_cast<std::size_t>(pose.value)]; }
+    const SightLines& sight_lines(PoseIndex pose) const {
+        return sight_lines_[static_cast<std::size_t>(pose.value)];
+    }
+    /// The surface at a pixel's centre goes on to the next pixel's: the mesh is one sheet between them.
+    bool is_one_sheet(PoseIndex pose, glm::ivec2 pixel, glm::ivec2 next) const;
+
+    /// The same as ever was given.
+    TriangleMap map(PoseIndex pose) const { return cells(pose).map(); }
 
   private:
-    /// Sight lines of one pose in object coordinates: origin + t (forward + x right + y down), t = depth.
-    struct SightLines {
-        glm::dvec3 origin, forward, right_per_px, down_per_px;
-    };
-    /// Where a sight line passes a triangle's plane.
-    struct Meeting {
-        std::uint32_t triangle;
-        glm::dvec3 barycentric;
-        double depth;
-    };
-
-    std::optional<Meeting> walk(std::uint32_t triangle, glm::dvec3 origin, glm::dvec3 direction) const;
+    bool is_in_image(glm::dvec2 point_px) const {
+        // Also turns away what is not a number.
+        return point_px.x >= 0.0 && point_px.y >= 0.0 && point_px.x < image_px_.x && point_px.y < image_px_.y;
+    }
+    std::optional<Meeting> meet(PoseIndex pose, PixelCell cell, const glm::dvec3& direction) const;
+    std::optional<Meeting> cast(const SightLines& lines, const glm::dvec3& direction) const;
+    SurfacePoint surface_of(const Meeting& meeting, const SightLines& lines,
+                            const glm::dvec3& direction) const;
+    void look_in_step(std::span<const ImagePlace> places, std::span<Sight> sights) const;
 
     const Mesh* mesh_;
-    SceneView scene_;
+    glm::ivec2 image_px_;
+    SurfaceWalk walk_;
+    RayCaster caster_;
     std::vector<SightLines> sight_lines_;
-    std::vector<TriangleMap> maps_;
-    std::vector<std::array<std::uint32_t, 3>>
-        neighbours_; ///< triangle opposite each corner; no_triangle at a border
+    std::vector<PoseCells> cells_;
 };
 
 } // namespace overt

@@ -1,13 +1,13 @@
 #include "experiment/analysis/flip_history.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "experiment/error.h"
 
 namespace overt {
+
 FlipHistory::FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_out, PageCycle plan)
-    : scan_out_(scan_out), plan_(std::move(plan)) {
+    : scan_out_(scan_out), refresh_ns_(1e9 / scan_out.refresh_hz) {
     OVERT_EXPECTS(scan_out.refresh_hz > 0.0 && scan_out.screen_rows > 0.0);
     std::vector<FlipRecord> ordered(flips.begin(), flips.end());
     std::stable_sort(ordered.begin(), ordered.end(), [](const FlipRecord& a, const FlipRecord& b) {
@@ -19,50 +19,93 @@ FlipHistory::FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_
         blanks_.push_back(flip.report.vertical_blank);
         pictures_.push_back({flip.shown, flip.page, flip.report.refresh});
     }
-    if (!blanks_.empty())
-        end_ = blanks_.back() + from_seconds(1.0 / scan_out_.refresh_hz);
+    if (blanks_.empty())
+        return;
+    end_ = blanks_.back() + from_seconds(1.0 / scan_out_.refresh_hz);
+    for (int refresh = 0; refresh <= plan.total_refreshes; ++refresh) {
+        planned_blanks_.push_back(blanks_.front() + from_seconds(refresh / scan_out_.refresh_hz));
+        if (refresh < plan.total_refreshes)
+            planned_frames_.push_back(plan.entry_at(refresh).frame);
+    }
+    // Two steps for each blank, so that hardly a step holds more than one.
+    const std::size_t steps = 2 * blanks_.size();
+    const double step_ns = static_cast<double>((end_ - blanks_.front()).count()) / static_cast<double>(steps);
+    steps_per_ns_ = 1.0 / step_ns;
+    std::uint32_t before = 0;
+    for (std::size_t step = 0; step <= steps; ++step) {
+        const SessionTime from =
+            blanks_.front() + SessionDuration(static_cast<std::int64_t>(step_ns * static_cast<double>(step)));
+        while (before < blanks_.size() && blanks_[before] <= from)
+            ++before;
+        blanks_before_step_.push_back(before);
+    }
 }
 
 SessionTime FlipHistory::blank_lighting(SessionTime time, double row_px) const {
     const double row_share = std::clamp(row_px / scan_out_.screen_rows, 0.0, 1.0);
-    return time - scan_out_.latency - from_seconds(row_share / scan_out_.refresh_hz);
+    return time - scan_out_.latency -
+           SessionDuration(static_cast<std::int64_t>(row_share * refresh_ns_ + 0.5));
+}
+
+std::ptrdiff_t FlipHistory::picture_at(SessionTime blank) const {
+    if (blanks_.empty() || blank < blanks_.front() || blank >= end_)
+        return -1;
+    const auto step =
+        static_cast<std::size_t>(static_cast<double>((blank - blanks_.front()).count()) * steps_per_ns_);
+    // Rounding may have led to the step before or after; the neighbours' bounds take that in.
+    const std::size_t first = step > 0 ? blanks_before_step_[step - 1] : 1;
+    const std::size_t last = blanks_before_step_[std::min(step + 2, blanks_before_step_.size() - 1)];
+    const auto next = std::upper_bound(blanks_.begin() + static_cast<std::ptrdiff_t>(first),
+                                       blanks_.begin() + static_cast<std::ptrdiff_t>(last), blank);
+    return next - blanks_.begin() - 1;
+}
+
+std::ptrdiff_t FlipHistory::planned_at(SessionTime blank) const {
+    if (blanks_.empty() || blank < planned_blanks_.front() || blank >= planned_blanks_.back())
+        return -1;
+    auto refresh =
+        static_cast<std::size_t>(static_cast<double>((blank - blanks_.front()).count()) / refresh_ns_);
+    // Compared with whole nanoseconds of each planned blank: an instant right on one belongs to its refresh.
+    refresh = std::min(refresh, planned_frames_.size() - 1);
+    while (blank >= planned_blanks_[refresh + 1])
+        ++refresh;
+    while (blank < planned_blanks_[refresh])
+        --refresh;
+    return static_cast<std::ptrdiff_t>(refresh);
 }
 
 std::optional<LitFrame> FlipHistory::frame_shown_at(SessionTime time, double row_px) const {
-    const SessionTime instant = blank_lighting(time, row_px);
-    if (blanks_.empty() || instant < blanks_.front() || instant >= end_)
-        return std::nullopt;
-    const auto next = std::upper_bound(blanks_.begin(), blanks_.end(), instant);
-    return pictures_[static_cast<std::size_t>(next - blanks_.begin() - 1)];
+    return lighting_at(time, row_px).shown;
 }
 
 std::optional<AnimationFrameIndex> FlipHistory::frame_planned_at(SessionTime time, double row_px) const {
-    const SessionTime instant = blank_lighting(time, row_px);
-    if (blanks_.empty() || instant < blanks_.front())
-        return std::nullopt;
-    // Compared with whole nanoseconds of each planned blank: an instant right on one belongs to its refresh.
-    const double since_onset_s = to_seconds(instant - blanks_.front());
-    auto refresh = static_cast<std::int64_t>(since_onset_s * scan_out_.refresh_hz);
-    const auto planned_blank = [&](std::int64_t index) {
-        return blanks_.front() + from_seconds(static_cast<double>(index) / scan_out_.refresh_hz);
-    };
-    while (instant >= planned_blank(refresh + 1))
-        ++refresh;
-    while (refresh > 0 && instant < planned_blank(refresh))
-        --refresh;
-    if (refresh >= plan_.total_refreshes)
-        return std::nullopt;
-    return plan_.entry_at(static_cast<int>(refresh)).frame;
+    const std::ptrdiff_t refresh = planned_at(blank_lighting(time, row_px));
+    return refresh < 0 ? std::nullopt : std::optional(planned_frames_[static_cast<std::size_t>(refresh)]);
+}
+
+bool FlipHistory::is_on_plan(std::ptrdiff_t picture, SessionTime blank) const {
+    const std::ptrdiff_t planned = planned_at(blank);
+    return picture < 0 || planned < 0 ? picture == planned
+                                      : pictures_[static_cast<std::size_t>(picture)].frame ==
+                                            planned_frames_[static_cast<std::size_t>(planned)];
+}
+
+bool FlipHistory::is_off_plan(std::ptrdiff_t picture, SessionTime blank) const {
+    constexpr SessionDuration rounding = std::chrono::microseconds(1);
+    return !is_on_plan(picture, blank) && !is_on_plan(picture, blank - rounding) &&
+           !is_on_plan(picture, blank + rounding);
+}
+
+Lighting FlipHistory::lighting_at(SessionTime time, double row_px) const {
+    const SessionTime blank = blank_lighting(time, row_px);
+    const std::ptrdiff_t picture = picture_at(blank);
+    return {picture < 0 ? std::nullopt : std::optional(pictures_[static_cast<std::size_t>(picture)]),
+            is_off_plan(picture, blank)};
 }
 
 bool FlipHistory::is_off_plan(SessionTime time, double row_px) const {
-    const std::optional<LitFrame> shown = frame_shown_at(time, row_px);
-    const auto agrees_at = [&](SessionTime planned_time) {
-        const std::optional<AnimationFrameIndex> planned = frame_planned_at(planned_time, row_px);
-        return planned.has_value() == shown.has_value() && (!planned || *planned == shown->frame);
-    };
-    constexpr SessionDuration rounding = std::chrono::microseconds(1);
-    return !agrees_at(time) && !agrees_at(time - rounding) && !agrees_at(time + rounding);
+    const SessionTime blank = blank_lighting(time, row_px);
+    return is_off_plan(picture_at(blank), blank);
 }
 
 } // namespace overt

@@ -1,8 +1,9 @@
-/// A place on a sculpture's surface, as a gaze sample meets it.
+/// A place on a sculpture's surface, as a gaze sample meets it, and the ways to find it.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include <glm/glm.hpp>
 
@@ -20,13 +21,41 @@ struct SurfacePoint {
     Degrees incidence;  ///< between the line of sight and the surface's normal, 0 = head-on
 };
 
-/// Finds what is seen at a place of a stimulus image in a given pose.
+/// A continuous place of a stimulus image (see viewing.h), in a pose.
+struct ImagePlace {
+    PoseIndex pose;
+    glm::dvec2 point_px{0.0};
+};
+
+/// What is seen at a place.
+struct Sight {
+    std::optional<SurfacePoint> surface; ///< nothing beside the object
+    /// The place of the picture's outline that is nearest to it, in image pixels; nothing if that is not
+    /// known, or if nothing of the object is in the image.
+    std::optional<glm::dvec2> outline_px;
+};
+
+/// Finds what is seen at a place of a stimulus image in a given pose. All of it may be called from any
+/// thread.
 class SurfaceLookup {
   public:
     virtual ~SurfaceLookup() = default;
-    /// `image_point_px` is continuous, see viewing.h. Nothing where the image shows no surface. May be called
-    /// from any thread.
+
+    /// Nothing where the image shows no surface, and outside of the image.
     virtual std::optional<SurfacePoint> surface_at(PoseIndex pose, glm::dvec2 image_point_px) const = 0;
+
+    /// What is seen at each of many places, with the outline: faster than one by one. Both spans are equally
+    /// long. Places outside of the image have no surface but an outline.
+    virtual void look(std::span<const ImagePlace> places, std::span<Sight> sights) const {
+        for (std::size_t i = 0; i < places.size(); ++i)
+            sights[i] = {surface_at(places[i].pose, places[i].point_px), std::nullopt};
+    }
+
+    /// The part seen at a place, where the pixel is answer enough: its centre may stand for the place.
+    virtual std::optional<PartIndex> part_near(PoseIndex pose, glm::dvec2 image_point_px) const {
+        const std::optional<SurfacePoint> surface = surface_at(pose, image_point_px);
+        return surface ? std::optional(surface->part) : std::nullopt;
+    }
 };
 
 } // namespace overt

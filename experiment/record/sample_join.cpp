@@ -1,12 +1,29 @@
 #include "experiment/record/sample_join.h"
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "experiment/error.h"
+
 namespace overt {
 
-SampleJoin::SampleJoin(const SessionRecord& record, const TrialRecord& trial, const SurfaceLookup* lookup)
-    : screen_(record.header().display.screen), clock_map_(record.clock_map(trial.sitting)),
-      flip_history_(record.flip_history(trial)), lookup_(lookup) {}
+namespace {
 
-JoinedSample SampleJoin::join(const GazeSample& sample) const {
+/// Samples whose places are looked up together: enough to keep the memory busy, few enough for the stack.
+constexpr std::size_t batch = 64;
+
+} // namespace
+
+SampleJoin::SampleJoin(const SessionRecord& record, const TrialRecord& trial, const SurfaceLookup* lookup)
+    : SampleJoin(record.header().display.screen, record.clock_map(trial.sitting), record.flip_history(trial),
+                 lookup) {}
+
+SampleJoin::SampleJoin(const ScreenGeometry& screen, std::optional<ClockMap> clock_map, FlipHistory history,
+                       const SurfaceLookup* lookup)
+    : screen_(screen), clock_map_(std::move(clock_map)), flip_history_(std::move(history)), lookup_(lookup) {}
+
+JoinedSample SampleJoin::join_time_and_frame(const GazeSample& sample) const {
     JoinedSample joined;
     if (clock_map_)
         joined.at = clock_map_->to_session(sample.sampled_at);
@@ -15,10 +32,50 @@ JoinedSample SampleJoin::join(const GazeSample& sample) const {
     joined.image_px = screen_.image_from_screen(*sample.gaze);
     if (!joined.at)
         return joined;
-    joined.shown = flip_history_.frame_shown_at(joined.at->time, sample.gaze->y_px);
-    joined.off_plan = flip_history_.is_off_plan(joined.at->time, sample.gaze->y_px);
-    if (lookup_ && joined.shown && screen_.is_inside_image(*joined.image_px))
-        joined.surface = lookup_->surface_at(joined.shown->pose, *joined.image_px);
+    const Lighting lighting = flip_history_.lighting_at(joined.at->time, sample.gaze->y_px);
+    joined.shown = lighting.shown;
+    joined.off_plan = lighting.off_plan;
+    return joined;
+}
+
+void SampleJoin::join_surfaces(std::span<const GazeSample> samples, std::span<JoinedSample> joined) const {
+    std::array<ImagePlace, batch> places;
+    std::array<Sight, batch> sights;
+    std::array<std::size_t, batch> sample_of;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < joined.size(); ++i) {
+        if (!joined[i].shown)
+            continue;
+        places[count] = {joined[i].shown->pose, *joined[i].image_px};
+        sample_of[count++] = i;
+    }
+    lookup_->look(std::span(places).first(count), std::span(sights).first(count));
+    for (std::size_t k = 0; k < count; ++k) {
+        JoinedSample& sample = joined[sample_of[k]];
+        sample.surface = sights[k].surface;
+        if (sights[k].outline_px) {
+            const Degrees angle = screen_.angle_between(*samples[sample_of[k]].gaze,
+                                                        screen_.screen_from_image(*sights[k].outline_px));
+            sample.outline_distance = Degrees{sample.surface ? -angle.value : angle.value};
+        }
+    }
+}
+
+void SampleJoin::join(std::span<const GazeSample> samples, std::span<JoinedSample> joined) const {
+    OVERT_EXPECTS(samples.size() == joined.size());
+    for (std::size_t begin = 0; begin < samples.size(); begin += batch) {
+        const auto of_batch = samples.subspan(begin, std::min(batch, samples.size() - begin));
+        const auto into = joined.subspan(begin, of_batch.size());
+        for (std::size_t i = 0; i < of_batch.size(); ++i)
+            into[i] = join_time_and_frame(of_batch[i]);
+        if (lookup_)
+            join_surfaces(of_batch, into);
+    }
+}
+
+JoinedSample SampleJoin::join(const GazeSample& sample) const {
+    JoinedSample joined;
+    join(std::span(&sample, 1), std::span(&joined, 1));
     return joined;
 }
 

@@ -1,0 +1,97 @@
+/// The hidden map of one pose, made ready for questions: each pixel's cell says in 32 bits which triangle it
+/// shows and whether that is the whole truth, or where the object's outline is nearest.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "experiment/analysis/contours.h"
+#include "experiment/analysis/triangle_map.h"
+
+namespace overt {
+
+/// One pixel.
+class PixelCell {
+  public:
+    static constexpr std::uint32_t most_triangles = 1u << 30;
+
+    static PixelCell covered(std::uint32_t triangle, bool contested) {
+        return PixelCell(triangle | (contested ? contested_bit : 0u));
+    }
+    /// `outline`: offset to the nearest covered pixel, each within ± 16,383.
+    static PixelCell uncovered(glm::ivec2 outline, bool contested) {
+        return PixelCell(uncovered_bit | (contested ? contested_bit : 0u) |
+                         static_cast<std::uint32_t>(outline.x + bias) << 15 |
+                         static_cast<std::uint32_t>(outline.y + bias));
+    }
+
+    /// The object is seen at the pixel's centre.
+    bool is_covered() const { return (bits_ & uncovered_bit) == 0; }
+    /// More than one sheet of surface, or surface and background, may be seen within the pixel.
+    bool is_contested() const { return (bits_ & contested_bit) != 0; }
+    /// Only of a covered pixel.
+    std::uint32_t triangle() const { return bits_ & (most_triangles - 1); }
+    /// Only of one that is not covered.
+    glm::ivec2 to_outline() const {
+        return {static_cast<int>(bits_ >> 15 & 0x7fffu) - bias, static_cast<int>(bits_ & 0x7fffu) - bias};
+    }
+
+  private:
+    explicit PixelCell(std::uint32_t bits) : bits_(bits) {}
+    static constexpr std::uint32_t uncovered_bit = 1u << 31, contested_bit = 1u << 30;
+    static constexpr int bias = 1 << 14;
+    std::uint32_t bits_;
+};
+
+/// All pixels of a pose. Takes 4 bytes for each, and 2 more within the box around those that are covered.
+class PoseCells {
+  public:
+    /// `contested` has a flag for each pixel of the map.
+    PoseCells(const TriangleMap& map, const PixelFlags& contested);
+
+    glm::ivec2 size_px() const { return size_px_; }
+    bool is_inside(glm::ivec2 pixel) const {
+        return pixel.x >= 0 && pixel.y >= 0 && pixel.x < size_px_.x && pixel.y < size_px_.y;
+    }
+    /// Of a pixel inside the image.
+    const PixelCell& cell(glm::ivec2 pixel) const {
+        return cells_[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(size_px_.x) +
+                      static_cast<std::size_t>(pixel.x)];
+    }
+
+    /// The place of the outline that is nearest to a point, of which the caller knows whether the object is
+    /// seen there. The outline is taken to run along the borders of covered pixels, so it is right to within
+    /// a pixel; from a covered pixel to within a pixel and a hundredth of the distance. Where the map has the
+    /// point's pixel on the other side of the outline than it is, the point itself. Nothing if no pixel is
+    /// covered, or all are.
+    std::optional<glm::dvec2> outline_near(glm::dvec2 point_px, bool on_surface) const;
+
+    TriangleMap map() const;
+    std::size_t memory_bytes() const;
+
+  private:
+    /// First and last covered pixel of a row or column; first > last if there is none.
+    struct Extent {
+        std::int16_t first = std::numeric_limits<std::int16_t>::max();
+        std::int16_t last = -1;
+    };
+
+    void measure_extents();
+    void measure_inside(const TriangleMap& map);
+    double inside_distance_px(glm::ivec2 pixel) const;
+    glm::dvec2 outline_from_inside(glm::ivec2 pixel, glm::dvec2 point_px) const;
+    glm::dvec2 outline_from_beyond_the_image(glm::dvec2 point_px) const;
+
+    glm::ivec2 size_px_;
+    std::vector<PixelCell> cells_;
+    std::vector<Extent> row_extents_, column_extents_;
+    glm::ivec2 box_begin_{0}, box_end_{0};        ///< pixels around all that are covered
+    std::vector<std::uint16_t> inside_distances_; ///< of the box, to the nearest uncovered pixel
+    bool any_covered_ = false, any_uncovered_ = false;
+};
+
+} // namespace overt
