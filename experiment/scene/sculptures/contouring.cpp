@@ -13,8 +13,16 @@ namespace overt {
 
 namespace {
 
-/// Vertices handed to a thread at a time.
-constexpr std::size_t vertices_per_turn = 2048;
+/// Calls work(i) for each i below count, some thousands at a time on a thread.
+template <class Work> void for_each_in_turns(std::size_t count, int threads, const Work& work) {
+    constexpr std::size_t per_turn = 2048;
+    const auto turn = [&](int t) {
+        const std::size_t first = static_cast<std::size_t>(t) * per_turn;
+        for (std::size_t i = first; i < std::min(count, first + per_turn); ++i)
+            work(i);
+    };
+    parallel_for(static_cast<int>((count + per_turn - 1) / per_turn), turn, threads);
+}
 
 /// Rounds of drawing vertices towards their neighbours, and how far each goes.
 constexpr int relaxing_rounds = 4;
@@ -88,14 +96,7 @@ class Settling {
     }
 
     template <class Work> void for_each_vertex(const Work& work) const {
-        const std::size_t count = net_.positions.size();
-        const auto turn = [&](int t) {
-            const std::size_t first = static_cast<std::size_t>(t) * vertices_per_turn;
-            for (std::size_t i = first; i < std::min(count, first + vertices_per_turn); ++i)
-                work(i);
-        };
-        parallel_for(static_cast<int>((count + vertices_per_turn - 1) / vertices_per_turn), turn,
-                     request_.threads);
+        for_each_in_turns(net_.positions.size(), request_.threads, work);
     }
 
     /// A Newton step, never longer than half a cell: where the slope is slight it says little.
@@ -136,8 +137,7 @@ class Settling {
     std::vector<std::size_t> first_neighbour_;
 };
 
-/// Least height of the two triangles that a quadrilateral gives, relative to its longest side: the better
-/// diagonal has the greater one.
+/// Least height of the two triangles of a quadrilateral, relative to their longest sides.
 double worst_shape(const PolygonNet& net, const std::array<glm::uvec3, 2>& pair) {
     double worst = 1e30;
     for (const glm::uvec3& t : pair) {
@@ -150,15 +150,33 @@ double worst_shape(const PolygonNet& net, const std::array<glm::uvec3, 2>& pair)
     return worst;
 }
 
-std::vector<glm::uvec3> triangles_of(const PolygonNet& net) {
-    std::vector<glm::uvec3> triangles;
-    triangles.reserve(net.quads.size() * 2 + net.triangles.size());
-    for (const auto& [a, b, c, d] : net.quads) {
-        const std::array<glm::uvec3, 2> over_ac{{{a, b, c}, {a, c, d}}};
-        const std::array<glm::uvec3, 2> over_bd{{{a, b, d}, {b, c, d}}};
-        const auto& pair = worst_shape(net, over_ac) >= worst_shape(net, over_bd) ? over_ac : over_bd;
-        triangles.insert(triangles.end(), pair.begin(), pair.end());
-    }
+/// Triangles flatter than this are avoided, however well they lie on the surface.
+constexpr double flat_shape = 0.25;
+
+/// Cuts a quadrilateral along the diagonal that lies nearer to the surface: along a fold and not across it,
+/// so that the normals run smoothly in a mirror.
+std::array<glm::uvec3, 2> cut_quad(const ContourRequest& request, const PolygonNet& net,
+                                   const std::array<std::uint32_t, 4>& quad) {
+    const auto [a, b, c, d] = quad;
+    const std::array<glm::uvec3, 2> over_ac{{{a, b, c}, {a, c, d}}};
+    const std::array<glm::uvec3, 2> over_bd{{{a, b, d}, {b, c, d}}};
+    const double shape_ac = worst_shape(net, over_ac);
+    const double shape_bd = worst_shape(net, over_bd);
+    if (std::min(shape_ac, shape_bd) < flat_shape)
+        return shape_ac >= shape_bd ? over_ac : over_bd;
+    const auto off_surface = [&](std::uint32_t from, std::uint32_t to) {
+        return std::abs(request.distance(0.5 * (net.positions[from] + net.positions[to])));
+    };
+    return off_surface(a, c) <= off_surface(b, d) ? over_ac : over_bd;
+}
+
+std::vector<glm::uvec3> triangles_of(const ContourRequest& request, const PolygonNet& net) {
+    std::vector<glm::uvec3> triangles(net.quads.size() * 2);
+    for_each_in_turns(net.quads.size(), request.threads, [&](std::size_t i) {
+        const auto pair = cut_quad(request, net, net.quads[i]);
+        triangles[2 * i] = pair[0];
+        triangles[2 * i + 1] = pair[1];
+    });
     triangles.insert(triangles.end(), net.triangles.begin(), net.triangles.end());
     return triangles;
 }
@@ -201,7 +219,7 @@ ClosedSurface contour(const ContourRequest& request) {
     if (net.quads.empty())
         throw InputError("The grid meets nothing of the surface; contour it with smaller cells.");
     Settling(request, net).run();
-    return largest_piece(net.positions, triangles_of(net));
+    return largest_piece(net.positions, triangles_of(request, net));
 }
 
 } // namespace overt

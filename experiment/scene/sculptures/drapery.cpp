@@ -12,6 +12,9 @@ namespace {
 /// Beyond so many mm off the surface a fold has no effect.
 constexpr double reach_mm = 20.0;
 
+/// The valley between two folds is rounded over so many mm, so that cells of the mesh can follow it.
+constexpr double valley_mm = 2.6;
+
 /// A stretch of a fold, small enough for a tight ball.
 struct Stretch {
     QuadraticCurve curve;
@@ -74,7 +77,8 @@ double height_at(const LaidFold& laid, const glm::dvec3& point, double distance)
     const double u2 = std::max(0.0, best - distance * distance) / (width * width);
     if (u2 >= 1.0)
         return 0.0;
-    double height = fold.height * (1.0 - u2) * (1.0 - u2) * (1.0 - 0.35 * u2);
+    // Round crest, steep sides, soft foot.
+    double height = fold.height * (1.0 - u2) * (1.0 - u2) * (1.0 + 1.1 * u2);
     if (fold.fade_in > 0.0)
         height *= smooth_step(share / fold.fade_in);
     if (fold.fade_out > 0.0)
@@ -103,9 +107,9 @@ Relief fold_relief(const Clay& base, const std::vector<Fold>& folds) {
                         continue;
                     const double height = height_at(fold, point, distance);
                     if (height > 0.0)
-                        ridge = -smooth_union(-ridge, -height, 0.8);
+                        ridge = -smooth_union(-ridge, -height, valley_mm);
                     else if (height < 0.0)
-                        hollow = smooth_union(hollow, height, 0.8);
+                        hollow = smooth_union(hollow, height, valley_mm);
                 }
                 return nearness * (ridge + hollow);
             },

@@ -16,8 +16,9 @@ struct Figure {
     double plinth_blend_mm = 1.5;
     glm::dvec3 mid_neck{0.0}; ///< the head begins here, in the direction of neck_axis
     glm::dvec3 neck_axis{0.0, 0.0, 1.0};
-    Fovea fovea;   ///< face and hair
-    Bounds box_mm; ///< holds the whole sculpture
+    double cell_factor = 1.0; ///< on the size of the grid cells; below 1 for fine folds
+    Fovea fovea;              ///< face and hair
+    Bounds box_mm;            ///< holds the whole sculpture
 
     /// All of it as one solid.
     Clay whole() const;

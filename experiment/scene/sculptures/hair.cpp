@@ -52,7 +52,7 @@ void add_parted_hair(Clay& head) {
                      const double wave = 0.35 * std::sin(2.0 * pi * 3.2 * share) * (angle < 0 ? -1.0 : 1.0);
                      const double parting = 1.0 - std::exp(-angle * angle / 0.0012);
                      const double ends =
-                         smooth_step((share - 0.02) / 0.22) * smooth_step((1.02 - share) / 0.2);
+                         smooth_step((share - 0.01) / 0.15) * smooth_step((1.02 - share) / 0.2);
                      return 0.022 * ends * parting * strand(angle * 12.0 + wave * parting);
                  },
                  {scalp.centre, 0.6}});

@@ -21,11 +21,11 @@ BodyPose muse_pose() {
     pose.head = {{-4, -7, ground + 6.94 * head_mm}, posture(-20, 9, -5), head_mm};
     pose.right_leg = {pose.pelvis.to_world({-0.36, 0, 0}),
                       {-30, -36, ground + 2.02 * head_mm},
-                      {-40, 8, ground + 0.30 * head_mm},
+                      {-43, -9, ground + 0.30 * head_mm},
                       {-0.35, -1, 0}};
     pose.left_leg = {pose.pelvis.to_world({0.36, 0, 0}),
                      {28, -5, ground + 2.05 * head_mm},
-                     {24, 2, ground + 0.29 * head_mm},
+                     {25, -7, ground + 0.29 * head_mm},
                      {0.3, -1, 0}};
     pose.right_arm = {pose.chest.to_world({-0.72, 0.05, 0.56}),
                       {-74, -18, ground + 4.75 * head_mm},
@@ -79,9 +79,8 @@ void add_bodice_folds(std::vector<Fold>& folds, const BodyPose& pose) {
     };
     for (const double s : {-1.0, 1.0})
         for (const Line& l :
-             {Line{0.56, 0.66, 0.50, 0.10, 0.40, 5.0, 3.0}, Line{0.50, 0.66, 0.38, 0.05, 0.31, 4.5, 2.6},
-              Line{0.44, 0.64, 0.27, 0.02, 0.22, 4.5, 2.6}, Line{0.38, 0.60, 0.15, 0.00, 0.13, 4.5, 3.4},
-              Line{0.22, 0.30, 0.06, -0.05, 0.045, 4.0, 3.0}})
+             {Line{0.56, 0.66, 0.50, 0.10, 0.40, 7.0, 3.8}, Line{0.47, 0.65, 0.33, 0.04, 0.27, 6.5, 3.4},
+              Line{0.38, 0.60, 0.17, 0.00, 0.15, 6.5, 4.0}, Line{0.24, 0.32, 0.05, -0.05, 0.04, 5.0, 3.4}})
             folds.push_back(
                 {hanging_path({chest(s * l.x_top, -0.28, l.z_top),
                                chest(s * 0.5 * (l.x_top + l.x_mid), -0.42, 0.5 * (l.z_top + l.z_mid) + 0.04),
@@ -94,10 +93,10 @@ void add_bodice_folds(std::vector<Fold>& folds, const BodyPose& pose) {
                                        chest(0.30, -0.42, z + 0.22)}),
                          3.5, 3.5, 2.2, 0.2, 0.2});
     // The blouse over the belt.
-    for (int i = -4; i <= 4; ++i)
-        folds.push_back({hanging_path({chest(0.13 * i, -0.5, -0.47), chest(0.135 * i, -0.5, -0.70),
-                                       chest(0.14 * i, -0.5, -0.92),
-                                       chest(0.145 * i + 0.03 * (i % 2), -0.5, -1.12 - 0.06 * (i % 3))}),
+    for (int i = -3; i <= 3; ++i)
+        folds.push_back({hanging_path({chest(0.165 * i, -0.5, -0.47), chest(0.17 * i, -0.5, -0.70),
+                                       chest(0.175 * i, -0.5, -0.92),
+                                       chest(0.18 * i + 0.03 * (i % 2), -0.5, -1.12 - 0.06 * (i % 3))}),
                          4.2, 7.0, 3.8, 0.15, 0.55});
 }
 
@@ -106,23 +105,20 @@ void add_skirt_folds(std::vector<Fold>& folds, const Clay& robe) {
     struct Pipe {
         double top, z_top, bottom, width, height;
     };
-    for (const Pipe& p : {Pipe{-112, 330, -118, 12, 7},
-                          {-92, 330, -97, 11, 7.5},
-                          {-74, 300, -78, 10, 7},
-                          {-60, 240, -62, 9, 6.5},
-                          {-52, 170, -48, 8, 6},
-                          {-38, 150, -35, 7, 5.5},
-                          {-27, 150, -23, 7, 6},
-                          {-15, 260, -11, 8, 7.5},
-                          {-4, 320, 1, 8.5, 8},
-                          {8, 340, 13, 8.5, 8},
-                          {20, 340, 26, 8.5, 8},
-                          {32, 330, 39, 8.5, 7.5},
-                          {45, 320, 52, 9, 7.5},
-                          {58, 310, 66, 9, 7.5},
-                          {73, 320, 82, 10, 7.5},
-                          {90, 330, 100, 11, 7.5},
-                          {110, 330, 120, 12, 7}})
+    for (const Pipe& p : {Pipe{-112, 330, -118, 15, 8},
+                          {-88, 330, -93, 14, 8.5},
+                          {-68, 300, -72, 13, 8},
+                          {-53, 190, -53, 11, 7},
+                          {-38, 140, -36, 9, 6.5},
+                          {-23, 160, -20, 10, 8},
+                          {-8, 300, -5, 11.5, 9.5},
+                          {8, 340, 12, 11.5, 10},
+                          {24, 340, 30, 11, 9},
+                          {40, 330, 48, 12, 10},
+                          {57, 320, 66, 12, 9},
+                          {75, 320, 85, 13, 9},
+                          {95, 330, 106, 14, 8.5},
+                          {115, 330, 126, 15, 8}})
         folds.push_back({falling_path(robe, {1, 2}, p.top, p.z_top, p.bottom, ground + 2), 0.75 * p.width,
                          p.width, p.height, 0.4, 0.0});
 }
@@ -130,10 +126,8 @@ void add_skirt_folds(std::vector<Fold>& folds, const Clay& robe) {
 /// The cloak about the hips: a second layer over the robe between a roll and a slanting hem.
 Clay bare_cloak(const Clay& robe) {
     Clay layer;
-    layer.add(
-        common(common(grown(robe.shape(), 6.0), half_space({0, -30, height(4.02)}, {-0.40, 0.16, 1.0}), 4.0),
-               half_space({0, -40, height(1.55)}, {-0.42, -0.12, -1.0}), 4.0),
-        1.0);
+    layer.add(common(grown(robe.shape(), 6.0), half_space({0, -30, height(4.02)}, {-0.40, 0.16, 1.0}), 4.0),
+              1.0);
     return layer;
 }
 
@@ -149,12 +143,12 @@ std::vector<Fold> cloak_folds() {
                           {{54, -26, 368}, {10, -55, 290}, {-60, -18, 266}, 7.5, 5.5},
                           {{55, -26, 352}, {14, -55, 262}, {-58, -22, 232}, 8, 6},
                           {{55, -26, 335}, {18, -55, 236}, {-56, -26, 192}, 8, 6},
-                          {{55, -26, 315}, {20, -55, 215}, {-40, -48, 165}, 8, 6.5},
-                          {{57, -24, 300}, {28, -50, 205}, {-12, -52, 158}, 8, 6.5},
-                          {{59, -22, 285}, {38, -46, 205}, {18, -52, 165}, 8, 6},
-                          {{61, -20, 280}, {50, -36, 220}, {44, -42, 180}, 8, 6}})
+                          {{55, -26, 315}, {20, -55, 215}, {-44, -48, 152}, 8, 6.5},
+                          {{57, -24, 300}, {28, -50, 205}, {-16, -54, 142}, 8, 6.5},
+                          {{59, -22, 285}, {38, -46, 205}, {16, -54, 146}, 8, 6},
+                          {{61, -20, 280}, {50, -36, 220}, {43, -42, 156}, 8, 6}})
         folds.push_back(
-            {hanging_path({p.from, p.through, p.to}), 0.55 * p.width, p.width, p.height, 0.3, 0.35});
+            {hanging_path({p.from, p.through, p.to}), 0.55 * p.width, p.width, p.height, 0.3, 0.2});
     return folds;
 }
 
@@ -164,7 +158,6 @@ Clay falling_end() {
     const auto axis =
         LoftAxis::straight({72, -30, height(4.55)}, {76, -26, height(1.6)}, {0, -1, 0}, {1, 0, 0});
     end.add(loft(axis, {{0, 14, 24}, {0.1, 13, 25}, {0.5, 13, 24}, {1, 17, 28}}, 0.2), 1.0);
-    end.carve(half_space({76, -26, height(1.75)}, {0.1, -0.55, 1.0}), 3.0);
     std::vector<Fold> folds;
     for (const auto& [angle, w] : {std::pair{-80.0, 6.0},
                                    {-42.0, 6.0},
@@ -173,9 +166,10 @@ Clay falling_end() {
                                    {58.0, 7.0},
                                    {90.0, 8.0},
                                    {122.0, 8.0}})
-        folds.push_back({falling_path(end, {74, -28}, angle, height(4.35), angle * 1.05, height(1.72)),
+        folds.push_back({falling_path(end, {74, -28}, angle, height(4.35), angle * 1.05, height(1.62)),
                          0.7 * w, w, 5.5, 0.2, 0.0});
     end.emboss(fold_relief(end, folds));
+    end.carve(half_space({76, -26, height(1.78)}, {0.1, -0.55, 1.0}), 3.0);
     return end;
 }
 
@@ -187,6 +181,7 @@ Clay sculpt_garments(const BodyPose& pose) {
     add_skirt_folds(folds, robe);
     robe.emboss(fold_relief(robe, folds));
     cloak.emboss(fold_relief(cloak, cloak_folds()));
+    cloak.carve(half_space({0, -40, height(1.55)}, {0.42, 0.12, 1.0}), 4.0);
     robe.add(cloak, 4.0);
     // The belt, and the roll that the cloak's upper edge makes.
     for (const double side : {-1.0, 1.0})
@@ -226,6 +221,7 @@ Figure model_muse() {
     figure.body.add(placed_foot(pose, pose.left_leg, true), 2.0);
     figure.plinth = round_plinth(98);
     figure.mid_neck = glm::mix(pose.chest.to_world({0, 0, 0.95}), pose.head.to_world({0, 0.1, -0.45}), 0.5);
+    figure.cell_factor = 0.85;
     figure.fovea = {{pose.head.origin, 52.0}, 0.55};
     figure.box_mm = {{-120, -120, 0}, {120, 120, 640}};
     return figure;

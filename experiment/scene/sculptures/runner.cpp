@@ -61,9 +61,6 @@ Clay sculpt_cloak(const BodyPose& pose, const Clay& loins) {
         top,      top + glm::dvec3(0, -12, -70), top + glm::dvec3(10, -8, -150), {0, -1, 0}, {0, -1, 0},
         {1, 0, 0}};
     cloak.add(loft(fall, {{0, 44, 18}, {0.25, 39, 15}, {0.6, 34, 12}, {1, 40, 14}}, 0.2), 24.0);
-    // The hem rises in steps, as the edges of a cloth do that hangs by its middle.
-    cloak.carve(half_space(top + glm::dvec3(16, 0, -132), {0.30, 0.0, 1.0}), 3.0);
-    cloak.carve(half_space(top + glm::dvec3(-14, 0, -112), {-0.75, 0.0, 1.0}), 3.0);
 
     std::vector<Fold> folds;
     struct Pipe {
@@ -81,7 +78,7 @@ Clay sculpt_cloak(const BodyPose& pose, const Clay& loins) {
         folds.push_back({hanging_path({start,
                                        {on_thigh(p.thigh).x, top.y - 12, top.z + 14},
                                        {x_middle, top.y - 24, top.z - 42},
-                                       {top.x + 8 + p.x_end, top.y - 24, top.z - p.drop}}),
+                                       {top.x + 8 + p.x_end, top.y - 24, top.z - p.drop - 14}}),
                          0.6 * p.width, p.width, p.height, 0.3, 0.0});
     }
     // Swags from the left hip to the raised thigh.
@@ -102,6 +99,9 @@ Clay sculpt_cloak(const BodyPose& pose, const Clay& loins) {
                                        on_thigh(0.72 + 0.03 * i) + glm::dvec3(0, -26, 4)}),
                          4.5, 5.5, 4.0, 0.3, 0.4});
     cloak.emboss(fold_relief(cloak, folds));
+    // The hem rises in steps, as the edges of a cloth do that hangs by its middle.
+    cloak.carve(half_space(top + glm::dvec3(16, 0, -132), {0.30, 0.0, 1.0}), 3.0);
+    cloak.carve(half_space(top + glm::dvec3(-14, 0, -112), {-0.75, 0.0, 1.0}), 3.0);
     return cloak;
 }
 

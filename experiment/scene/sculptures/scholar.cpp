@@ -59,7 +59,6 @@ Clay bare_skirt(const BodyPose& pose) {
               1.0);
     skirt.add(grown(sculpt_leg(pose, pose.right_leg).shape(), 5.0), 32.0);
     skirt.add(grown(sculpt_leg(pose, pose.left_leg).shape(), 5.0), 32.0);
-    skirt.carve(half_space({0, -40, ground + 34}, {0.10, 0.0, 1.0}), 4.0);
     return skirt;
 }
 
@@ -67,10 +66,8 @@ Clay bare_skirt(const BodyPose& pose) {
 /// shin.
 Clay bare_layer(const Clay& skirt) {
     Clay layer;
-    layer.add(
-        common(common(grown(skirt.shape(), 6.5), half_space({0, -30, height(4.42)}, {-0.25, 0.1, 1.0}), 4.0),
-               half_space({0, -40, height(1.62)}, {0.55, -0.1, -1.0}), 4.0),
-        1.0);
+    layer.add(common(grown(skirt.shape(), 6.5), half_space({0, -30, height(4.42)}, {-0.25, 0.1, 1.0}), 4.0),
+              1.0);
     return layer;
 }
 
@@ -97,7 +94,6 @@ Clay bare_mantle(const BodyPose& pose) {
         LoftAxis::straight(pose.left_arm.elbow + glm::dvec3(-8, 0, 10),
                            pose.left_arm.elbow + glm::dvec3(-14, 0, -205), {0, -1, 0}, {1, 0, 0});
     mantle.add(loft(fall, {{0, 20, 22}, {0.3, 17, 25}, {0.7, 17, 27}, {1, 20, 30}}, 0.15), 18.0);
-    mantle.carve(half_space(pose.left_arm.elbow + glm::dvec3(-10, 0, -190), {-0.5, -0.35, 1.0}), 3.0);
     return mantle;
 }
 
@@ -135,7 +131,7 @@ std::vector<Fold> mantle_folds(const Clay& mantle, const BodyPose& pose) {
                                    {94.0, 7.5},
                                    {126.0, 8.0}})
         folds.push_back({falling_path(mantle, {arm.elbow.x - 11, arm.elbow.y}, 0.9 * angle, arm.elbow.z - 12,
-                                      angle, arm.elbow.z - 188),
+                                      angle, arm.elbow.z - 202),
                          0.6 * w, w, 5.5, 0.3, 0.0});
     return folds;
 }
@@ -151,13 +147,13 @@ std::vector<Fold> layer_folds() {
                           {{-55, -22, 338}, {-4, -58, 298}, {54, -30, 300}, 7.5, 5.5},
                           {{-56, -22, 322}, {-6, -58, 272}, {52, -34, 262}, 7.5, 6},
                           {{-57, -22, 306}, {-10, -58, 248}, {40, -48, 222}, 8, 6},
-                          {{-58, -20, 290}, {-16, -56, 226}, {18, -58, 196}, 8, 6.5},
-                          {{-58, -20, 272}, {-24, -54, 206}, {-2, -58, 172}, 8, 6.5},
-                          {{-60, -18, 252}, {-36, -48, 190}, {-22, -52, 152}, 8, 6.5},
-                          {{-62, -14, 230}, {-48, -40, 175}, {-42, -44, 138}, 8, 6},
-                          {{-66, 0, 240}, {-62, -22, 170}, {-60, -26, 130}, 8, 5.5}})
+                          {{-58, -20, 290}, {-16, -56, 226}, {16, -58, 184}, 8, 6.5},
+                          {{-58, -20, 272}, {-24, -54, 206}, {-4, -58, 158}, 8, 6.5},
+                          {{-60, -18, 252}, {-36, -48, 190}, {-24, -52, 138}, 8, 6.5},
+                          {{-62, -14, 230}, {-48, -40, 175}, {-42, -44, 124}, 8, 6},
+                          {{-66, 0, 240}, {-62, -22, 170}, {-60, -26, 114}, 8, 5.5}})
         folds.push_back(
-            {hanging_path({p.from, p.through, p.to}), 0.55 * p.width, p.width, p.height, 0.3, 0.3});
+            {hanging_path({p.from, p.through, p.to}), 0.55 * p.width, p.width, p.height, 0.3, 0.2});
     return folds;
 }
 
@@ -166,19 +162,17 @@ std::vector<Fold> skirt_folds(const Clay& skirt) {
     struct Pipe {
         double top, z_top, bottom, width, height;
     };
-    for (const Pipe& p : {Pipe{-100, 260, -104, 11, 6},
-                          {-78, 220, -80, 10, 6},
-                          {-58, 200, -60, 9, 6},
-                          {-40, 190, -42, 8.5, 6.5},
-                          {-24, 200, -26, 8, 6.5},
-                          {-10, 210, -10, 8, 6.5},
-                          {4, 200, 6, 8, 6},
-                          {18, 170, 21, 8, 5},
-                          {34, 160, 38, 8, 4.5},
-                          {52, 180, 56, 9, 5.5},
-                          {72, 230, 77, 10, 6},
-                          {95, 260, 100, 11, 6}})
-        folds.push_back({falling_path(skirt, {0, 3}, p.top, p.z_top, p.bottom, ground + 34), 0.75 * p.width,
+    for (const Pipe& p : {Pipe{-102, 260, -106, 14, 7},
+                          {-78, 220, -80, 13, 7.5},
+                          {-56, 210, -58, 12, 7.5},
+                          {-36, 200, -38, 11, 8},
+                          {-17, 210, -18, 11, 8},
+                          {2, 210, 3, 11, 7.5},
+                          {20, 170, 23, 10, 6},
+                          {40, 170, 45, 11, 6},
+                          {62, 210, 68, 13, 7},
+                          {88, 250, 94, 14, 7.5}})
+        folds.push_back({falling_path(skirt, {0, 3}, p.top, p.z_top, p.bottom, ground + 16), 0.75 * p.width,
                          p.width, p.height, 0.4, 0.0});
     return folds;
 }
@@ -188,8 +182,11 @@ Clay sculpt_cloak(const BodyPose& pose) {
     Clay layer = bare_layer(cloak);
     Clay mantle = bare_mantle(pose);
     layer.emboss(fold_relief(layer, layer_folds()));
+    layer.carve(half_space({0, -40, height(1.62)}, {-0.55, 0.1, 1.0}), 4.0);
     cloak.emboss(fold_relief(cloak, skirt_folds(cloak)));
+    cloak.carve(half_space({0, -40, ground + 34}, {0.10, 0.0, 1.0}), 4.0);
     mantle.emboss(fold_relief(mantle, mantle_folds(mantle, pose)));
+    mantle.carve(half_space(pose.left_arm.elbow + glm::dvec3(-10, 0, -186), {-0.5, -0.35, 1.0}), 3.0);
     cloak.add(layer, 4.0);
     cloak.add(mantle, 8.0);
     cloak.add(twisted_roll(hanging_path({{-46, 36, 366},
@@ -231,6 +228,7 @@ Figure model_scholar() {
     figure.plinth = square_plinth({104, 88});
     figure.plinth_blend_mm = 3.0;
     figure.mid_neck = glm::mix(pose.chest.to_world({0, 0, 0.95}), pose.head.to_world({0, 0.1, -0.45}), 0.5);
+    figure.cell_factor = 0.90;
     figure.fovea = {{pose.head.origin, 52.0}, 0.55};
     figure.box_mm = {{-130, -130, 0}, {130, 130, 640}};
     return figure;

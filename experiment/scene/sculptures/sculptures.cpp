@@ -66,7 +66,7 @@ Mesh make_sculpture(std::string_view name, double cell_share, int threads) {
     const Clay whole = figure.whole();
     ContourRequest request;
     request.distance = [&](const glm::dvec3& point) { return whole.distance(point); };
-    request.cell_mm = cell_share * nominal_height_mm;
+    request.cell_mm = cell_share * figure.cell_factor * nominal_height_mm;
     request.box_mm = {whole.ball().centre - whole.ball().radius, whole.ball().centre + whole.ball().radius};
     request.box_mm = {glm::max(request.box_mm.min, figure.box_mm.min) - 2.0 * request.cell_mm,
                       glm::min(request.box_mm.max, figure.box_mm.max) + 2.0 * request.cell_mm};
