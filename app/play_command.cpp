@@ -71,8 +71,8 @@ int run_play(const PlayOptions& options) {
     const GlContext& context = window ? static_cast<const GlContext&>(*window) : *headless;
     StimulusLibrary library(context, protocol, sculptures, cache_folder());
     ProgressBar bar;
-    library.prepare(stimulus,
-                    [&](std::string_view what, int done, int total) { bar.update(what, done, total); });
+    library.prepare_frames(
+        stimulus, [&](std::string_view what, int done, int total) { bar.update(what, done, total); });
     bar.finish();
     if (in_window) {
         play_in_window(*window, library, stimulus, protocol, options.repeat_s);
