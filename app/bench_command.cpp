@@ -20,41 +20,7 @@ struct Benchmark {
 
 constexpr Benchmark benchmarks[] = {{"lut", bench_lut}};
 
-nlohmann::ordered_json to_json(const BenchFigures& figures) {
-    auto list = nlohmann::ordered_json::array();
-    for (const BenchFigure& figure : figures) {
-        nlohmann::ordered_json item{
-            {"figure", figure.figure}, {"value", figure.value}, {"unit", figure.unit}};
-        if (figure.holds) {
-            item["target"] = figure.target;
-            item["holds"] = *figure.holds;
-        }
-        list.push_back(std::move(item));
-    }
-    return {{"figures", list}};
-}
-
-void print_table(const BenchFigures& figures) {
-    std::size_t width = 0;
-    for (const BenchFigure& figure : figures)
-        width = std::max(width, figure.figure.size());
-    for (const BenchFigure& figure : figures) {
-        fmt::print("{:<{}}  {:>12.5g} {:<10}", figure.figure, width, figure.value, figure.unit);
-        if (figure.holds)
-            fmt::print(" {:<12} {}", figure.target, *figure.holds ? "holds" : "MISSED");
-        fmt::print("\n");
-    }
-}
-
 } // namespace
-
-BenchFigure at_most(std::string figure, double value, std::string unit, double bound) {
-    return {std::move(figure), value, std::move(unit), fmt::format("<= {}", bound), value <= bound};
-}
-
-BenchFigure at_least(std::string figure, double value, std::string unit, double bound) {
-    return {std::move(figure), value, std::move(unit), fmt::format(">= {}", bound), value >= bound};
-}
 
 BenchScene bench_scene(const BenchOptions& options) {
     BenchScene scene;
@@ -88,9 +54,7 @@ int run_bench(const BenchOptions& options) {
     } else {
         print_table(figures);
     }
-    const bool all_hold = std::all_of(figures.begin(), figures.end(),
-                                      [](const BenchFigure& figure) { return figure.holds.value_or(true); });
-    return all_hold ? 0 : 1;
+    return all_hold(figures) ? 0 : 1;
 }
 
 } // namespace overt

@@ -25,6 +25,9 @@ const std::map<std::string, ContextChoice> context_names{{"auto", std::nullopt},
                                                          {"egl", ContextKind::egl},
                                                          {"osmesa", ContextKind::osmesa}};
 
+const std::map<std::string, MapTime> map_times{
+    {"auto", MapTime::automatic}, {"live", MapTime::live}, {"prepared", MapTime::prepared}};
+
 void add_context_option(CLI::App& command, ContextChoice& context) {
     command
         .add_option_function<std::string>(
@@ -104,6 +107,13 @@ int run_command_line(int argc, char** argv) {
         .add_option("--print-session-to", run.print_session_to,
                     "Write the session's path to this file, for scripts")
         ->type_name("FILE");
+    run_command
+        .add_option(
+            "--maps", run.maps,
+            "Draw the hidden maps live while their frames are shown, or prepared before (auto: live on a "
+            "graphics processor)")
+        ->transform(CLI::CheckedTransformer(map_times))
+        ->type_name("auto|live|prepared");
     add_context_option(run_command, run.context);
     run_command.callback([&] { command = [&] { return run_session(run); }; });
 
@@ -162,6 +172,48 @@ int run_command_line(int argc, char** argv) {
         add_command(app, "doctor", "What this machine offers for a session", "overt doctor --json");
     doctor_command.add_flag("--json", doctor.json, "Print JSON");
     doctor_command.callback([&] { command = [&] { return run_doctor(doctor); }; });
+
+    LutOptions lut;
+    auto& lut_command = add_command(
+        app, "lut", "Writes or checks coordinate-encoded maps: where on the surface each pixel lies",
+        "overt lut protocols/overt_2019.toml --stimulus muse --frame 15 --out maps\n"
+        "  overt lut protocols/overt_2019.toml --stimulus muse --frame all --check");
+    lut_command.add_option("PROTOCOL", lut.protocol, "Protocol file (TOML)")->required();
+    lut_command
+        .add_option("--stimulus", lut.stimulus,
+                    "SCULPTURE or SCULPTURE/MATERIAL by their ids; the map is the same for all materials")
+        ->required()
+        ->type_name("ID");
+    lut_command
+        .add_option_function<std::string>(
+            "--frame",
+            [&lut](const std::string& frame) {
+                if (frame != "all")
+                    lut.frame = std::stoi(frame);
+            },
+            "Animation frame, or all")
+        ->required()
+        ->check(CLI::IsMember({"all"}) | CLI::Range(0, 9999))
+        ->type_name("K|all");
+    lut_command
+        .add_option("--out", lut.out,
+                    "Folder to write to (default: luts/SCULPTURE; with --check nothing is written)")
+        ->type_name("DIR");
+    lut_command
+        .add_option("--format", lut.format,
+                    "exr: coordinates as floats; png16: 16-bit codes as colours, with a JSON sidecar; both")
+        ->check(CLI::IsMember({"exr", "png16", "both"}))
+        ->capture_default_str();
+    lut_command
+        .add_option("--scale", lut.scale, "Factor of 16-bit codes: 65535, or 65536 as in the paper")
+        ->check(CLI::IsMember({65535, 65536}))
+        ->capture_default_str();
+    lut_command.add_flag("--check", lut.check,
+                         "Compare with ray casting in double precision; exit code 1 if a target is missed");
+    lut_command.add_flag("--overwrite", lut.overwrite, "Replace maps that are there");
+    add_context_option(lut_command, lut.context);
+    lut_command.add_flag("--json", lut.json, "Print JSON");
+    lut_command.callback([&] { command = [&] { return run_lut(lut); }; });
 
     BenchOptions bench;
     auto& bench_command = add_command(app, "bench", "The program's own benchmarks",

@@ -24,6 +24,9 @@ struct CheckOptions {
 };
 int run_check(const CheckOptions& options);
 
+/// When the hidden maps are drawn: before the session, or while their frames are shown.
+enum class MapTime { automatic, prepared, live };
+
 struct RunOptions {
     std::filesystem::path protocol;
     std::string observer;
@@ -35,6 +38,7 @@ struct RunOptions {
     bool windowed = false;
     std::filesystem::path sessions = "sessions";
     std::optional<int> trials; ///< only the first so many
+    MapTime maps = MapTime::automatic;
     std::filesystem::path print_session_to;
 };
 int run_session(const RunOptions& options);
@@ -69,6 +73,20 @@ struct DoctorOptions {
     bool json = false;
 };
 int run_doctor(const DoctorOptions& options);
+
+struct LutOptions {
+    std::filesystem::path protocol;
+    std::string stimulus;        ///< SCULPTURE or SCULPTURE/MATERIAL: the map is the same for all materials
+    std::optional<int> frame;    ///< nothing: all
+    std::filesystem::path out;   ///< folder; empty: luts/SCULPTURE, or with `check` nothing is written
+    std::string format = "both"; ///< exr, png16 or both
+    int scale = 65535;           ///< of 16-bit codes, or 65536
+    ContextChoice context;
+    bool check = false;
+    bool overwrite = false;
+    bool json = false;
+};
+int run_lut(const LutOptions& options);
 
 struct BenchOptions {
     std::string what;           ///< which benchmark

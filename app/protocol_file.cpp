@@ -47,4 +47,16 @@ Condition stimulus_called(const Protocol& protocol, const std::string& name) {
     throw InputError(fmt::format("no stimulus is called «{}»: {}", name, suggest_name(name, known)));
 }
 
+int sculpture_called(const Protocol& protocol, const std::string& name) {
+    if (name.find('/') != std::string::npos)
+        return stimulus_called(protocol, name).sculpture;
+    std::vector<std::string_view> known;
+    for (const SculptureSettings& sculpture : protocol.sculptures) {
+        if (sculpture.id == name)
+            return static_cast<int>(known.size());
+        known.push_back(sculpture.id);
+    }
+    throw InputError(fmt::format("no sculpture is called «{}»: {}", name, suggest_name(name, known)));
+}
+
 } // namespace overt

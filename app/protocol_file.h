@@ -26,4 +26,8 @@ Observer observer_labelled(const std::string& label);
 /// The stimulus called SCULPTURE/MATERIAL. Throws InputError naming those there are.
 Condition stimulus_called(const Protocol& protocol, const std::string& name);
 
+/// The sculpture called SCULPTURE, or that of the stimulus SCULPTURE/MATERIAL. Throws InputError naming those
+/// there are.
+int sculpture_called(const Protocol& protocol, const std::string& name);
+
 } // namespace overt

@@ -5,9 +5,7 @@
 
 #include <glm/glm.hpp>
 
-#include "experiment/analysis/sight_lines.h"
 #include "experiment/analysis/surface_point.h"
-#include "experiment/analysis/triangle_map.h"
 
 namespace overt {
 
@@ -34,16 +32,11 @@ struct CoordinateImage {
     std::size_t covered_pixels() const;
 };
 
-/// The coordinates that a map of triangles stands for: where each pixel centre's line of sight meets the
-/// surface, found in double precision and rounded to float once. On all processors.
+/// What a lookup shows at the pixel centres in a pose, rounded to float once. On all processors.
 ///
-/// OpenGL moves corners to a grid of 1/256 of a pixel, so the triangle that it shows may miss the centre
-/// barely. What counts is what the line of sight meets among the surfaces shown in the 3 x 3 pixels around:
-/// at the outline that settles the coverage, too. A pixel amidst the object of which the line meets none (a
-/// crack between triangles) gets the nearest place of the triangle shown.
-///
-/// `lookup` and `map` answer for `pose`; `sight` are its lines of sight, `mesh` the one drawn.
-CoordinateImage coordinate_image(const SurfaceLookup& lookup, PoseIndex pose, const TriangleMap& map,
-                                 const Mesh& mesh, const SightLines& sight);
+/// With the maps of a mesh these are the meetings of the pixel centres' lines of sight with the triangles, in
+/// double: where OpenGL, which moves corners to a grid of 1/256 of a pixel, drew a triangle that misses the
+/// centre barely, what counts is the surface that the line meets, and at the outline whether it meets any.
+CoordinateImage coordinate_image(const SurfaceLookup& lookup, PoseIndex pose, glm::ivec2 size_px);
 
 } // namespace overt
