@@ -12,9 +12,6 @@ namespace {
 /// Beyond so many mm off the surface a fold has no effect.
 constexpr double reach_mm = 20.0;
 
-/// The valley between two folds is rounded over so many mm, so that cells of the mesh can follow it.
-constexpr double valley_mm = 2.6;
-
 /// A stretch of a fold, small enough for a tight ball.
 struct Stretch {
     QuadraticCurve curve;
@@ -100,18 +97,14 @@ Relief fold_relief(const Clay& base, const std::vector<Fold>& folds) {
                     1.0 - smooth_step((std::abs(distance) - 0.5 * reach_mm) / (0.5 * reach_mm));
                 if (nearness <= 0.0)
                     return 0.0;
-                double ridge = 0.0;
-                double hollow = 0.0;
+                double fourth_powers = 0.0;
                 for (const LaidFold& fold : laid) {
                     if (fold.ball.distance(point) > 0.0)
                         continue;
                     const double height = height_at(fold, point, distance);
-                    if (height > 0.0)
-                        ridge = -smooth_union(-ridge, -height, valley_mm);
-                    else if (height < 0.0)
-                        hollow = smooth_union(hollow, height, valley_mm);
+                    fourth_powers += height * height * height * height;
                 }
-                return nearness * (ridge + hollow);
+                return nearness * std::sqrt(std::sqrt(fourth_powers));
             },
             ball};
 }

@@ -7,7 +7,7 @@
 
 namespace overt {
 
-/// A ridge of cloth (height > 0) or a hollow between two (height < 0).
+/// A ridge of cloth.
 struct Fold {
     std::vector<glm::dvec3>
         path;              ///< at least 3 points near the surface; the ridge is a smooth curve along them
@@ -18,8 +18,8 @@ struct Fold {
     double fade_out = 0.25; ///< share over which it sinks; 0 ends bluntly, as at a hem
 };
 
-/// The relief of many folds on `base`. Each path is first laid onto the surface. Where folds meet, the higher
-/// one covers the other, with a soft valley between.
+/// The relief of many folds on `base`. Each path is first laid onto the surface. Where folds meet, the fourth
+/// root of their heights' fourth powers counts: the higher one covers the other, with a soft valley between.
 Relief fold_relief(const Clay& base, const std::vector<Fold>& folds);
 
 /// Points of a garment at the given heights, seen from a vertical axis: angles in degrees, 0 to the front

@@ -286,7 +286,8 @@ Shape placed_foot(const BodyPose& pose, const LegPose& leg, bool is_left) {
     Placement place;
     place.scale = pose.head.scale * (pose.is_woman ? 0.98 : 1.06);
     const glm::dvec3 up = glm::normalize(leg.up);
-    place.origin = leg.ankle - 0.27 * place.scale * up;
+    // The sole is pressed a little into the ground, so that no crevice is left around it.
+    place.origin = leg.ankle - 0.31 * place.scale * up;
     place.axes = frame_of(up, -leg.toes);
     if (is_left)
         place.axes[0] = -place.axes[0];

@@ -90,7 +90,7 @@ void add_locks(Clay& hair, int count, double length, double thickness, double dr
         const glm::dvec3 across = glm::cross(crown, down) * side;
         const glm::dvec3 bend = root + length * (0.55 * down + 0.45 * across) + 0.045 * crown;
         const glm::dvec3 tip = scalp.at(root + length * (drop * down - 0.25 * across) - scalp.centre, 0.01);
-        hair.add(cord(root, bend, tip, {0.6 * thickness, 1.25 * thickness, 0.35 * thickness}), 0.014);
+        hair.add(cord(root, bend, tip, {0.6 * thickness, 1.25 * thickness, 0.35 * thickness}), 0.02);
         hair.add(cord(root + 0.4 * thickness * across, bend + 0.9 * thickness * across + 0.01 * crown,
                       tip + 0.9 * thickness * across, {0.4 * thickness, 0.8 * thickness, 0.25 * thickness}),
                  0.010);
@@ -105,7 +105,7 @@ void add_hair(Clay& head, Hair hair) {
         return;
     }
     Clay mass;
-    mass.add(ellipsoid(Scalp{}.centre, Scalp{}.half_axes * 0.985), 0.05);
+    mass.add(ellipsoid(Scalp{}.centre, Scalp{}.half_axes * 1.01), 0.05);
     carve_face(mass, hair == Hair::curls ? 0.25 : 0.28);
     if (hair == Hair::curls)
         add_locks(mass, 190, 0.12, 0.036, 0.6);

@@ -123,7 +123,8 @@ void add_skirt_folds(std::vector<Fold>& folds, const Clay& robe) {
                          p.width, p.height, 0.4, 0.0});
 }
 
-/// The cloak about the hips: a second layer over the robe between a roll and a slanting hem.
+/// The cloak about the hips: a second layer over the robe from a roll downwards; its hem is cut when its
+/// folds are drawn.
 Clay bare_cloak(const Clay& robe) {
     Clay layer;
     layer.add(common(grown(robe.shape(), 6.0), half_space({0, -30, height(4.02)}, {-0.40, 0.16, 1.0}), 4.0),

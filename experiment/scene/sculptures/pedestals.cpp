@@ -6,7 +6,7 @@ namespace overt {
 
 namespace {
 
-/// Profile of both plinths: how far the outline lies inside the foot's outline at a height, mm.
+/// Upright disc with a rounded rim.
 Shape disc(double z, double half_height, double radius, double rounding) {
     return {[=](const glm::dvec3& p) {
                 const double across = std::hypot(p.x, p.y) - radius + rounding;
@@ -21,17 +21,17 @@ Shape disc(double z, double half_height, double radius, double rounding) {
 
 Clay round_plinth(double radius_mm) {
     Clay plinth;
-    plinth.add(disc(9, 9, radius_mm, 6.0), 1.0);
+    plinth.add(disc(9, 9, radius_mm, 8.8), 1.0);
     plinth.add(disc(30, 30, radius_mm - 10, 4.5), 12.0);
-    plinth.add(disc(51, 9, radius_mm - 3, 6.0), 12.0);
+    plinth.add(disc(51, 9, radius_mm - 3, 8.8), 12.0);
     return plinth;
 }
 
 Clay square_plinth(const glm::dvec2& half_size_mm) {
     Clay plinth;
-    plinth.add(block({0, 0, 9}, {half_size_mm, 9}, 6.0), 1.0);
+    plinth.add(block({0, 0, 9}, {half_size_mm, 9}, 8.8), 1.0);
     plinth.add(block({0, 0, 30}, {half_size_mm - 10.0, 30}, 4.5), 12.0);
-    plinth.add(block({0, 0, 51}, {half_size_mm - 3.0, 9}, 6.0), 12.0);
+    plinth.add(block({0, 0, 51}, {half_size_mm - 3.0, 9}, 8.8), 12.0);
     return plinth;
 }
 

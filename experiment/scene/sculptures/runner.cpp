@@ -105,20 +105,30 @@ Clay sculpt_cloak(const BodyPose& pose, const Clay& loins) {
     return cloak;
 }
 
-/// A sandal: the sole and three straps.
-Clay sculpt_sandal(const LegPose& leg) {
+/// A sandal: a sole, and two straps around the foot.
+Clay sculpt_sandal(const BodyPose& pose, const LegPose& leg, bool is_left) {
     const glm::dvec3 toes = glm::normalize(leg.toes);
     const glm::dvec3 side = glm::cross(toes, leg.up);
     const double foot = 1.06 * head_mm;
-    const glm::dvec3 ground_point = leg.ankle - 0.27 * foot * leg.up;
+    const glm::dvec3 below_ankle = leg.ankle - 0.29 * head_mm * leg.up + 2.0 * leg.up;
     Clay sandal;
-    for (const double share : {0.05, 0.32}) {
-        const glm::dvec3 middle = ground_point + toes * foot * share;
-        const double rise = share < 0.1 ? 0.36 : 0.235;
-        sandal.add(cord(middle - side * foot * 0.14 + leg.up * 4.0,
-                        middle + leg.up * foot * rise * 1.75 + toes * foot * 0.08,
-                        middle + side * foot * 0.14 + leg.up * 4.0, glm::dvec3(2.4)),
-                   1.5);
+    const auto sole =
+        LoftAxis::straight(below_ankle - 0.22 * foot * toes, below_ankle + 0.68 * foot * toes, leg.up, side);
+    sandal.add(loft(sole,
+                    {{0, 0.11 * foot, 4.5},
+                     {0.2, 0.14 * foot, 4.5},
+                     {0.45, 0.15 * foot, 4.5},
+                     {0.8, 0.20 * foot, 4.5},
+                     {1, 0.17 * foot, 4.5}},
+                    2.0),
+               1.0);
+    const Shape over_foot = grown(placed_foot(pose, leg, is_left), 2.2);
+    const glm::dvec3 slant = glm::normalize(toes - 0.45 * leg.up);
+    for (const double share : {0.08, 0.40}) {
+        const glm::dvec3 middle = below_ankle + share * foot * toes + 0.16 * foot * leg.up;
+        sandal.add(common(common(over_foot, half_space(middle + 4.0 * slant, slant), 2.5),
+                          half_space(middle - 4.0 * slant, -slant), 2.5),
+                   2.0);
     }
     return sandal;
 }
@@ -167,13 +177,13 @@ Figure model_runner() {
     figure.body.add(placed_hand(pose, pose.left_arm, true), 5.0);
     figure.body.add(placed_foot(pose, pose.right_leg, false), 6.0);
     figure.body.add(placed_foot(pose, pose.left_leg, true), 6.0);
-    figure.body.add(sculpt_sandal(pose.right_leg), 1.5);
-    figure.body.add(sculpt_sandal(pose.left_leg), 1.5);
+    figure.body.add(sculpt_sandal(pose, pose.right_leg, false), 2.5);
+    figure.body.add(sculpt_sandal(pose, pose.left_leg, true), 2.5);
     figure.plinth = square_plinth({162, 86});
     figure.plinth.add(rock({-100, 8, ground}, {52, 48, 0.5 * (rock_top - ground) + 3.0}), 3.0);
     figure.plinth.add(sculpt_tree(), 4.0);
     figure.neck_blend_mm = 28.0;
-    figure.plinth_blend_mm = 3.0;
+    figure.plinth_blend_mm = 4.0;
     figure.mid_neck = glm::mix(pose.chest.to_world({0, 0, 0.95}), pose.head.to_world({0, 0.1, -0.45}), 0.5);
     figure.neck_axis = pose.head.origin - pose.chest.to_world({0, 0, 0.9});
     figure.fovea = {{pose.head.origin, 56.0}, 0.55};

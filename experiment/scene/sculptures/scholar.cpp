@@ -226,7 +226,7 @@ Figure model_scholar() {
     figure.body.add(placed_foot(pose, pose.right_leg, false), 5.0);
     figure.body.add(placed_foot(pose, pose.left_leg, true), 5.0);
     figure.plinth = square_plinth({104, 88});
-    figure.plinth_blend_mm = 3.0;
+    figure.plinth_blend_mm = 4.0;
     figure.mid_neck = glm::mix(pose.chest.to_world({0, 0, 0.95}), pose.head.to_world({0, 0.1, -0.45}), 0.5);
     figure.cell_factor = 0.90;
     figure.fovea = {{pose.head.origin, 52.0}, 0.55};
