@@ -25,7 +25,9 @@ std::uint64_t fresh_seed() {
 /// Prints where the session stands after each trial.
 class TrialProgress {
   public:
-    TrialProgress(const Protocol& protocol, int total) : protocol_(&protocol), total_(total) {}
+    TrialProgress(const Protocol& protocol, int total) : protocol_(&protocol), total_(total) {
+        bar_.update("trials", 0, total_);
+    }
 
     void operator()(const Trial& trial, const TrialOutcome& outcome, int done) {
         const auto name = [](const auto& list, int index) {
