@@ -13,6 +13,9 @@ namespace overt {
 
 namespace {
 
+/// A renderer's mean of full samples may fall short of 1 by its rounding.
+constexpr double full_coverage = 0.9999;
+
 constexpr OIIO::TypeDesc double_triple(OIIO::TypeDesc::DOUBLE, OIIO::TypeDesc::VEC3);
 
 void write_picture(const std::filesystem::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
@@ -67,7 +70,8 @@ void put_description(OIIO::ImageSpec& spec, const MapDescription& description) {
 
 std::optional<glm::dvec3> triple(const OIIO::ImageSpec& spec, const char* name) {
     const OIIO::ParamValue* found = spec.find_attribute(name);
-    if (!found || found->type() != double_triple)
+    // Whether it calls itself a vector or three numbers does not matter.
+    if (!found || found->type().basetype != OIIO::TypeDesc::DOUBLE || found->type().basevalues() != 3)
         return std::nullopt;
     const auto* values = static_cast<const double*>(found->data());
     return glm::dvec3(values[0], values[1], values[2]);
@@ -284,7 +288,7 @@ CoordinateImageFile read_coordinate_image(const std::filesystem::path& file, con
             if (!std::isfinite(triple.x + triple.y + triple.z + coverage))
                 refuse_value(file, raw.spec, i, "a value that is not a finite number");
             place = triple;
-            if (codec && coverage >= 1.0) {
+            if (codec && coverage >= full_coverage) {
                 // Rounding may go beyond the box by the last bits of a float.
                 if (glm::any(glm::lessThan(triple, glm::dvec3(-1e-5))) ||
                     glm::any(glm::greaterThan(triple, glm::dvec3(1.0 + 1e-5))))
@@ -292,7 +296,7 @@ CoordinateImageFile read_coordinate_image(const std::filesystem::path& file, con
                 place = codec->bounds().min + glm::clamp(triple, 0.0, 1.0) * codec->bounds().extent();
             }
         }
-        if (coverage >= 1.0) {
+        if (coverage >= full_coverage) {
             map.image.pixels[i] = glm::vec4(place, 1.0f);
             ++covered;
         } else {
