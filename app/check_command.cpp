@@ -3,16 +3,28 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/cache_folder.h"
 #include "app/commands.h"
 #include "app/protocol_file.h"
+#include "app/protocol_inputs.h"
 #include "experiment/protocol/design_report.h"
 #include "experiment/schedule.h"
 
 namespace overt {
 
-int run_check(const CheckOptions& options) {
-    const Protocol protocol = read_protocol_or_report(options.protocol);
-    std::vector<Observer> observers = planned_observers(protocol);
+namespace {
+
+SurfaceFacts surface_of(const Sculpture& sculpture) {
+    SurfaceFacts facts{sculpture.id, sculpture.mesh.triangles.size(), {}};
+    const std::vector<double> areas = sculpture.mesh.part_areas();
+    const double area = sculpture.mesh.area();
+    for (std::size_t part = 0; part < areas.size(); ++part)
+        facts.part_shares.emplace_back(sculpture.mesh.part_names[part], areas[part] / area);
+    return facts;
+}
+
+DesignReport report_on(const Experiment& experiment, const CheckOptions& options) {
+    std::vector<Observer> observers = planned_observers(experiment.protocol);
     if (!options.observer.empty()) {
         observers = {observer_labelled(options.observer)};
     } else if (!options.all_observers) {
@@ -20,10 +32,33 @@ int run_check(const CheckOptions& options) {
     }
     DesignAssumptions assumptions;
     assumptions.answer_s = options.answer_time_s;
-    const DesignReport report = make_design_report(protocol, observers, 1, assumptions);
-    const std::string text = options.json ? to_json(report).dump(2) + "\n" : to_text(report);
+    DesignReport report = make_design_report(experiment.protocol, observers, 1, assumptions);
+    for (const Sculpture& sculpture : experiment.sculptures) {
+        if (sculpture.has_mesh())
+            report.surfaces.push_back(surface_of(sculpture));
+    }
+    return report;
+}
+
+} // namespace
+
+int run_check(const CheckOptions& options) {
+    Diagnostics diagnostics;
+    const std::optional<Experiment> experiment =
+        read_experiment(options.protocol, cache_folder(), InputDepth::everything, diagnostics);
+    std::string text;
+    if (options.json) {
+        nlohmann::ordered_json json = diagnostics.to_json();
+        if (experiment)
+            json["design"] = to_json(report_on(*experiment, options));
+        text = json.dump(2) + "\n";
+    } else {
+        print_findings(diagnostics);
+        if (experiment)
+            text = to_text(report_on(*experiment, options));
+    }
     std::fwrite(text.data(), 1, text.size(), stdout);
-    return 0;
+    return experiment ? 0 : 2;
 }
 
 } // namespace overt

@@ -6,6 +6,7 @@
 #include "app/commands.h"
 #include "app/progress_bar.h"
 #include "app/protocol_file.h"
+#include "app/protocol_inputs.h"
 #include "devices/clocks.h"
 #include "render/page_presenter.h"
 #include "render/stimulus_library.h"
@@ -52,9 +53,11 @@ void play_in_window(WindowContext& window, StimulusLibrary& library, const Condi
 } // namespace
 
 int run_play(const PlayOptions& options) {
-    const Protocol protocol = read_protocol_or_report(options.protocol);
+    const Experiment experiment =
+        read_experiment_or_report(options.protocol, cache_folder(), InputDepth::sculptures);
+    const Protocol& protocol = experiment.protocol;
+    const std::vector<Sculpture>& sculptures = experiment.sculptures;
     const Condition stimulus = stimulus_called(protocol, options.stimulus);
-    const std::vector<Sculpture> sculptures = load_sculptures(protocol, cache_folder());
     const bool in_window = options.picture.empty();
     if (in_window && !display_is_available())
         throw InputError("there is no display to play on: write a frame with --picture FILE instead");

@@ -5,25 +5,35 @@
 #include <fmt/format.h>
 
 #include "experiment/protocol/protocol_reader.h"
+#include "experiment/record/session_directory.h"
 #include "experiment/scene/sculptures/sculptures.h"
 #include "experiment/schedule.h"
 
 namespace overt {
 
-Protocol read_protocol_or_report(const std::filesystem::path& file) {
+std::optional<Protocol> read_protocol_file(const std::filesystem::path& file, Diagnostics& diagnostics) {
     std::vector<std::string_view> shipped;
     for (const SculptureDescription& sculpture : shipped_sculptures())
         shipped.push_back(sculpture.name);
+    return read_protocol(file, shipped, diagnostics);
+}
+
+Protocol read_protocol_or_report(const std::filesystem::path& file) {
     Diagnostics diagnostics;
-    std::optional<Protocol> protocol = read_protocol(file, shipped, diagnostics);
-    const std::string findings = diagnostics.print();
-    std::fwrite(findings.data(), 1, findings.size(), stderr);
+    std::optional<Protocol> protocol = read_protocol_file(file, diagnostics);
+    print_findings(diagnostics);
     if (!protocol)
         throw FindingsPrinted(fmt::format("{}: cannot be used", file.string()));
     return *std::move(protocol);
 }
 
+void print_findings(const Diagnostics& diagnostics) {
+    const std::string findings = diagnostics.print();
+    std::fwrite(findings.data(), 1, findings.size(), stderr);
+}
+
 Observer observer_labelled(const std::string& label) {
+    check_observer_label(label);
     const std::optional<int> number = observer_number(label);
     if (!number) {
         throw InputError(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "experiment/diagnostics.h"
 #include "experiment/error.h"
@@ -16,11 +17,17 @@ class FindingsPrinted : public InputError {
     using InputError::InputError;
 };
 
-/// Reads a protocol, prints all findings to standard error, and throws FindingsPrinted if one of them is an
-/// error.
+/// Reads a protocol, with the sculptures that overt makes itself as those it may name. See read_protocol().
+std::optional<Protocol> read_protocol_file(const std::filesystem::path& file, Diagnostics& diagnostics);
+
+/// The same, with all findings printed to standard error; throws FindingsPrinted if one of them is an error.
 Protocol read_protocol_or_report(const std::filesystem::path& file);
 
-/// The observer of a label: its number is the one at the label's end. Throws InputError if it has none.
+/// To standard error.
+void print_findings(const Diagnostics& diagnostics);
+
+/// The observer of a label: its number is the one at the label's end. Throws InputError if it has none, or if
+/// no file can be named by the label.
 Observer observer_labelled(const std::string& label);
 
 /// The stimulus called SCULPTURE/MATERIAL. Throws InputError naming those there are.

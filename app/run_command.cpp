@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "app/progress_bar.h"
 #include "app/protocol_file.h"
+#include "app/protocol_inputs.h"
 #include "app/rig.h"
 #include "app/session_recording.h"
 #include "experiment/record/session_store.h"
@@ -64,8 +65,14 @@ void say_before(const Protocol& protocol, const Schedule& schedule, const GlDesc
 } // namespace
 
 int run_session(const RunOptions& options) {
-    const Protocol protocol = read_protocol_or_report(options.protocol);
     const Observer observer = observer_labelled(options.observer);
+    const Experiment experiment =
+        read_experiment_or_report(options.protocol, cache_folder(), InputDepth::everything);
+    const Protocol& protocol = experiment.protocol;
+    const std::vector<Sculpture>& sculptures = experiment.sculptures;
+    // What would refuse the session at its end is said before anything is drawn.
+    const SessionPlace place{options.sessions, protocol.name, observer.label};
+    check_session_place(place, options.session_number);
     const std::uint64_t seed = options.seed             ? *options.seed
                                : protocol.schedule.seed ? *protocol.schedule.seed
                                                         : fresh_seed();
@@ -73,11 +80,6 @@ int run_session(const RunOptions& options) {
     if (options.trials && *options.trials < static_cast<int>(schedule.trials.size()))
         schedule.trials.resize(static_cast<std::size_t>(*options.trials));
 
-    const std::vector<Sculpture> sculptures = load_sculptures(protocol, cache_folder());
-    for (const Sculpture& sculpture : sculptures) {
-        for (const std::string& remark : sculpture.remarks)
-            fmt::print(stderr, "sculpture «{}»: {}\n", sculpture.id, remark);
-    }
     // What is simulated has a seed of its own, so that one order can be rehearsed with several observers.
     RigRequest request{options.context,
                        options.virtual_time,
@@ -85,9 +87,6 @@ int run_session(const RunOptions& options) {
                        options.simulate_observer.has_value(),
                        options.simulate_observer.value_or(seed),
                        options.maps};
-    // A session number that is taken is said before anything is drawn.
-    const SessionPlace place{options.sessions, protocol.name, observer.label};
-    SessionDirectory(place, options.session_number).abandon();
     Rig rig(protocol, sculptures, request, cache_folder());
     say_before(protocol, schedule, rig.context().description(), options);
     {
@@ -129,8 +128,12 @@ int run_session(const RunOptions& options) {
 
     fmt::print("{} of {} trials completed, {} refreshes missed\nsession: {}\n", result.completed_trials,
                schedule.trials.size(), result.missed_refreshes, directory.path().string());
-    if (!options.print_session_to.empty())
-        std::ofstream(options.print_session_to) << directory.path().string() << "\n";
+    if (!options.print_session_to.empty()) {
+        std::ofstream file(options.print_session_to);
+        file << directory.path().string() << "\n";
+        if (!file.flush())
+            throw RecordError(fmt::format("{}: cannot be written", options.print_session_to.string()));
+    }
     if (result.aborted)
         fmt::print(stderr, "the session ended early: {}\n", result.reason);
     return result.aborted ? 1 : 0;

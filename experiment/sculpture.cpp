@@ -1,10 +1,13 @@
 #include "experiment/sculpture.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "experiment/error.h"
 #include "experiment/scene/mesh_reader.h"
 #include "experiment/scene/ply_writer.h"
+#include "experiment/scene/ray_caster.h"
 #include "experiment/scene/sculptures/sculptures.h"
 #include "experiment/scene/triangle_order.h"
 
@@ -86,6 +89,34 @@ Sculpture load_sculpture(const SculptureSettings& settings, const Protocol& prot
         throw InputError(fmt::format("sculpture «{}»: {}", settings.id, error.what()));
     }
     return sculpture;
+}
+
+bool is_in_picture(const Sculpture& sculpture, Degrees angle) {
+    const View& view = sculpture.scene.view;
+    const TurntablePose pose = sculpture.scene.pose_at(angle);
+    const glm::dmat4 world_from_object = pose.world_from_object();
+    const glm::dvec2 size(view.image_px);
+    const bool has_vertex = std::any_of(sculpture.mesh.positions.begin(), sculpture.mesh.positions.end(),
+                                        [&](const glm::vec3& p) {
+                                            const glm::dvec3 world(world_from_object * glm::dvec4(p, 1.0));
+                                            if (view.depth_of(world) <= 0.0)
+                                                return false;
+                                            const glm::dvec2 place = view.project(world);
+                                            return glm::all(glm::greaterThanEqual(place, glm::dvec2(0.0))) &&
+                                                   glm::all(glm::lessThan(place, size));
+                                        });
+    if (has_vertex)
+        return true;
+    // Seen from very near, one triangle may fill the picture with its corners outside.
+    constexpr int rays_each_way = 32;
+    const RayCaster caster(sculpture.mesh);
+    for (int i = 0; i < rays_each_way * rays_each_way; ++i) {
+        const glm::dvec2 place = (glm::dvec2(i % rays_each_way, i / rays_each_way) + 0.5) * size /
+                                 static_cast<double>(rays_each_way);
+        if (caster.first_hit(to_object(view.ray_through(place), pose)))
+            return true;
+    }
+    return false;
 }
 
 std::vector<Sculpture> load_sculptures(const Protocol& protocol, const std::filesystem::path& cache) {

@@ -30,6 +30,9 @@ struct Sculpture {
 Sculpture load_sculpture(const SculptureSettings& settings, const Protocol& protocol,
                          const std::filesystem::path& cache);
 
+/// Whether any of the sculpture can be in the picture when it is turned by `angle`. Only for one with a mesh.
+bool is_in_picture(const Sculpture& sculpture, Degrees angle);
+
 /// All sculptures of the protocol, in its order.
 std::vector<Sculpture> load_sculptures(const Protocol& protocol, const std::filesystem::path& cache);
 

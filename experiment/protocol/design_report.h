@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -58,6 +59,13 @@ struct IncidenceCell {
     int presentations = 0;
 };
 
+/// A sculpture's surface, as statistics will have it.
+struct SurfaceFacts {
+    std::string sculpture; ///< id
+    std::size_t triangles = 0;
+    std::vector<std::pair<std::string, double>> part_shares; ///< of the area, by name; sum 1
+};
+
 /// All that `overt check` says about a sound protocol. Indices are those of the protocol's lists.
 struct DesignReport {
     std::string name, title;
@@ -73,6 +81,8 @@ struct DesignReport {
     DesignAssumptions assumptions;
     SessionLength session;
     MemoryNeed memory;
+
+    std::vector<SurfaceFacts> surfaces; ///< of sculptures with a mesh; for whoever has loaded it to fill in
 
     std::vector<IncidenceCell> incidence; ///< task by task, sculpture by sculpture, material by material
     std::vector<Schedule> schedules;

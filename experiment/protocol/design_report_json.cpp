@@ -52,6 +52,15 @@ Json to_json(const DesignReport& report) {
                        {"answers_s", session.answers_s},           {"total_s", session.total_s()}};
     json["memory"] = {{"pages_per_stimulus_bytes", report.memory.pages_per_stimulus_bytes},
                       {"maps_per_stimulus_bytes", report.memory.maps_per_stimulus_bytes}};
+    json["surfaces"] = Json::array();
+    for (const SurfaceFacts& surface : report.surfaces) {
+        Json parts = Json::object();
+        for (const auto& [name, share] : surface.part_shares)
+            parts[name] = share;
+        json["surfaces"].push_back({{"sculpture", surface.sculpture},
+                                    {"triangles", surface.triangles},
+                                    {"part_shares", std::move(parts)}});
+    }
     json["incidence"] = Json::array();
     for (const IncidenceCell& cell : report.incidence) {
         json["incidence"].push_back(

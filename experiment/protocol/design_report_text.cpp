@@ -76,6 +76,17 @@ void add_overview(std::string& text, const DesignReport& report) {
                            in_bytes(report.memory.maps_per_stimulus_bytes))});
 }
 
+void add_surfaces(std::string& text, const DesignReport& report) {
+    std::vector<std::string> lines;
+    for (const SurfaceFacts& surface : report.surfaces) {
+        std::string parts;
+        for (const auto& [name, share] : surface.part_shares)
+            parts += fmt::format("{} {:.1f} % {}", parts.empty() ? ":" : ",", 100.0 * share, name);
+        lines.push_back(fmt::format("{}, {} triangles{}", surface.sculpture, surface.triangles, parts));
+    }
+    add_facts(text, "Surface", lines);
+}
+
 void add_session(std::string& text, const DesignReport& report) {
     const SessionLength& session = report.session;
     const auto minutes = [](double seconds) { return fmt::format("{:.1f}", seconds / 60.0); };
@@ -182,6 +193,7 @@ std::string to_text(const DesignReport& report) {
     std::string text = report.title == report.name ? report.name + "\n\n"
                                                    : fmt::format("{} ({})\n\n", report.title, report.name);
     add_overview(text, report);
+    add_surfaces(text, report);
     add_session(text, report);
     add_balance(text, report);
     for (const std::string& warning : report.warnings)

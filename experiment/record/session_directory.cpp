@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <string_view>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "experiment/error.h"
 #include "experiment/record/session_schema.h"
@@ -18,11 +21,7 @@ namespace {
 bool is_letter_or_digit(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
 void check_names(const SessionPlace& place) {
-    const std::string& label = place.observer_label;
-    if (label.empty() || !std::all_of(label.begin(), label.end(), is_letter_or_digit))
-        throw InputError(fmt::format("Observer label «{}»: use letters and digits only, such as 07 or AB; "
-                                     "files are named by it.",
-                                     label));
+    check_observer_label(place.observer_label);
     const std::string& name = place.protocol_name;
     const auto fits = [](char c) { return is_letter_or_digit(c) || c == '_' || c == '-' || c == '.'; };
     if (name.empty() || name.front() == '.' || !std::all_of(name.begin(), name.end(), fits))
@@ -39,7 +38,39 @@ InputError taken(const fs::path& path, const SessionPlace& place) {
                                   path.string(), next_session_number(place)));
 }
 
+/// The folder that must be written to if `path` is to be made.
+fs::path nearest_existing(fs::path path) {
+    std::error_code ignored;
+    for (path = fs::absolute(path); !fs::exists(path, ignored) && path.has_relative_path();)
+        path = path.parent_path();
+    return path;
+}
+
 } // namespace
+
+void check_observer_label(const std::string& label) {
+    if (label.empty() || !std::all_of(label.begin(), label.end(), is_letter_or_digit))
+        throw InputError(fmt::format("Observer label «{}»: use letters and digits only, such as 07 or P07; "
+                                     "files are named by it.",
+                                     label));
+}
+
+void check_session_place(const SessionPlace& place, std::optional<int> session_number) {
+    if (session_number) {
+        const fs::path path = session_path(place, *session_number);
+        if (fs::exists(path))
+            throw taken(path, place);
+    }
+    check_names(place);
+    const fs::path folder = nearest_existing(place.root / place.protocol_name);
+    if (!fs::is_directory(folder))
+        throw InputError(
+            fmt::format("{}: sessions cannot be put there, for it is no folder.", folder.string()));
+    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+        throw InputError(fmt::format("{}: sessions cannot be put there: {}. Name another folder with "
+                                     "--sessions, or change its permissions.",
+                                     folder.string(), std::strerror(errno)));
+}
 
 fs::path session_path(const SessionPlace& place, int session_number) {
     check_names(place);

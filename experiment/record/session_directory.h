@@ -19,6 +19,13 @@ struct SessionPlace {
 /// Directory of one session, whether or not it exists. Throws InputError if a name cannot be a directory's.
 std::filesystem::path session_path(const SessionPlace& place, int session_number);
 
+/// Throws InputError for a label that no file can be named by: letters and digits only, as BIDS wants it.
+void check_observer_label(const std::string& label);
+
+/// Finds out whether a session can be put there, without making anything. Throws InputError if a name cannot
+/// be a directory's, if a number is asked for that exists, or if nothing can be written there.
+void check_session_place(const SessionPlace& place, std::optional<int> session_number);
+
 /// One more than the highest number that this observer has in this protocol, from 1.
 int next_session_number(const SessionPlace& place);
 

@@ -2,6 +2,16 @@
 
 namespace overt {
 
+namespace {
+
+double area_of(const Mesh& mesh, const glm::uvec3& triangle) {
+    const glm::dvec3 a(mesh.positions[triangle.x]), b(mesh.positions[triangle.y]),
+        c(mesh.positions[triangle.z]);
+    return 0.5 * glm::length(glm::cross(b - a, c - a));
+}
+
+} // namespace
+
 Bounds Mesh::bounds() const {
     if (positions.empty())
         return {};
@@ -31,12 +41,17 @@ std::vector<glm::vec3> Mesh::vertex_normals() const {
 }
 
 double Mesh::area() const {
-    double twice_area = 0.0;
-    for (const glm::uvec3& triangle : triangles) {
-        const glm::dvec3 a(positions[triangle.x]), b(positions[triangle.y]), c(positions[triangle.z]);
-        twice_area += glm::length(glm::cross(b - a, c - a));
-    }
-    return 0.5 * twice_area;
+    double sum = 0.0;
+    for (const glm::uvec3& triangle : triangles)
+        sum += area_of(*this, triangle);
+    return sum;
+}
+
+std::vector<double> Mesh::part_areas() const {
+    std::vector<double> sums(part_names.size(), 0.0);
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        sums[triangle_parts[i]] += area_of(*this, triangles[i]);
+    return sums;
 }
 
 } // namespace overt

@@ -37,6 +37,9 @@ struct Mesh {
 
     /// Sum of the triangles' areas, in the square of the mesh's unit.
     double area() const;
+
+    /// The same of each part, by PartIndex.
+    std::vector<double> part_areas() const;
 };
 
 } // namespace overt

@@ -154,7 +154,9 @@ std::vector<std::string> describe(const MeshCleaningReport& report) {
         if (count > 0)
             sentences.push_back(fmt::format("{} {}", counted(count, one, many), rest));
     };
-    say(report.vertices_welded, "vertex was", "vertices were", "welded to another at the same place.");
+    // A file that has three vertices for each triangle, as every STL, says nothing by repeating them.
+    if (report.vertices_read != 3 * report.triangles_read)
+        say(report.vertices_welded, "vertex was", "vertices were", "welded to another at the same place.");
     say(report.degenerate_faces_dropped, "face was", "faces were", "dropped: no area.");
     say(report.duplicate_faces_dropped, "face was", "faces were", "dropped: the same as another.");
     say(report.unreferenced_vertices_dropped, "vertex was", "vertices were", "dropped: no face uses it.");
