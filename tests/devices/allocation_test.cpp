@@ -1,31 +1,11 @@
-/// Counts every allocation of this test program.
 #include <catch2/catch.hpp>
 
 #include <array>
-#include <atomic>
-#include <cstdlib>
-#include <new>
+#include <memory>
 
 #include "devices/simulated_response_panel.h"
 #include "devices/sitting.h"
-
-namespace {
-std::atomic<long> allocations{0};
-
-void* allocate(std::size_t size) {
-    ++allocations;
-    if (void* memory = std::malloc(size ? size : 1))
-        return memory;
-    throw std::bad_alloc();
-}
-} // namespace
-
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new[](std::size_t size) { return allocate(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+#include "support/counted_allocations.h"
 
 using namespace overt;
 
@@ -39,7 +19,7 @@ TEST_CASE("from the begin of a presentation to its last sample nothing is alloca
     for (int trial = 0; trial < 3; ++trial) {
         sitting.observer.saw_screen({}, sitting.clock.now());
         tracker.start_recording();
-        const long before = allocations;
+        const long before = test::allocations;
         std::size_t taken = 0;
         sitting.observer.presentation_begins({trial, 0, {}});
         for (int refresh = 0; refresh < cycle.total_refreshes; ++refresh) {
@@ -52,12 +32,12 @@ TEST_CASE("from the begin of a presentation to its last sample nothing is alloca
             panel.poll();
         }
         static_cast<void>(tracker.read_clocks());
-        const long during = allocations - before;
+        const long during = test::allocations - before;
         CHECK(during == 0);
         CHECK(taken > 15900);
         tracker.stop_recording();
     }
-    const long before = allocations;
+    const long before = test::allocations;
     const auto counted = std::make_unique<int>(1);
-    CHECK(allocations - before >= *counted); // the count does count
+    CHECK(test::allocations - before >= *counted); // the count does count
 }
