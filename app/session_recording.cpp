@@ -8,24 +8,13 @@
 #include "build_info.h"
 #include "experiment/error.h"
 #include "experiment/parallel.h"
+#include "experiment/protocol/protocol_keys.h"
 #include "experiment/record/header_rows.h"
 #include "experiment/scene/ply_writer.h"
 
 namespace overt {
 
 namespace {
-
-std::string_view word_of(OutputMode mode) {
-    switch (mode) {
-    case OutputMode::native_8bit:
-        return "native-8bit";
-    case OutputMode::mono_plus_plus:
-        return "mono++";
-    case OutputMode::color_plus_plus:
-        return "color++";
-    }
-    return "";
-}
 
 void copy_into(const std::filesystem::path& from, const std::filesystem::path& to) {
     std::error_code error;
@@ -85,7 +74,7 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
     header.tracker = tracker;
     header.display = {screen_geometry_of(protocol), protocol.display.refresh_hz,
                       from_seconds(1e-3 * protocol.display.latency_ms),
-                      std::string(word_of(protocol.display.output)), protocol.display.background};
+                      std::string(name_of(protocol.display.output)), protocol.display.background};
     header.animation = protocol.animation;
     header.poses = library.poses();
     for (const Task& task : protocol.tasks)

@@ -24,7 +24,10 @@ Section<ScheduleSettings> schedule();
 Section<Task> task();
 
 // Names of enumerations, in the order of their values.
-inline constexpr std::string_view output_modes[] = {"native-8bit", "mono++", "color++"};
+inline constexpr std::string_view output_modes[] = {"native-8bit", "native-10bit", "mono++",   "color++",
+                                                    "bits++",      "vpixx-m16",    "vpixx-c48"};
+inline constexpr std::string_view ditherings[] = {"none", "ordered", "blue-noise"};
+inline constexpr std::string_view pair_filters[] = {"box", "lanczos"};
 inline constexpr std::string_view tracker_kinds[] = {"simulated"};
 inline constexpr std::string_view playbacks[] = {"cycle", "ping-pong"};
 inline constexpr std::string_view task_coverages[] = {"every-stimulus", "once-per-sculpture"};

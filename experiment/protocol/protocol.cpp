@@ -1,6 +1,7 @@
 #include "experiment/protocol/protocol.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,25 @@ ScreenGeometry screen_geometry_of(const Protocol& protocol) {
     geometry.viewing_distance_mm = display.viewing_distance_mm;
     geometry.image_px = {protocol.view.width_px, protocol.view.height_px};
     geometry.image_origin_px = centred_origin_px(geometry.screen_px, geometry.image_px);
+    const ViewSettings& view = protocol.view;
+    // The pixel whose distance from the middle is seen under the angle: tan(angle) * distance.
+    const auto px_of = [&](double deg, int axis) {
+        return std::tan(to_radians({deg}).value) * geometry.viewing_distance_mm * geometry.screen_px[axis] /
+               geometry.screen_mm[axis];
+    };
+    const auto first_px = [&](double centre_px, int axis) {
+        return static_cast<int>(std::lround(centre_px - 0.5 * geometry.image_px[axis]));
+    };
+    if (view.left_px) {
+        geometry.image_origin_px.x = *view.left_px;
+    } else if (view.centre_right_deg) {
+        geometry.image_origin_px.x = first_px(geometry.centre().x_px + px_of(*view.centre_right_deg, 0), 0);
+    }
+    if (view.top_px) {
+        geometry.image_origin_px.y = *view.top_px;
+    } else if (view.centre_up_deg) {
+        geometry.image_origin_px.y = first_px(geometry.centre().y_px - px_of(*view.centre_up_deg, 1), 1);
+    }
     return geometry;
 }
 

@@ -19,8 +19,44 @@
 
 namespace overt {
 
-/// Packing of 16-bit light into the video signal.
-enum class OutputMode : std::uint8_t { native_8bit, mono_plus_plus, color_plus_plus };
+/// How light is packed into the video signal.
+enum class OutputMode : std::uint8_t {
+    native_8bit,
+    native_10bit,
+    mono_plus_plus,
+    color_plus_plus,
+    bits_plus_plus,
+    vpixx_m16,
+    vpixx_c48
+};
+
+/// Whether each pixel pair of the video signal carries one colour.
+constexpr bool joins_pixels_in_pairs(OutputMode mode) {
+    return mode == OutputMode::color_plus_plus || mode == OutputMode::vpixx_c48;
+}
+
+/// Rows at the top of the screen that carry messages to the display and never light.
+constexpr int reserved_rows(OutputMode mode) {
+    switch (mode) {
+    case OutputMode::native_8bit:
+    case OutputMode::native_10bit:
+        return 0;
+    case OutputMode::mono_plus_plus:
+    case OutputMode::color_plus_plus:
+    case OutputMode::bits_plus_plus:
+        return 3; // T-Lock: table of colours, clock reset, digital outputs
+    case OutputMode::vpixx_m16:
+    case OutputMode::vpixx_c48:
+        return 1; // PSYNC
+    }
+    return 0;
+}
+
+/// How the native modes spread what lies between two of their levels over neighbours and refreshes.
+enum class Dithering : std::uint8_t { none, ordered, blue_noise };
+
+/// How two neighbours become the one colour of a pair, in linear light.
+enum class PairFilter : std::uint8_t { box, lanczos };
 
 /// [display]: the screen in front of the observer. Defaults: a Display++ as in the paper; its 698 mm are the
 /// active width.
@@ -32,7 +68,10 @@ struct DisplaySettings {
     double height_mm = 392.9;
     double viewing_distance_mm = 1750.0;
     OutputMode output = OutputMode::color_plus_plus;
-    double gamma = 1.0; ///< exponent between wire value and light; 1 for a display that linearises itself
+    Dithering dither = Dithering::none;       ///< of the native modes
+    PairFilter pair_filter = PairFilter::box; ///< of the modes that join pixels in pairs
+    int onset_trigger = 0; ///< digital outputs that a presentation's first refresh raises, a bit each
+    double gamma = 1.0;    ///< exponent between wire value and light; 1 for a display that linearises itself
     double latency_ms = 0.0; ///< from vertical blank to the first row's light
     double background = 0.0; ///< linear grey, 0 … 1 of the display's white
 };
@@ -55,6 +94,10 @@ struct TrackerSettings {
 struct ViewSettings {
     int width_px = 1024;
     int height_px = 1024;
+    // Place on the screen: its top left pixel, or its middle's angle from the middle of the screen; left out:
+    // in the middle.
+    std::optional<int> left_px, top_px;
+    std::optional<double> centre_right_deg, centre_up_deg;
     /// Full angle over the height. Left out: the angle under which the observer sees the image on the screen.
     std::optional<double> vertical_fov_deg;
     double margin = 0.06;                      ///< share of the image left free where the camera is fitted

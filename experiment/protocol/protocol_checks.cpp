@@ -42,21 +42,6 @@ void check_image_fits(ProtocolExamination& examination) {
             fmt::format("the image is {} px high, the screen only {} px", view.height_px, display.height_px),
             "stimuli are shown 1:1; make view.height_px smaller");
     }
-    if (display.output == OutputMode::color_plus_plus) {
-        if (display.width_px % 2 != 0)
-            examination.error({"display.width_px", "display.output"},
-                              "color++ joins pixels in pairs: the width has to be even");
-        if (view.width_px % 2 != 0)
-            examination.error({"view.width_px", "display.output"},
-                              "color++ joins pixels in pairs: the width has to be even");
-    }
-    if (display.output == OutputMode::native_8bit && display.gamma == 1.0 &&
-        !examination.is_written("display.gamma")) {
-        examination.warning(
-            {"display.output", "display.gamma"},
-            "native-8bit with the default gamma of 1: the display would have to linearise itself",
-            "ordinary monitors need gamma = 2.2; write gamma = 1 if it is meant");
-    }
     // Square pixels are assumed by everyone who draws a circle.
     const double aspect = display.width_mm / display.width_px / (display.height_mm / display.height_px);
     if (std::abs(aspect - 1.0) > 0.02) {

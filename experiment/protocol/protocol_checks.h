@@ -38,6 +38,8 @@ class ProtocolExamination {
 
 // The rig: screen, image, animation, texts, schedule.
 void check_image_fits(ProtocolExamination& examination);
+/// What the video signal can carry, and where on the screen.
+void check_output(ProtocolExamination& examination);
 void check_animation(ProtocolExamination& examination);
 void check_screens(ProtocolExamination& examination);
 void check_schedule(ProtocolExamination& examination);

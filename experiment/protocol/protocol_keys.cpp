@@ -18,6 +18,8 @@ const ProtocolSections& protocol_sections() {
 }
 
 std::string_view name_of(OutputMode mode) { return key_rows::output_modes[static_cast<int>(mode)]; }
+std::string_view name_of(Dithering dithering) { return key_rows::ditherings[static_cast<int>(dithering)]; }
+std::string_view name_of(PairFilter filter) { return key_rows::pair_filters[static_cast<int>(filter)]; }
 std::string_view name_of(TrackerKind kind) { return key_rows::tracker_kinds[static_cast<int>(kind)]; }
 std::string_view name_of(Playback playback) { return key_rows::playbacks[static_cast<int>(playback)]; }
 std::string_view name_of(TaskCoverage coverage) {

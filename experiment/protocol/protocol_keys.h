@@ -33,9 +33,10 @@ template <class Struct>
 using KeyMember =
     std::variant<int Struct::*, double Struct::*, Degrees Struct::*, std::string Struct::*,
                  std::filesystem::path Struct::*, std::optional<double> Struct::*,
-                 std::optional<std::uint64_t> Struct::*, std::optional<glm::dvec3> Struct::*,
-                 std::array<double, 3> Struct::*, std::vector<std::array<double, 4>> Struct::*,
-                 std::vector<std::array<double, 6>> Struct::*, OutputMode Struct::*, TrackerKind Struct::*,
+                 std::optional<int> Struct::*, std::optional<std::uint64_t> Struct::*,
+                 std::optional<glm::dvec3> Struct::*, std::array<double, 3> Struct::*,
+                 std::vector<std::array<double, 4>> Struct::*, std::vector<std::array<double, 6>> Struct::*,
+                 OutputMode Struct::*, Dithering Struct::*, PairFilter Struct::*, TrackerKind Struct::*,
                  Playback Struct::*, TaskCoverage Struct::*, MaterialKind Struct::*, FrameEncoding Struct::*>;
 
 template <class Struct> struct Key {
@@ -70,6 +71,8 @@ template <class Visitor> void for_each_section(Visitor&& visit) {
 
 /// Names as the file has them.
 std::string_view name_of(OutputMode mode);
+std::string_view name_of(Dithering dithering);
+std::string_view name_of(PairFilter filter);
 std::string_view name_of(TrackerKind kind);
 std::string_view name_of(Playback playback);
 std::string_view name_of(TaskCoverage coverage);
@@ -88,7 +91,8 @@ std::string expected_text(const KeyRule& rule, std::string_view noun);
 /// What a value of this type is called in a file.
 template <class Value> constexpr std::string_view noun_of() {
     using std::is_same_v;
-    if constexpr (is_same_v<Value, int> || is_same_v<Value, std::optional<std::uint64_t>>)
+    if constexpr (is_same_v<Value, int> || is_same_v<Value, std::optional<int>> ||
+                  is_same_v<Value, std::optional<std::uint64_t>>)
         return "a whole number";
     else if constexpr (is_same_v<Value, double> || is_same_v<Value, Degrees> ||
                        is_same_v<Value, std::optional<double>>)

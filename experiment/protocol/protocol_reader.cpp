@@ -235,6 +235,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
     if (toml.is_whole) {
         require_lists(examination);
         check_image_fits(examination);
+        check_output(examination);
         check_animation(examination);
         check_screens(examination);
         check_ids(examination);

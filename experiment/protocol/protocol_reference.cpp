@@ -33,7 +33,7 @@ and other meshes of your own is in [laser_scans.md](laser_scans.md).
 - Units are part of the names: `_mm`, `_deg` (degrees of visual angle or of turn), `_px`, `_hz`, `_s`, `_ms`.
 - A whole number may stand where a number is expected, never the other way round.
 - Paths count from the folder of the protocol file.
-- The place of the stimulus is the middle of the screen, pixel for pixel.
+- The stimulus is shown pixel for pixel, in the middle of the screen unless `[view]` says where.
 
 This page is written from the program's own table of keys.
 )";

@@ -55,10 +55,28 @@ Section<DisplaySettings> display() {
                  &D::viewing_distance_mm},
                 {{.name = "output",
                   .choices = output_modes,
-                  .explanation = "How light is packed into the video signal: 8 bits per channel for any "
-                                 "display, or the 16-bit modes of a Display++ (`color++` joins pixels in "
-                                 "pairs)."},
+                  .explanation =
+                      "How light is packed into the video signal: 8 or 10 bits per channel for any "
+                      "display, the 16-bit modes of a Display++, or those of VPixx devices. "
+                      "`color++` and `vpixx-c48` join pixels in pairs; see "
+                      "[output.md](output.md)."},
                  &D::output},
+                {{.name = "dither",
+                  .choices = ditherings,
+                  .explanation = "How the native modes spread what lies between two of their levels over "
+                                 "neighbouring pixels and refreshes."},
+                 &D::dither},
+                {{.name = "pair_filter",
+                  .choices = pair_filters,
+                  .explanation = "How pixels become the one colour of a pair, in linear light: the mean of "
+                                 "the two, or a Lanczos filter over twelve."},
+                 &D::pair_filter},
+                {{.name = "onset_trigger",
+                  .low = 0,
+                  .high = 1023,
+                  .explanation = "Digital outputs of a Display++ that the first refresh of a presentation "
+                                 "raises for 5 ms, as a sum of 1, 2, 4 … 512; 0 for none."},
+                 &D::onset_trigger},
                 {{.name = "gamma",
                   .low = 0.1,
                   .high = 5,

@@ -133,6 +133,10 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::optiona
     return read_value(value, rule, out.emplace());
 }
 
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::optional<int>& out) {
+    return read_value(value, rule, out.emplace());
+}
+
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::optional<std::uint64_t>& out) {
     std::int64_t whole = 0;
     if (ValueResult fault = read_whole(value, rule, whole))

@@ -23,6 +23,7 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, Degrees& out
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::string& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::filesystem::path& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::optional<double>& out);
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::optional<int>& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::optional<std::uint64_t>& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::optional<glm::dvec3>& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::array<double, 3>& out);

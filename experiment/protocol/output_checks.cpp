@@ -1,0 +1,103 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "experiment/protocol/protocol_checks.h"
+#include "experiment/protocol/protocol_keys.h"
+
+namespace overt {
+
+namespace {
+
+/// A table of colours takes 8 pixels of key, 4 of nothing and 2 for each of its 256 entries; the data packet
+/// is shorter.
+constexpr int t_lock_row_px = 524;
+
+bool is_native(OutputMode mode) {
+    return mode == OutputMode::native_8bit || mode == OutputMode::native_10bit;
+}
+
+bool has_t_lock(OutputMode mode) {
+    return mode == OutputMode::mono_plus_plus || mode == OutputMode::color_plus_plus ||
+           mode == OutputMode::bits_plus_plus;
+}
+
+void check_keys_of_mode(ProtocolExamination& examination) {
+    const DisplaySettings& display = examination.protocol.display;
+    const std::string_view mode = name_of(display.output);
+    if (joins_pixels_in_pairs(display.output)) {
+        if (display.width_px % 2 != 0)
+            examination.error({"display.width_px", "display.output"},
+                              fmt::format("{} joins pixels in pairs: the width has to be even", mode));
+    } else if (display.pair_filter != PairFilter::box) {
+        examination.error({"display.pair_filter"},
+                          fmt::format("{} joins no pixels in pairs: pair_filter has no meaning", mode));
+    }
+    if (is_native(display.output)) {
+        if (display.gamma == 1.0 && !examination.is_written("display.gamma")) {
+            examination.warning(
+                {"display.output", "display.gamma"},
+                fmt::format("{} with the default gamma of 1: the display would have to linearise itself",
+                            mode),
+                "ordinary monitors need gamma = 2.2; write gamma = 1 if it is meant");
+        }
+    } else if (display.dither != Dithering::none) {
+        examination.error(
+            {"display.dither"},
+            fmt::format("{} carries 16 bits in bytes that noise would turn into others: nothing to dither",
+                        mode),
+            "leave dither out, or take output = \"native-8bit\"");
+    }
+    if (has_t_lock(display.output)) {
+        if (display.width_px < t_lock_row_px)
+            examination.error({"display.width_px", "display.output"},
+                              fmt::format("{} carries messages in rows of {} px: the screen is narrower",
+                                          mode, t_lock_row_px));
+    } else if (display.onset_trigger != 0) {
+        examination.error({"display.onset_trigger"},
+                          fmt::format("{} has no digital outputs: onset_trigger needs mono++, color++ or "
+                                      "bits++",
+                                      mode));
+    }
+}
+
+void check_place(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    const ViewSettings& view = protocol.view;
+    if (view.left_px && view.centre_right_deg)
+        examination.error({"view.centre_right_deg"}, "left_px already says where the stimulus is");
+    if (view.top_px && view.centre_up_deg)
+        examination.error({"view.centre_up_deg"}, "top_px already says where the stimulus is");
+    const ScreenGeometry geometry = screen_geometry_of(protocol);
+    const glm::ivec2 first = geometry.image_origin_px, last = first + geometry.image_px - 1;
+    // What is larger than the screen has been found already, and is nowhere inside it.
+    if (geometry.image_px.x <= geometry.screen_px.x && (first.x < 0 || last.x >= geometry.screen_px.x)) {
+        examination.error({"view.left_px", "view.centre_right_deg", "view.width_px"},
+                          fmt::format("the stimulus takes the columns {} to {}, the screen has 0 to {}",
+                                      first.x, last.x, geometry.screen_px.x - 1));
+    }
+    if (geometry.image_px.y > geometry.screen_px.y)
+        return;
+    if (first.y < 0 || last.y >= geometry.screen_px.y) {
+        examination.error({"view.top_px", "view.centre_up_deg", "view.height_px"},
+                          fmt::format("the stimulus takes the rows {} to {}, the screen has 0 to {}", first.y,
+                                      last.y, geometry.screen_px.y - 1));
+    } else if (const int rows = reserved_rows(protocol.display.output); first.y < rows) {
+        examination.error(
+            {"view.top_px", "view.centre_up_deg", "view.height_px", "display.output"},
+            fmt::format(
+                "the stimulus begins in row {}, but {} keeps the first {} for messages to the display",
+                first.y, name_of(protocol.display.output), rows == 1 ? "row" : "three rows"),
+            fmt::format("take height_px = {}, or place the stimulus with top_px",
+                        geometry.image_px.y - 2 * (rows - first.y)));
+    }
+}
+
+} // namespace
+
+void check_output(ProtocolExamination& examination) {
+    check_keys_of_mode(examination);
+    check_place(examination);
+}
+
+} // namespace overt
