@@ -13,13 +13,15 @@ bool is_file(const std::filesystem::path& path) {
     return std::filesystem::is_regular_file(path, ignored);
 }
 
-void check_sequence(ProtocolExamination& examination, const std::string& path,
-                    const FrameSequenceSettings& sequence) {
+/// Whether all files of an animation are there; `file_of(frame)` names them, `what` is what they hold.
+template <class FileOf>
+void check_sequence(ProtocolExamination& examination, const std::string& path, const char* what,
+                    const FileOf& file_of) {
     const int count = examination.protocol.animation.frame_count;
     int missing = 0;
     std::filesystem::path first_missing;
     for (int frame = 0; frame < count; ++frame) {
-        const std::filesystem::path file = frame_file(sequence, {frame});
+        const std::filesystem::path file = file_of(AnimationFrameIndex{frame});
         if (is_file(file))
             continue;
         if (missing++ == 0)
@@ -27,7 +29,7 @@ void check_sequence(ProtocolExamination& examination, const std::string& path,
     }
     if (missing > 0) {
         examination.error({path, "animation.frame_count"},
-                          fmt::format("{} of {} frames are missing", missing, count),
+                          fmt::format("{} of {} {} are missing", missing, count, what),
                           fmt::format("the first is {}", first_missing.string()));
     }
 }
@@ -46,11 +48,18 @@ void check_files(ProtocolExamination& examination) {
             examination.error({fmt::format("sculpture[{}].mesh", i)},
                               fmt::format("there is no file {}", mesh.string()), remedy);
         }
+        const std::string lut = fmt::format("sculpture[{}].lut", i);
+        if (!protocol.sculptures[i].lut.empty() && !examination.faulty.contains(lut)) {
+            check_sequence(examination, lut, "maps", [&](AnimationFrameIndex frame) {
+                return lut_file(protocol.sculptures[i], frame);
+            });
+        }
     }
     for (std::size_t i = 0; i < protocol.frames.size(); ++i) {
         const std::string path = fmt::format("frames[{}].files", i);
         if (!protocol.frames[i].files.empty() && !examination.faulty.contains(path))
-            check_sequence(examination, path, protocol.frames[i]);
+            check_sequence(examination, path, "frames",
+                           [&](AnimationFrameIndex frame) { return frame_file(protocol.frames[i], frame); });
     }
 }
 

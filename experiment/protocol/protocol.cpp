@@ -37,13 +37,25 @@ ScreenGeometry screen_geometry_of(const Protocol& protocol) {
     return geometry;
 }
 
-std::filesystem::path frame_file(const FrameSequenceSettings& sequence, AnimationFrameIndex frame) {
-    const std::size_t begin = sequence.files.find('#');
+namespace {
+
+/// The path with its #s replaced by a number, zeros in front.
+std::filesystem::path numbered(const std::string& files, int number) {
+    const std::size_t begin = files.find('#');
     if (begin == std::string::npos)
-        return sequence.files;
-    const std::size_t end = std::min(sequence.files.find_first_not_of('#', begin), sequence.files.size());
-    return fmt::format("{}{:0{}}{}", sequence.files.substr(0, begin), sequence.first_number + frame.value,
-                       end - begin, sequence.files.substr(end));
+        return files;
+    const std::size_t end = std::min(files.find_first_not_of('#', begin), files.size());
+    return fmt::format("{}{:0{}}{}", files.substr(0, begin), number, end - begin, files.substr(end));
+}
+
+} // namespace
+
+std::filesystem::path frame_file(const FrameSequenceSettings& sequence, AnimationFrameIndex frame) {
+    return numbered(sequence.files, sequence.first_number + frame.value);
+}
+
+std::filesystem::path lut_file(const SculptureSettings& sculpture, AnimationFrameIndex frame) {
+    return numbered(sculpture.lut, sculpture.lut_first_number + frame.value);
 }
 
 const FrameSequenceSettings* find_frames(const Protocol& protocol, int sculpture, int material) {

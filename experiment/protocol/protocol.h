@@ -157,6 +157,12 @@ struct SculptureSettings {
     std::filesystem::path mesh; ///< PLY, OBJ or STL, or empty; resolved against the protocol's folder
     std::string up = "z";       ///< axis of the file that points up: x, y, z, -x, -y, -z
     double scale = 1.0;
+    /// Coordinate-encoded maps made by another program, or empty: path with # for the digits of the frame
+    /// number, resolved against the protocol's folder.
+    std::string lut;
+    int lut_first_number = 0;                   ///< number of animation frame 0
+    std::optional<int> lut_scale;               ///< of 16-bit codes; left out: a file beside each map says it
+    std::optional<glm::dvec3> lut_min, lut_max; ///< the box that they are coded by, likewise
     // The part "head" in the file's coordinates: inside any sphere and on the positive side of all planes.
     std::vector<std::array<double, 4>> head_spheres; ///< x, y, z, radius
     std::vector<std::array<double, 6>> head_planes;  ///< point and normal
@@ -216,6 +222,9 @@ ScreenGeometry screen_geometry_of(const Protocol& protocol);
 
 /// File of one frame of a ready-made animation: the #s of `files` replaced by the number, zeros in front.
 std::filesystem::path frame_file(const FrameSequenceSettings& sequence, AnimationFrameIndex frame);
+
+/// The same for the map of one frame, of a sculpture with ready-made maps.
+std::filesystem::path lut_file(const SculptureSettings& sculpture, AnimationFrameIndex frame);
 
 /// The ready-made frames of a sculpture in a material, or nullptr if they are to be rendered. Indices into
 /// the protocol's lists.

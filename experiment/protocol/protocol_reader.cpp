@@ -206,6 +206,8 @@ void complete(Protocol& protocol) {
             sculpture.title = sculpture.id;
         if (!sculpture.mesh.empty())
             sculpture.mesh = folder / sculpture.mesh;
+        if (!sculpture.lut.empty())
+            sculpture.lut = (folder / sculpture.lut).string();
     }
     for (MaterialSettings& material : protocol.materials) {
         if (material.title.empty())

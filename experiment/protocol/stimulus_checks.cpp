@@ -51,14 +51,59 @@ bool is_covered_by_frames(const Protocol& protocol, std::size_t sculpture) {
     return !protocol.materials.empty();
 }
 
-/// Keys that say something about a mesh file, given for a sculpture without one.
-void check_mesh_keys(ProtocolExamination& examination, std::size_t index) {
-    for (const std::string_view key : {"up", "scale", "head"}) {
+/// Warns of keys that are written though they have no effect without another.
+void check_idle_keys(ProtocolExamination& examination, std::size_t index,
+                     std::initializer_list<std::string_view> keys, const char* without, const char* remark) {
+    for (const std::string_view key : keys) {
         const std::string path = entry_path("sculpture", index, key);
-        if (examination.is_written(path)) {
-            examination.warning({path}, fmt::format("\"{}\" has no effect without \"mesh\"", key),
-                                "it describes the coordinates of a mesh file");
-        }
+        if (examination.is_written(path))
+            examination.warning({path}, fmt::format("\"{}\" has no effect without {}", key, without), remark);
+    }
+}
+
+/// Whether a path has one group of # for a number; if not, reports it.
+void check_numbered_path(ProtocolExamination& examination, const std::string& path, const std::string& files,
+                         const char* example) {
+    const std::size_t begin = files.find('#');
+    const std::size_t end = begin == std::string::npos ? begin : files.find_first_not_of('#', begin);
+    if (begin != std::string::npos && (end == std::string::npos || files.find('#', end) == std::string::npos))
+        return;
+    examination.error({path}, "the path needs one group of # for the digits of the frame number", example);
+    examination.faulty.insert(path);
+}
+
+/// Ready-made maps: what they are maps of must be shown ready-made, too, and their box must be whole.
+void check_lut(ProtocolExamination& examination, std::size_t index) {
+    const auto path = [&](std::string_view key) { return entry_path("sculpture", index, key); };
+    const SculptureSettings& sculpture = examination.protocol.sculptures[index];
+    check_numbered_path(examination, path("lut"), sculpture.lut, "such as \"maps/frame_####.png\"");
+    if (!is_covered_by_frames(examination.protocol, index)) {
+        examination.error(
+            {path("lut")},
+            fmt::format("sculpture \"{}\" has maps, but not [[frames]] for every material", sculpture.id),
+            "without a mesh nothing can be rendered");
+    }
+    if (sculpture.lut_min.has_value() != sculpture.lut_max.has_value()) {
+        examination.error({path("lut_min"), path("lut_max")}, "a box needs both \"lut_min\" and \"lut_max\"");
+    } else if (sculpture.lut_min && glm::any(glm::greaterThan(*sculpture.lut_min, *sculpture.lut_max))) {
+        examination.error({path("lut_min"), path("lut_max")},
+                          "a coordinate of \"lut_min\" is larger than that of \"lut_max\"");
+    }
+}
+
+/// A sculpture that nothing is known of but its pictures.
+void check_shapeless(ProtocolExamination& examination, std::size_t index) {
+    const std::string& id = examination.protocol.sculptures[index].id;
+    const std::string entry = entry_path("sculpture", index);
+    if (is_covered_by_frames(examination.protocol, index)) {
+        examination.warning({entry},
+                            fmt::format("sculpture \"{}\" has frames, but no shape: gaze on it cannot be "
+                                        "projected to its surface",
+                                        id),
+                            "give the \"mesh\" that the frames were rendered from, or maps, \"lut\"");
+    } else {
+        examination.error({entry}, fmt::format("sculpture \"{}\" has neither \"shipped\" nor \"mesh\"", id),
+                          "or [[frames]] for every material");
     }
 }
 
@@ -76,32 +121,33 @@ void check_sculptures(ProtocolExamination& examination,
     for (std::size_t i = 0; i < protocol.sculptures.size(); ++i) {
         const SculptureSettings& sculpture = protocol.sculptures[i];
         const std::string shipped = entry_path("sculpture", i, "shipped"),
-                          mesh = entry_path("sculpture", i, "mesh");
-        const bool has_shipped = examination.is_written(shipped), has_mesh = examination.is_written(mesh);
+                          mesh = entry_path("sculpture", i, "mesh"), lut = entry_path("sculpture", i, "lut");
+        const bool has_shipped = examination.is_written(shipped), has_mesh = examination.is_written(mesh),
+                   has_lut = examination.is_written(lut);
         if (has_shipped && has_mesh) {
             examination.error({mesh, shipped}, "a sculpture is either \"shipped\" or a \"mesh\", not both",
                               "take one of the two lines out");
+        } else if (has_lut && (has_shipped || has_mesh)) {
+            examination.error({lut}, "\"lut\" stands instead of \"shipped\" or \"mesh\", not beside it",
+                              "with a mesh, the maps are made from it, and more exactly");
         } else if (has_shipped && std::find(shipped_sculptures.begin(), shipped_sculptures.end(),
                                             sculpture.shipped) == shipped_sculptures.end()) {
             examination.error({shipped}, fmt::format("overt has no sculpture \"{}\"", sculpture.shipped),
                               suggest_name(sculpture.shipped, shipped_sculptures));
+        } else if (has_lut) {
+            check_lut(examination, i);
         } else if (!has_shipped && !has_mesh) {
-            if (!is_covered_by_frames(protocol, i)) {
-                examination.error(
-                    {entry_path("sculpture", i), mesh, shipped},
-                    fmt::format("sculpture \"{}\" has neither \"shipped\" nor \"mesh\"", sculpture.id),
-                    "or [[frames]] for every material");
-            } else {
-                examination.warning(
-                    {entry_path("sculpture", i)},
-                    fmt::format("sculpture \"{}\" has frames, but no shape: gaze on it cannot be "
-                                "projected to its surface",
-                                sculpture.id),
-                    "give the \"mesh\" that the frames were rendered from");
-            }
+            check_shapeless(examination, i);
         }
         if (!has_mesh)
-            check_mesh_keys(examination, i);
+            check_idle_keys(examination, i, {"up", "scale"}, "\"mesh\"",
+                            "it describes the coordinates of a mesh file");
+        if (!has_lut)
+            check_idle_keys(examination, i, {"lut_first_number", "lut_scale", "lut_min", "lut_max"},
+                            "\"lut\"", "it describes ready-made maps");
+        if (!has_mesh && !has_lut)
+            check_idle_keys(examination, i, {"head"}, "\"mesh\"",
+                            "it describes the coordinates of a mesh file");
         else if (sculpture.head_spheres.empty() && !sculpture.head_planes.empty())
             examination.warning({entry_path("sculpture", i, "head")}, "\"planes\" alone make no head",
                                 "give \"spheres\" that hold it");
@@ -155,16 +201,8 @@ void check_frames(ProtocolExamination& examination) {
                 fmt::format("from the [[frames]] in line {}",
                             protocol.places.of(entry_path("frames", first->second)).line));
         }
-        const std::size_t begin = sequence.files.find('#');
-        const std::size_t end =
-            begin == std::string::npos ? begin : sequence.files.find_first_not_of('#', begin);
-        if (begin == std::string::npos ||
-            (end != std::string::npos && sequence.files.find('#', end) != std::string::npos)) {
-            examination.error({entry_path("frames", i, "files")},
-                              "the path needs one group of # for the digits of the frame number",
-                              "such as \"gold/frame_####.exr\"");
-            examination.faulty.insert(entry_path("frames", i, "files"));
-        }
+        check_numbered_path(examination, entry_path("frames", i, "files"), sequence.files,
+                            "such as \"gold/frame_####.exr\"");
     }
 }
 

@@ -11,7 +11,8 @@ Section<SculptureSettings> head() {
     using S = SculptureSettings;
     return {.name = "head",
             .explanation = "Which part of a mesh is the head: inside any of the spheres, and in front of all "
-                           "of the planes. Coordinates are those of the mesh file.",
+                           "of the planes. Coordinates are those of the mesh file; with `lut`, those of the "
+                           "maps.",
             .keys = {
                 {{.name = "spheres",
                   .if_left_out = "the mesh has no head",
@@ -170,7 +171,7 @@ Section<SculptureSettings> sculpture() {
     return {
         .name = "sculpture",
         .explanation = "A thing to look at: one of the sculptures that overt makes itself (`shipped`), or "
-                       "one of yours (`mesh`). At least one.",
+                       "one of yours (`mesh`, or ready-made maps, `lut`). At least one.",
         .keys =
             {
                 {{.name = "id",
@@ -181,11 +182,11 @@ Section<SculptureSettings> sculpture() {
                 {{.name = "title", .if_left_out = "the id", .explanation = "Name for figures and reports."},
                  &S::title},
                 {{.name = "shipped",
-                  .if_left_out = "see `mesh`",
+                  .if_left_out = "see `mesh` and `lut`",
                   .explanation = "Name of a sculpture that overt makes itself; its head is known."},
                  &S::shipped},
                 {{.name = "mesh",
-                  .if_left_out = "see `shipped`",
+                  .if_left_out = "see `shipped` and `lut`",
                   .explanation = "A PLY, OBJ or STL file of triangles, by its path from the protocol's "
                                  "folder."},
                  &S::mesh},
@@ -196,6 +197,34 @@ Section<SculptureSettings> sculpture() {
                   .high = 1e9,
                   .explanation = "Factor on the coordinates of the mesh file."},
                  &S::scale},
+                {{.name = "lut",
+                  .if_left_out = "maps are made from the mesh",
+                  .explanation = "Instead of a mesh, for a sculpture whose `[[frames]]` another program "
+                                 "rendered: the coordinate-encoded maps that it made of them, with # for the "
+                                 "digits of the number: \"maps/frame_####.png\". See "
+                                 "docs/coordinate_maps.md."},
+                 &S::lut},
+                {{.name = "lut_first_number",
+                  .low = 0,
+                  .high = 1000000,
+                  .explanation = "Number of the first map's file."},
+                 &S::lut_first_number},
+                {{.name = "lut_scale",
+                  .low = 65535,
+                  .high = 65536,
+                  .if_left_out = "from the JSON file beside each map",
+                  .explanation = "Code of the far side of the box: 65535 for colours from 0 to 1 saved with "
+                                 "16 bits, 65536 for the paper's formula."},
+                 &S::lut_scale},
+                {{.name = "lut_min",
+                  .if_left_out = "from the JSON file beside each map",
+                  .explanation = "Corner of the box that the maps are coded by, with the smallest "
+                                 "coordinates."},
+                 &S::lut_min},
+                {{.name = "lut_max",
+                  .if_left_out = "from the JSON file beside each map",
+                  .explanation = "Corner of the box with the largest coordinates."},
+                 &S::lut_max},
             },
         .tables = {head()},
         .many = &Protocol::sculptures};
