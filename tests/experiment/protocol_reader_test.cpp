@@ -159,7 +159,7 @@ TEST_CASE("text that cannot be read and pictures that do not fit are errors", "[
           Lines{"13:19: text of 2 deg is 168 px high: too large for a screen of 1080 rows"});
     CHECK(ReadText(minimal_protocol, "[view]\nheight_px = 1200\n").lines() ==
           Lines{"13:13: the image is 1200 px high, the screen only 1080 px"});
-    CHECK(ReadText(minimal_protocol, "[view]\nwidth_px = 511\n").lines() ==
+    CHECK(ReadText(minimal_protocol, "[display]\nwidth_px = 1919\n").lines() ==
           Lines{"13:12: color++ joins pixels in pairs: the width has to be even"});
 }
 
