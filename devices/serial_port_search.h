@@ -1,0 +1,30 @@
+/// Which serial ports there are, and what the system knows of the USB devices behind them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace overt {
+
+/// A port and what the USB device says of itself. Texts are empty and numbers absent where it says nothing.
+struct SerialPortInfo {
+    std::string path; ///< such as /dev/ttyACM0
+    std::optional<std::uint16_t> vendor_id, product_id;
+    std::string manufacturer, product, serial_number;
+};
+
+/// USB vendor number of Cambridge Research Systems (public udev rules of laboratories).
+inline constexpr std::uint16_t crs_vendor_id = 0x0861;
+
+/// «/dev/ttyACM0 (0861:1001 ColorCAL)».
+std::string describe(const SerialPortInfo& port);
+
+/// All USB serial ports of the CDC class (ttyACM*), by number. Reads sysfs; opens no port. Never throws: what
+/// cannot be read is left out. The folders are the system's unless a caller keeps them elsewhere.
+std::vector<SerialPortInfo> serial_ports(const std::filesystem::path& devices = "/dev",
+                                         const std::filesystem::path& sysfs = "/sys");
+
+} // namespace overt
