@@ -22,15 +22,8 @@ MeshImport import_of(const SculptureSettings& settings) {
     MeshImport import;
     import.up = up_axis_named(settings.up);
     import.scale = settings.scale;
-    if (settings.head_spheres.empty() && settings.head_planes.empty())
-        return import;
-    PartRegion head{"head", {}, {}};
-    for (const auto& [x, y, z, radius] : settings.head_spheres)
-        head.spheres.emplace_back(x, y, z, radius);
-    for (const auto& plane : settings.head_planes) {
-        head.half_spaces.push_back({{plane[0], plane[1], plane[2]}, {plane[3], plane[4], plane[5]}});
-    }
-    import.regions.push_back(std::move(head));
+    if (auto head = head_region(settings))
+        import.regions.push_back(*std::move(head));
     return import;
 }
 
@@ -61,6 +54,17 @@ Camera camera_of(const ViewSettings& settings, const Protocol& protocol, const M
 
 } // namespace
 
+std::optional<PartRegion> head_region(const SculptureSettings& settings) {
+    if (settings.head_spheres.empty() && settings.head_planes.empty())
+        return std::nullopt;
+    PartRegion head{"head", {}, {}};
+    for (const auto& [x, y, z, radius] : settings.head_spheres)
+        head.spheres.emplace_back(x, y, z, radius);
+    for (const auto& plane : settings.head_planes)
+        head.half_spaces.push_back({{plane[0], plane[1], plane[2]}, {plane[3], plane[4], plane[5]}});
+    return head;
+}
+
 Sculpture load_sculpture(const SculptureSettings& settings, const Protocol& protocol,
                          const std::filesystem::path& cache) {
     Sculpture sculpture;
@@ -73,6 +77,11 @@ Sculpture load_sculpture(const SculptureSettings& settings, const Protocol& prot
         sculpture.remarks = describe(report);
         order_for_drawing(sculpture.mesh);
     } else {
+        if (!settings.lut.empty()) {
+            sculpture.mesh.part_names = {"body"};
+            if (head_region(settings))
+                sculpture.mesh.part_names.emplace_back("head");
+        }
         return sculpture;
     }
     ContentHasher hasher;

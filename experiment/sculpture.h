@@ -8,6 +8,7 @@
 
 #include "experiment/content_hash.h"
 #include "experiment/protocol/protocol.h"
+#include "experiment/scene/mesh_parts.h"
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 
@@ -15,14 +16,18 @@ namespace overt {
 
 struct Sculpture {
     std::string id;
-    Mesh mesh; ///< without triangles if the protocol gives none: then its stimuli are frames, and there is no
-               ///< map
+    /// Without triangles if the protocol gives none: then its stimuli are frames. Where it gives ready-made
+    /// maps, the part names are those of the maps.
+    Mesh mesh;
     ContentHash mesh_hash; ///< of positions, triangles and parts
     SceneView scene;
     std::vector<std::string> remarks; ///< on the mesh, for the experimenter
 
     bool has_mesh() const { return !mesh.triangles.empty(); }
 };
+
+/// The part "head" that the protocol describes, in the coordinates of the file; nothing if it describes none.
+std::optional<PartRegion> head_region(const SculptureSettings& settings);
 
 /// Imports or makes the mesh of one sculpture of the protocol and places the camera. A sculpture that overt
 /// makes itself is kept as PLY in `cache` and taken from there the next time. Throws InputError naming the

@@ -14,11 +14,14 @@ struct CoordinateImage {
     /// Top row first: x, y, z in object coordinates and the mesh's unit, and the coverage, which is 1 on the
     /// object and 0 off it, where all four are 0.
     std::vector<glm::vec4> pixels;
+    /// The part of the figure that each pixel shows; empty if that is not known.
+    std::vector<PartIndex> parts;
 
     CoordinateImage() = default;
     explicit CoordinateImage(glm::ivec2 size)
         : size_px(size),
-          pixels(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), glm::vec4(0.0f)) {}
+          pixels(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), glm::vec4(0.0f)),
+          parts() {}
 
     glm::vec4& at(int x, int y) {
         return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_px.x) +

@@ -139,7 +139,8 @@ void merge(const std::filesystem::path& file, MapDescription& into, const MapDes
 struct Channels {
     enum class Kind { coordinates, shares, codes } kind;
     std::array<int, 3> xyz;
-    int coverage; ///< -1 if there is none
+    int coverage;  ///< -1 if there is none
+    int part = -1; ///< likewise
 };
 
 Channels channels_of(const std::filesystem::path& file, const OIIO::ImageSpec& spec) {
@@ -153,7 +154,7 @@ Channels channels_of(const std::filesystem::path& file, const OIIO::ImageSpec& s
     };
     const bool is_float = spec.format == OIIO::TypeDesc::FLOAT;
     if (is_float && complete(xyz))
-        return {Channels::Kind::coordinates, xyz, index("A")};
+        return {Channels::Kind::coordinates, xyz, index("A"), index("part")};
     if (is_float && complete(rgb))
         return {Channels::Kind::shares, rgb, index("A")};
     if (spec.format == OIIO::TypeDesc::UINT16 && complete(rgb))
@@ -232,7 +233,20 @@ void write_coordinate_exr(const std::filesystem::path& file, const CoordinateIma
     spec.channelnames = {"X", "Y", "Z", "A"};
     spec.attribute("compression", "zip");
     put_description(spec, description);
-    write_picture(file, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
+    if (image.parts.empty()) {
+        write_picture(file, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
+        return;
+    }
+    OVERT_EXPECTS(image.parts.size() == image.pixels.size());
+    spec.nchannels = 5;
+    spec.channelnames.emplace_back("part");
+    std::vector<float> values;
+    values.reserve(5 * image.pixels.size());
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const glm::vec4& pixel = image.pixels[i];
+        values.insert(values.end(), {pixel.x, pixel.y, pixel.z, pixel.w, static_cast<float>(image.parts[i])});
+    }
+    write_picture(file, spec, OIIO::TypeDesc::FLOAT, values.data());
 }
 
 void write_coordinate_png(const std::filesystem::path& file, const CoordinateImage& image,
@@ -253,6 +267,13 @@ void write_coordinate_png(const std::filesystem::path& file, const CoordinateIma
     write_picture(file, spec, OIIO::TypeDesc::UINT16, codes.data());
 }
 
+MapDescription read_map_description(const std::filesystem::path& file) {
+    const auto input = OIIO::ImageInput::open(file.string());
+    if (!input)
+        throw InputError(fmt::format("{}: the map cannot be read: {}", file.string(), OIIO::geterror()));
+    return description_in(input->spec());
+}
+
 CoordinateImageFile read_coordinate_image(const std::filesystem::path& file, const MapDescription& known) {
     const Raw raw = read_raw(file);
     const Channels channels = channels_of(file, raw.spec);
@@ -267,6 +288,8 @@ CoordinateImageFile read_coordinate_image(const std::filesystem::path& file, con
 
     const std::size_t stride = static_cast<std::size_t>(raw.spec.nchannels);
     std::size_t covered = 0;
+    if (channels.part >= 0)
+        map.image.parts.assign(map.image.pixels.size(), PartIndex{0});
     for (std::size_t i = 0; i < map.image.pixels.size(); ++i) {
         const auto code = [&](int channel) {
             return raw.codes[i * stride + static_cast<std::size_t>(channel)];
@@ -299,6 +322,8 @@ CoordinateImageFile read_coordinate_image(const std::filesystem::path& file, con
         if (coverage >= full_coverage) {
             map.image.pixels[i] = glm::vec4(place, 1.0f);
             ++covered;
+            if (channels.part >= 0)
+                map.image.parts[i] = static_cast<PartIndex>(std::clamp(value(channels.part), 0.0f, 255.0f));
         } else {
             map.mixed_px += coverage > 0.0;
         }

@@ -10,7 +10,8 @@
 namespace overt {
 
 /// Writes OpenEXR with the 32-bit float channels X, Y, Z (object coordinates) and A (coverage, 0 or 1),
-/// losslessly compressed. The description goes into the header: «overt:bounds_min», «overt:bounds_max»,
+/// losslessly compressed; if the parts are known, their indices are a fifth channel, «part».
+/// The description goes into the header: «overt:bounds_min», «overt:bounds_max»,
 /// «overt:camera_position» and «overt:camera_target» as three doubles, «overt:camera_vertical_fov_deg» and
 /// «overt:angle_deg» as double, «overt:frame» as int, «overt:sculpture», «overt:mesh_sha256» and
 /// «overt:unit» as text. At once or not at all, in place of a file that is there. Throws RecordError.
@@ -31,6 +32,10 @@ struct CoordinateImageFile {
     /// their coordinates mix surfaces.
     int mixed_px = 0;
 };
+
+/// What a map's own header says of it, without its pixels; its sidecar is not looked at. Throws InputError if
+/// the file cannot be read.
+MapDescription read_map_description(const std::filesystem::path& file);
 
 /// Reads a map that write_coordinate_exr or write_coordinate_png wrote, or one made elsewhere:
 ///  - OpenEXR, 32-bit float, channels X, Y, Z: object coordinates as they stand;
