@@ -25,7 +25,11 @@ std::unique_ptr<GlContext> make_context(const Protocol& protocol, const RigReque
     // over.
     const bool fullscreen = !request.windowed && !request.virtual_time;
     return std::make_unique<WindowContext>(
-        WindowRequest{{display.width_px, display.height_px}, "overt: " + protocol.name, fullscreen});
+        WindowRequest{{display.width_px, display.height_px},
+                      "overt: " + protocol.name,
+                      fullscreen,
+                      true,
+                      display.output == OutputMode::native_10bit ? 10 : 8});
 }
 
 } // namespace
@@ -60,7 +64,8 @@ void Rig::open() {
     if (window_) {
         surface_ = std::make_unique<WindowDisplay>(*window_, *clock_, refresh_hz, request_.virtual_time);
     } else {
-        surface_ = std::make_unique<VirtualDisplay>(*context_, *clock_, refresh_hz);
+        surface_ = std::make_unique<VirtualDisplay>(
+            *context_, *clock_, refresh_hz, protocol_->display.output == OutputMode::native_10bit ? 10 : 8);
     }
     presenter_ = std::make_unique<PagePresenter>(*context_, *surface_, library_, geometry, protocol_->display,
                                                  protocol_->screens);

@@ -1,48 +1,168 @@
 #include "render/display_encoder.h"
 
+#include <cmath>
+#include <numbers>
+
 #include "experiment/error.h"
-#include "render_shaders.h"
 
 namespace overt {
 
 namespace {
 
-int shader_mode(OutputMode mode) {
-    switch (mode) {
+int levels_of(const DisplaySettings& display) {
+    switch (display.output) {
     case OutputMode::native_8bit:
-        return 0;
-    case OutputMode::mono_plus_plus:
-        return 1;
-    case OutputMode::color_plus_plus:
-        return 2;
+    case OutputMode::bits_plus_plus: // the index
+        return 255;
+    case OutputMode::native_10bit:
+        return 1023;
+    default:
+        return 65535;
     }
-    return 0;
+}
+
+/// Rec. 709, ITU-R BT.709-6: the grey of a colour.
+double luminance(const glm::dvec3& light) { return 0.2126 * light.r + 0.7152 * light.g + 0.0722 * light.b; }
+
+double sinc(double x) {
+    const double angle = std::numbers::pi * x;
+    return std::abs(x) < 1e-12 ? 1.0 : std::sin(angle) / angle;
+}
+
+/// Lanczos, three lobes, stretched to half the resolution: twelve pixels, of which the middle two are the
+/// pair. C. E. Duchon, J. Appl. Meteorol. 18, 1979.
+std::array<double, 12> lanczos_weights() {
+    std::array<double, 12> weights{};
+    double sum = 0.0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        const double distance = (static_cast<double>(i) - 5.5) / 2.0;
+        weights[i] = sinc(distance) * sinc(distance / 3.0);
+        sum += weights[i];
+    }
+    for (double& weight : weights)
+        weight /= sum;
+    return weights;
+}
+
+void put_bytes(std::byte* pixel, int red, int green, int blue) {
+    pixel[0] = static_cast<std::byte>(red);
+    pixel[1] = static_cast<std::byte>(green);
+    pixel[2] = static_cast<std::byte>(blue);
+    pixel[3] = std::byte{255};
+}
+
+std::size_t pixels_in(glm::ivec2 size_px) {
+    return static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y);
 }
 
 } // namespace
 
-DisplayEncoder::DisplayEncoder(const GlContext& context, OutputMode mode, double gamma)
-    : context_(&context), program_(context, "display encoder", embedded::encode_vert, embedded::encode_frag),
-      no_attributes_(context), mode_(mode), inverse_gamma_(static_cast<float>(1.0 / gamma)) {
-    OVERT_EXPECTS(gamma > 0.0);
+DisplayEncoder::DisplayEncoder(const DisplaySettings& display)
+    : display_(display),
+      leaves_last_step_(display.output == OutputMode::native_10bit ||
+                        (display.output == OutputMode::native_8bit && display.dither != Dithering::none)),
+      reach_px_(joins_pixels_in_pairs(display.output) && display.pair_filter == PairFilter::lanczos ? 6 : 0),
+      // The index of Bits++ counts light itself: its table of colours undoes the gamma, in 16 bits.
+      table_(levels_of(display), display.output == OutputMode::bits_plus_plus ? 1.0 : display.gamma),
+      lanczos_(lanczos_weights()) {}
+
+ScreenPatch DisplayEncoder::patch_of(glm::ivec2 origin_px, glm::ivec2 size_px) const {
+    if (!joins_pixels_in_pairs(display_.output))
+        return {origin_px, size_px};
+    // Pairs count from the left edge of the screen, and there is nothing beyond its edges.
+    const int begin = std::max(0, origin_px.x - reach_px_) & ~1;
+    const int end = std::min(display_.width_px, (origin_px.x + size_px.x + reach_px_ + 1) & ~1);
+    return {{begin, origin_px.y}, {end - begin, size_px.y}};
 }
 
-void DisplayEncoder::encode(const Texture2D& linear_light, const Framebuffer& target) const {
-    OVERT_EXPECTS(linear_light.size_px() == target.size_px());
-    const GladGLContext& gl = context_->gl();
-    target.bind();
-    for (const GLenum state :
-         {GL_BLEND, GL_DITHER, GL_MULTISAMPLE, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST}) {
-        gl.Disable(state);
+glm::dvec3 DisplayEncoder::pair_at(const glm::dvec3* left) const {
+    if (reach_px_ == 0)
+        return 0.5 * (left[0] + left[1]);
+    glm::dvec3 sum(0.0);
+    for (int i = 0; i < 12; ++i)
+        sum += lanczos_[static_cast<std::size_t>(i)] * left[i - 5];
+    return sum;
+}
+
+void DisplayEncoder::encode_row(const Row& row, int width, std::byte* into) const {
+    const glm::dvec3* light = row.data() + reach_px_;
+    if (leaves_last_step_) {
+        auto* codes = reinterpret_cast<std::uint16_t*>(into);
+        for (int x = 0; x < width; ++x, codes += 4) {
+            for (int channel = 0; channel < 3; ++channel) {
+                const double position = display_.dither == Dithering::none
+                                            ? table_.level_of(light[x][channel])
+                                            : table_.position_of(light[x][channel]);
+                codes[channel] = static_cast<std::uint16_t>(position * (65535.0 / table_.levels()) + 0.5);
+            }
+            codes[3] = 65535;
+        }
+        return;
     }
-    program_.use();
-    program_.set("linear_light", 0);
-    program_.set("mode", shader_mode(mode_));
-    program_.set("inverse_gamma", inverse_gamma_);
-    linear_light.bind(0);
-    no_attributes_.bind();
-    gl.DrawArrays(GL_TRIANGLES, 0, 3);
-    throw_on_gl_error(*context_, "encoding a picture for the display");
+    switch (display_.output) {
+    case OutputMode::native_8bit:
+    case OutputMode::native_10bit:
+        for (int x = 0; x < width; ++x, into += 4)
+            put_bytes(into, table_.level_of(light[x].r), table_.level_of(light[x].g),
+                      table_.level_of(light[x].b));
+        return;
+    case OutputMode::bits_plus_plus:
+        for (int x = 0; x < width; ++x, into += 4) {
+            const int index = table_.level_of(luminance(light[x]));
+            put_bytes(into, index, index, index);
+        }
+        return;
+    case OutputMode::mono_plus_plus:
+    case OutputMode::vpixx_m16:
+        for (int x = 0; x < width; ++x, into += 4) {
+            const int code = table_.level_of(luminance(light[x]));
+            put_bytes(into, code >> 8, code & 255, 0); // blue 0: no overlay
+        }
+        return;
+    case OutputMode::color_plus_plus:
+    case OutputMode::vpixx_c48:
+        for (int x = 0; x < width; x += 2, into += 8) {
+            const glm::dvec3 colour = pair_at(light + x);
+            const int red = table_.level_of(colour.r), green = table_.level_of(colour.g),
+                      blue = table_.level_of(colour.b);
+            put_bytes(into, red >> 8, green >> 8, blue >> 8);
+            put_bytes(into + 4, red & 255, green & 255, blue & 255);
+        }
+        return;
+    }
+}
+
+void DisplayEncoder::encode(const LinearImage& picture, glm::ivec2 origin_px,
+                            std::span<std::byte> into) const {
+    const ScreenPatch patch = patch_of(origin_px, picture.size_px);
+    OVERT_EXPECTS(into.size() == pixels_in(patch.size_px) * bytes_per_pixel(format()));
+    const glm::dvec3 background(display_.background);
+    Row row(static_cast<std::size_t>(patch.size_px.x + 2 * reach_px_), background);
+    glm::dvec3* first = row.data() + reach_px_ + (origin_px.x - patch.origin_px.x);
+    const std::size_t stride = static_cast<std::size_t>(patch.size_px.x) * bytes_per_pixel(format());
+    for (int y = 0; y < picture.size_px.y; ++y) {
+        for (int x = 0; x < picture.size_px.x; ++x) {
+            const glm::vec4& pixel = picture.at(x, y);
+            first[x] = glm::dvec3(pixel) + (1.0 - double{pixel.w}) * background;
+        }
+        encode_row(row, patch.size_px.x, into.data() + static_cast<std::size_t>(y) * stride);
+    }
+}
+
+void DisplayEncoder::encode_background(glm::ivec2 size_px, std::span<std::byte> into) const {
+    OVERT_EXPECTS(into.size() == pixels_in(size_px) * bytes_per_pixel(format()));
+    const Row row(static_cast<std::size_t>(size_px.x + 2 * reach_px_), glm::dvec3(display_.background));
+    const std::size_t stride = static_cast<std::size_t>(size_px.x) * bytes_per_pixel(format());
+    for (int y = 0; y < size_px.y; ++y)
+        encode_row(row, size_px.x, into.data() + static_cast<std::size_t>(y) * stride);
+}
+
+ColourTable DisplayEncoder::colour_table() const {
+    const LevelTable table(65535, display_.gamma);
+    ColourTable colours{};
+    for (std::size_t i = 0; i < colours.size(); ++i)
+        colours[i].fill(static_cast<std::uint16_t>(table.level_of(static_cast<double>(i) / 255.0)));
+    return colours;
 }
 
 } // namespace overt

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiment/error.h"
+
 namespace overt {
 
 SessionTime VirtualRefresh::time_of(std::int64_t refresh) const noexcept {
@@ -36,6 +38,11 @@ FlipReport VirtualDisplay::present(const Framebuffer&) noexcept {
     return refresh_.next(requested);
 }
 
+void VirtualDisplay::read(const Framebuffer& canvas, PixelFormat format, std::span<std::byte> into) {
+    canvas.bind();
+    read_pixels(*context_, 0, {0, 0}, canvas.size_px(), format, into);
+}
+
 WindowDisplay::WindowDisplay(WindowContext& window, Clock& clock, double refresh_hz, bool virtual_time)
     : window_(&window), clock_(&clock), virtual_time_(virtual_time), virtual_refresh_(clock, refresh_hz) {
     window.set_swap_interval(virtual_time ? 0 : 1);
@@ -46,8 +53,7 @@ DisplayTiming WindowDisplay::timing() const {
             virtual_time_ ? VblankSource::virtual_display : VblankSource::swap_return};
 }
 
-FlipReport WindowDisplay::present(const Framebuffer& canvas) noexcept {
-    const SessionTime requested = clock_->now();
+void WindowDisplay::draw_into_window(const Framebuffer& canvas) noexcept {
     const GladGLContext& gl = window_->gl();
     const glm::ivec2 size = canvas.size_px();
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, canvas.name());
@@ -55,6 +61,34 @@ FlipReport WindowDisplay::present(const Framebuffer& canvas) noexcept {
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     // The canvas holds its top row first, the window its bottom row: turned round here and nowhere else.
     gl.BlitFramebuffer(0, 0, size.x, size.y, 0, size.y, size.x, 0, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void WindowDisplay::read(const Framebuffer& canvas, PixelFormat format, std::span<std::byte> into) {
+    draw_into_window(canvas);
+    const GladGLContext& gl = window_->gl();
+    const glm::ivec2 size = canvas.size_px();
+    const auto [components, type] = transfer_format(format);
+    const std::size_t stride = bytes_per_pixel(format) * static_cast<std::size_t>(size.x);
+    OVERT_EXPECTS(into.size() == stride * static_cast<std::size_t>(size.y));
+    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    gl.ReadBuffer(GL_BACK);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl.ReadPixels(0, 0, size.x, size.y, components, type, into.data());
+    // OpenGL has the window's bottom row first.
+    for (auto top = into.begin(), bottom = into.end();
+         bottom - top >= 2 * static_cast<std::ptrdiff_t>(stride);) {
+        const auto next = top + static_cast<std::ptrdiff_t>(stride);
+        bottom -= static_cast<std::ptrdiff_t>(stride);
+        std::swap_ranges(top, next, bottom);
+        top = next;
+    }
+    throw_on_gl_error(*window_, "reading the window's back buffer");
+}
+
+FlipReport WindowDisplay::present(const Framebuffer& canvas) noexcept {
+    const SessionTime requested = clock_->now();
+    const GladGLContext& gl = window_->gl();
+    draw_into_window(canvas);
     window_->swap_buffers();
     window_->poll_events();
     if (virtual_time_)

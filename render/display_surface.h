@@ -16,6 +16,13 @@ class DisplaySurface {
     /// nothing.
     virtual FlipReport present(const Framebuffer& canvas) noexcept = 0;
     virtual bool closed() const noexcept = 0;
+
+    /// What a channel's byte, or ten bits, have in the framebuffer that is scanned out.
+    virtual int bits_per_channel() const = 0;
+
+    /// The pixels that present() sends for a canvas, read back from where the display takes them: top row
+    /// first, in `format`.
+    virtual void read(const Framebuffer& canvas, PixelFormat format, std::span<std::byte> into) = 0;
 };
 
 /// The refreshes of a display that is not there: the n-th begins at n / refresh_hz of the session clock. On a
@@ -35,19 +42,23 @@ class VirtualRefresh {
     std::int64_t last_ = 0;
 };
 
-/// Headless: the canvas stays in memory.
+/// Headless: the canvas stays in memory, in whatever depth it has.
 class VirtualDisplay final : public DisplaySurface {
   public:
-    VirtualDisplay(const GlContext& context, Clock& clock, double refresh_hz)
-        : context_(&context), clock_(&clock), refresh_(clock, refresh_hz) {}
+    VirtualDisplay(const GlContext& context, Clock& clock, double refresh_hz, int bits_per_channel = 8)
+        : context_(&context), clock_(&clock), refresh_(clock, refresh_hz),
+          bits_per_channel_(bits_per_channel) {}
     DisplayTiming timing() const override { return {refresh_.refresh_hz(), VblankSource::virtual_display}; }
     FlipReport present(const Framebuffer& canvas) noexcept override;
     bool closed() const noexcept override { return false; }
+    int bits_per_channel() const override { return bits_per_channel_; }
+    void read(const Framebuffer& canvas, PixelFormat format, std::span<std::byte> into) override;
 
   private:
     const GlContext* context_;
     Clock* clock_;
     VirtualRefresh refresh_;
+    int bits_per_channel_;
 };
 
 /// A window. In virtual time it shows everything as fast as it can and takes its times from the virtual
@@ -58,8 +69,13 @@ class WindowDisplay final : public DisplaySurface {
     DisplayTiming timing() const override;
     FlipReport present(const Framebuffer& canvas) noexcept override;
     bool closed() const noexcept override { return window_->close_requested(); }
+    int bits_per_channel() const override { return window_->bits_per_channel(); }
+    /// From the window's back buffer, into which the canvas is drawn once more.
+    void read(const Framebuffer& canvas, PixelFormat format, std::span<std::byte> into) override;
 
   private:
+    void draw_into_window(const Framebuffer& canvas) noexcept;
+
     WindowContext* window_;
     Clock* clock_;
     bool virtual_time_;

@@ -21,6 +21,8 @@ GlFormat gl_format(PixelFormat format) noexcept {
     switch (format) {
     case PixelFormat::rgba8:
         return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, "RGBA8"};
+    case PixelFormat::rgb10_a2:
+        return {GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, 4, "RGB10_A2"};
     case PixelFormat::rgba16:
         return {GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT, 8, "RGBA16"};
     case PixelFormat::rgba32f:
@@ -101,7 +103,7 @@ void Texture2D::bind(int unit) const {
 }
 
 TextureArray::TextureArray(const GlContext& context, glm::ivec2 size_px, int layers, PixelFormat format)
-    : name_(make_texture(context)), size_px_(size_px), layers_(layers) {
+    : name_(make_texture(context)), size_px_(size_px), layers_(layers), format_(format) {
     const GladGLContext& gl = context.gl();
     const GlFormat pixel = gl_format(format);
     gl.BindTexture(GL_TEXTURE_2D_ARRAY, *name_);
@@ -110,6 +112,19 @@ TextureArray::TextureArray(const GlContext& context, glm::ivec2 size_px, int lay
                   pixel.type, nullptr);
     throw_on_gl_error(context, fmt::format("making a frame store of {} pages of {} x {} {}", layers,
                                            size_px.x, size_px.y, pixel.name));
+}
+
+void TextureArray::upload(int layer, std::span<const std::byte> pixels) {
+    const GlFormat pixel = gl_format(format_);
+    OVERT_EXPECTS(layer >= 0 && layer < layers_ &&
+                  pixels.size() == pixel.bytes * static_cast<std::size_t>(size_px_.x) *
+                                       static_cast<std::size_t>(size_px_.y));
+    const GladGLContext& gl = name_.context().gl();
+    gl.BindTexture(GL_TEXTURE_2D_ARRAY, *name_);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl.TexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, size_px_.x, size_px_.y, 1, pixel.format, pixel.type,
+                     pixels.data());
+    throw_on_gl_error(name_.context(), "uploading a page");
 }
 
 Framebuffer::Framebuffer(const GlContext& context) : name_(make_framebuffer(context)) {}

@@ -11,7 +11,8 @@
 
 namespace overt {
 
-enum class PixelFormat { rgba8, rgba16, rgba32f, r32ui, depth32f };
+/// rgb10_a2: a 32-bit word, red in the lowest ten bits.
+enum class PixelFormat { rgba8, rgb10_a2, rgba16, rgba32f, r32ui, depth32f };
 
 /// A name that OpenGL gave and must get back.
 class GlName {
@@ -67,6 +68,9 @@ class Texture2D {
 class TextureArray {
   public:
     TextureArray(const GlContext& context, glm::ivec2 size_px, int layers, PixelFormat format);
+
+    /// One page, row by row, in the format's own component type.
+    void upload(int layer, std::span<const std::byte> pixels);
     GLuint name() const { return *name_; }
     glm::ivec2 size_px() const { return size_px_; }
     int layers() const { return layers_; }
@@ -75,6 +79,7 @@ class TextureArray {
     GlName name_;
     glm::ivec2 size_px_;
     int layers_;
+    PixelFormat format_;
 };
 
 /// Where drawing goes. Throws GraphicsError naming format and size if OpenGL cannot draw into what is

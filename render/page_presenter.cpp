@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "experiment/error.h"
 #include "experiment/parallel.h"
+#include "experiment/protocol/protocol_keys.h"
 #include "render/text_layout.h"
 
 namespace overt {
@@ -13,19 +16,30 @@ namespace {
 /// 0.6 degrees: the disc of the fixation target (Thaler et al. 2013).
 constexpr double fixation_target_deg = 0.6;
 
-void blit(const GladGLContext& gl, const Framebuffer& from, const Framebuffer& to,
-          glm::ivec2 origin_px) noexcept {
-    const glm::ivec2 size = from.size_px();
+/// Long enough for a recorder that samples at 1 kHz.
+constexpr double onset_pulse_ms = 5.0;
+
+/// Copies a rectangle that begins at `from_px` to `to_px`, pixel by pixel.
+void blit(const GladGLContext& gl, const Framebuffer& from, glm::ivec2 from_px, const Framebuffer& to,
+          glm::ivec2 to_px, glm::ivec2 size_px) noexcept {
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, from.name());
     gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, to.name());
-    gl.BlitFramebuffer(0, 0, size.x, size.y, origin_px.x, origin_px.y, origin_px.x + size.x,
-                       origin_px.y + size.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    gl.BlitFramebuffer(from_px.x, from_px.y, from_px.x + size_px.x, from_px.y + size_px.y, to_px.x, to_px.y,
+                       to_px.x + size_px.x, to_px.y + size_px.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-std::span<const std::byte> bytes_of(const LinearImage& image) {
-    return std::as_bytes(std::span(image.pixels));
+std::size_t bytes_in(glm::ivec2 size_px, PixelFormat format) {
+    return static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y) *
+           bytes_per_pixel(format);
 }
+
+bool has_t_lock(OutputMode mode) {
+    return mode == OutputMode::mono_plus_plus || mode == OutputMode::color_plus_plus ||
+           mode == OutputMode::bits_plus_plus;
+}
+
+bool has_psync(OutputMode mode) { return mode == OutputMode::vpixx_m16 || mode == OutputMode::vpixx_c48; }
 
 } // namespace
 
@@ -33,18 +47,64 @@ PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, 
                              const ScreenGeometry& geometry, const DisplaySettings& display,
                              const ScreenSettings& screens)
     : context_(&context), surface_(&surface), frames_(&frames), geometry_(geometry), display_(display),
-      screens_(screens), encoder_(context, display.output, display.gamma),
-      background_(context, geometry.screen_px, PixelFormat::rgba8),
+      screens_(screens), encoder_([&] {
+          DisplaySettings here = display;
+          here.width_px = geometry.screen_px.x;
+          here.height_px = geometry.screen_px.y;
+          return here;
+      }()),
+      background_(context, geometry.screen_px, encoder_.format()),
       background_target_(context, {&background_}, false),
-      canvas_(context, geometry.screen_px, PixelFormat::rgba8), canvas_target_(context, {&canvas_}, false),
-      upload_(context, geometry.image_px, PixelFormat::rgba32f), page_target_(context) {
-    Texture2D plain(context, geometry.screen_px, PixelFormat::rgba32f);
-    LinearImage grey(geometry.screen_px);
-    std::fill(grey.pixels.begin(), grey.pixels.end(),
-              glm::vec4(glm::vec3(static_cast<float>(display.background)), 1.0f));
-    plain.upload(bytes_of(grey));
-    encoder_.encode(plain, background_target_);
-    clear_canvas();
+      picture_(context, geometry.screen_px, encoder_.format()), picture_target_(context, {&picture_}, false),
+      page_patch_(encoder_.patch_of(geometry.image_origin_px, geometry.image_px)), page_target_(context) {
+    check_depth();
+    std::vector<std::byte> bytes(bytes_in(geometry.screen_px, encoder_.format()));
+    encoder_.encode_background(geometry.screen_px, bytes);
+    if (has_psync(display.output)) {
+        // PSYNC stands on black.
+        const std::array<std::byte, 4> black{{{}, {}, {}, std::byte{255}}};
+        for (std::size_t i = 0; i < 4 * static_cast<std::size_t>(geometry.screen_px.x); ++i)
+            bytes[i] = black[i % 4];
+    }
+    background_.upload(bytes);
+    if (encoder_.leaves_last_step()) {
+        last_step_.emplace(context, display_);
+        wire_.emplace(context, geometry.screen_px, last_step_->format());
+        wire_target_.emplace(context, std::initializer_list<const Texture2D*>{&*wire_}, false);
+    }
+    if (display.output == OutputMode::bits_plus_plus)
+        colour_table_row_ = t_lock::row_of(encoder_.colour_table());
+    onset_packet_ = t_lock::pulse(static_cast<std::uint16_t>(display.onset_trigger), 0.0, onset_pulse_ms);
+    clear_picture();
+}
+
+void PagePresenter::check_depth() const {
+    const int has = surface_->bits_per_channel();
+    const int needs = display_.output == OutputMode::native_10bit ? 10 : 8;
+    if (has != needs) {
+        throw GraphicsError(
+            fmt::format("{} sends {} bits per channel, but the framebuffer of {} has {}: {}",
+                        name_of(display_.output), needs, context_->description().platform, has,
+                        needs == 10 ? "set the screen to a depth of 30 bits, or take another output"
+                                    : "set the screen to a depth of 24 bits"));
+    }
+    const glm::ivec2 screen = geometry_.screen_px;
+    if (joins_pixels_in_pairs(display_.output) && screen.x % 2 != 0) {
+        throw GraphicsError(fmt::format("{} joins pixels in pairs, which a screen of {} columns cannot hold",
+                                        name_of(display_.output), screen.x));
+    }
+    if (has_t_lock(display_.output) && screen.x < static_cast<int>(colour_table_row_.size())) {
+        throw GraphicsError(fmt::format("{} sends messages in rows of {} pixels, the screen has only {}",
+                                        name_of(display_.output), colour_table_row_.size(), screen.x));
+    }
+    const glm::ivec2 first = geometry_.image_origin_px, end = first + geometry_.image_px;
+    if (first.x < 0 || first.y < reserved_rows(display_.output) || end.x > screen.x || end.y > screen.y) {
+        throw GraphicsError(
+            fmt::format("a stimulus in columns {} to {} and rows {} to {} leaves the screen of {} x {}, or "
+                        "covers the {} rows at its top that {} reserves",
+                        first.x, end.x - 1, first.y, end.y - 1, screen.x, screen.y,
+                        reserved_rows(display_.output), name_of(display_.output)));
+    }
 }
 
 void PagePresenter::load_frames(const Condition& condition) {
@@ -52,85 +112,160 @@ void PagePresenter::load_frames(const Condition& condition) {
         return;
     loaded_.reset();
     page_of_frame_ = frames_->page_of_frame(condition);
-    const int pages = 1 + *std::max_element(page_of_frame_.begin(), page_of_frame_.end());
-    if (!store_ || store_->layers() < pages) {
+    pages_ = 1 + *std::max_element(page_of_frame_.begin(), page_of_frame_.end());
+    if (!store_ || store_->layers() < pages_) {
         store_.reset();
-        store_.emplace(*context_, geometry_.image_px, pages, PixelFormat::rgba8);
+        store_.emplace(*context_, page_patch_.size_px, pages_, encoder_.format());
     }
-    const float background = static_cast<float>(display_.background);
-    // Decoded a few at a time on all processors, encoded one by one: never more than a few pages in linear
-    // light at once.
+    // Decoded and encoded a few at a time on all processors, and handed over one by one: never more than a
+    // few pages are in memory twice.
     constexpr int at_once = 4;
-    for (int first = 0; first < pages; first += at_once) {
-        std::vector<LinearImage> pictures(static_cast<std::size_t>(std::min(at_once, pages - first)));
-        parallel_for(static_cast<int>(pictures.size()), [&](int i) {
-            LinearImage& picture = pictures[static_cast<std::size_t>(i)];
-            picture = frames_->page(condition, first + i);
-            for (glm::vec4& pixel : picture.pixels)
-                pixel += glm::vec4(glm::vec3((1.0f - pixel.w) * background), 0.0f);
+    std::vector<std::vector<std::byte>> encoded(at_once);
+    for (std::vector<std::byte>& bytes : encoded)
+        bytes.resize(bytes_in(page_patch_.size_px, encoder_.format()));
+    for (int first = 0; first < pages_; first += at_once) {
+        const int count = std::min(at_once, pages_ - first);
+        parallel_for(count, [&](int i) {
+            const LinearImage picture = frames_->page(condition, first + i);
+            OVERT_EXPECTS(picture.size_px == geometry_.image_px);
+            encoder_.encode(picture, geometry_.image_origin_px, encoded[static_cast<std::size_t>(i)]);
         });
-        for (std::size_t i = 0; i < pictures.size(); ++i) {
-            OVERT_EXPECTS(pictures[i].size_px == geometry_.image_px);
-            upload_.upload(bytes_of(pictures[i]));
-            page_target_.attach_layer(*store_, first + static_cast<int>(i));
-            encoder_.encode(upload_, page_target_);
-        }
+        for (int i = 0; i < count; ++i)
+            store_->upload(first + i, encoded[static_cast<std::size_t>(i)]);
     }
     context_->gl().Finish();
     throw_on_gl_error(*context_, "filling the frame store");
+    page_on_canvas_ = -1;
+    clear_picture();
     loaded_ = condition;
 }
 
-void PagePresenter::clear_canvas() noexcept {
-    blit(context_->gl(), background_target_, canvas_target_, {0, 0});
-    canvas_holds_page_ = false;
+void PagePresenter::clear_picture() noexcept {
+    blit(context_->gl(), background_target_, {0, 0}, picture_target_, {0, 0}, geometry_.screen_px);
+    page_on_canvas_ = -1;
 }
 
-void PagePresenter::draw_centred(const LinearImage& picture) {
-    Texture2D linear(*context_, picture.size_px, PixelFormat::rgba32f);
-    linear.upload(bytes_of(picture));
-    Texture2D encoded(*context_, picture.size_px, PixelFormat::rgba8);
-    const Framebuffer target(*context_, {&encoded}, false);
-    encoder_.encode(linear, target);
-    blit(context_->gl(), target, canvas_target_, centred_origin_px(geometry_.screen_px, picture.size_px));
+void PagePresenter::put_page(int page) noexcept {
+    // A frame is held for several refreshes: what is there need not be drawn again.
+    if (page == page_on_canvas_)
+        return;
+    if (page_on_canvas_ < 0)
+        clear_picture();
+    page_target_.attach_layer(*store_, page);
+    blit(context_->gl(), page_target_, {0, 0}, picture_target_, page_patch_.origin_px, page_patch_.size_px);
+    page_on_canvas_ = page;
+}
+
+void PagePresenter::put_picture(const LinearImage& picture) {
+    const glm::ivec2 origin = centred_origin_px(geometry_.screen_px, picture.size_px);
+    const ScreenPatch patch = encoder_.patch_of(origin, picture.size_px);
+    std::vector<std::byte> bytes(bytes_in(patch.size_px, encoder_.format()));
+    encoder_.encode(picture, origin, bytes);
+    Texture2D encoded(*context_, patch.size_px, encoder_.format());
+    encoded.upload(bytes);
+    const Framebuffer source(*context_, {&encoded}, false);
+    blit(context_->gl(), source, {0, 0}, picture_target_, patch.origin_px, patch.size_px);
 }
 
 FlipReport PagePresenter::show(const Screen& screen) {
-    clear_canvas();
+    clear_picture();
     const double px_per_deg = geometry_.px_per_deg_at_centre();
     const float background = static_cast<float>(display_.background),
                 grey = static_cast<float>(screens_.text_grey);
+    LinearImage picture;
     if (screen.kind == Screen::Kind::text && !screen.text.empty()) {
         TextStyle style;
         style.line_height_px = std::max(8, static_cast<int>(screens_.text_height_deg * px_per_deg));
         style.wrap_width_px = static_cast<int>(0.8 * geometry_.screen_px.x);
         style.grey = grey;
         style.background = background;
-        draw_centred(draw_text(screen.text, style));
+        picture = draw_text(screen.text, style);
     } else if (screen.kind == Screen::Kind::drift_target) {
-        draw_centred(draw_fixation_target(fixation_target_deg * px_per_deg, grey, background));
+        picture = draw_fixation_target(fixation_target_deg * px_per_deg, grey, background);
+    }
+    if (!picture.pixels.empty()) {
+        // It stands on the background already.
+        for (glm::vec4& pixel : picture.pixels)
+            pixel.w = 1.0f;
+        put_picture(picture);
     }
     throw_on_gl_error(*context_, "drawing a screen");
-    return surface_->present(canvas_target_);
+    return present();
 }
 
 FlipReport PagePresenter::flip(AnimationFrameIndex frame) noexcept {
     OVERT_EXPECTS(loaded_.has_value() && frame.value >= 0 &&
                   static_cast<std::size_t>(frame.value) < page_of_frame_.size());
-    if (!canvas_holds_page_)
-        clear_canvas();
-    page_target_.attach_layer(*store_, page_of_frame_[static_cast<std::size_t>(frame.value)]);
-    blit(context_->gl(), page_target_, canvas_target_, geometry_.image_origin_px);
-    canvas_holds_page_ = true;
-    return surface_->present(canvas_target_);
+    if (page_on_canvas_ < 0 && display_.onset_trigger != 0)
+        send_with_next_flip(t_lock::outputs_row, onset_packet_);
+    put_page(page_of_frame_[static_cast<std::size_t>(frame.value)]);
+    return present();
+}
+
+FlipReport PagePresenter::present() noexcept {
+    compose();
+    put_messages();
+    ++refreshes_;
+    return surface_->present(canvas());
+}
+
+void PagePresenter::compose() noexcept {
+    if (last_step_)
+        last_step_->draw(picture_, *wire_target_, refreshes_);
+}
+
+void PagePresenter::send_with_next_flip(int row, const t_lock::Packet& packet) noexcept {
+    OVERT_EXPECTS(has_t_lock(display_.output) && row >= 0 && row < reserved_rows(display_.output));
+    for (std::optional<Message>& message : messages_) {
+        if (!message || message->row == row) {
+            message = {row, t_lock::row_of(packet)};
+            return;
+        }
+    }
+    OVERT_EXPECTS(false);
+}
+
+void PagePresenter::put_row(int row, int first_px, std::span<const WirePixel> pixels) noexcept {
+    const GladGLContext& gl = context_->gl();
+    gl.BindTexture(GL_TEXTURE_2D, final_texture().name());
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl.TexSubImage2D(GL_TEXTURE_2D, 0, first_px, row, static_cast<GLsizei>(pixels.size()), 1, GL_RGBA,
+                     GL_UNSIGNED_BYTE, pixels.data());
+}
+
+void PagePresenter::put_messages() noexcept {
+    const int rows = reserved_rows(display_.output);
+    if (rows_are_dirty_) {
+        blit(context_->gl(), background_target_, {0, 0}, picture_target_, {0, 0},
+             {geometry_.screen_px.x, rows});
+        rows_are_dirty_ = false;
+    }
+    if (display_.output == OutputMode::bits_plus_plus)
+        put_row(t_lock::colour_table_row, 0, colour_table_row_);
+    if (has_psync(display_.output))
+        put_row(psync::row, psync::first_px, psync::pixels_of(static_cast<std::uint8_t>(refreshes_ + 1)));
+    for (std::optional<Message>& message : messages_) {
+        if (message) {
+            put_row(message->row, 0, message->pixels);
+            rows_are_dirty_ = true;
+            message.reset();
+        }
+    }
 }
 
 std::vector<std::byte> PagePresenter::read_canvas() const {
-    std::vector<std::byte> bytes(static_cast<std::size_t>(geometry_.screen_px.x) *
-                                 static_cast<std::size_t>(geometry_.screen_px.y) * 4);
-    canvas_target_.bind();
-    read_pixels(*context_, 0, {0, 0}, geometry_.screen_px, PixelFormat::rgba8, bytes);
+    const PixelFormat format = last_step_ ? last_step_->format() : PixelFormat::rgba8;
+    std::vector<std::byte> bytes(bytes_in(geometry_.screen_px, format));
+    surface_->read(canvas(), format, bytes);
     return bytes;
+}
+
+std::vector<std::byte> PagePresenter::read_page(int page) {
+    OVERT_EXPECTS(loaded_.has_value() && page >= 0 && page < pages_);
+    put_page(page);
+    compose();
+    put_messages();
+    return read_canvas();
 }
 
 } // namespace overt

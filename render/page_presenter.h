@@ -9,6 +9,8 @@
 #include "render/display_encoder.h"
 #include "render/display_surface.h"
 #include "render/linear_image.h"
+#include "render/t_lock.h"
+#include "render/wire_pass.h"
 
 namespace overt {
 
@@ -25,7 +27,8 @@ class FrameSource {
 
 class PagePresenter final : public Presenter {
   public:
-    /// All references must outlive the presenter. Throws GraphicsError.
+    /// All references must outlive the presenter. Throws GraphicsError, also if the display's framebuffer has
+    /// other bits per channel than the output mode sends.
     PagePresenter(const GlContext& context, DisplaySurface& surface, const FrameSource& frames,
                   const ScreenGeometry& geometry, const DisplaySettings& display,
                   const ScreenSettings& screens);
@@ -36,12 +39,32 @@ class PagePresenter final : public Presenter {
     FlipReport flip(AnimationFrameIndex frame) noexcept override;
     bool closed() const noexcept override { return surface_->closed(); }
 
-    /// The bytes of the screen as it is sent to the display: RGBA, top row first.
+    /// Sends a message to a Display++ in this row with the next refresh that flip() or show() lights, and
+    /// with that one only; what the message asks for happens at the refresh after it. Only in the modes with
+    /// T-Lock.
+    void send_with_next_flip(int row, const t_lock::Packet& packet) noexcept;
+
+    /// The bytes of the screen as they go to the display, read back from where it takes them: top row first,
+    /// four to a pixel, red first, or words of ten bits per channel in native_10bit.
     std::vector<std::byte> read_canvas() const;
 
+    /// Draws a page of the loaded stimulus as flip() does, without showing it, and reads it.
+    std::vector<std::byte> read_page(int page);
+
+    /// Pages of the loaded stimulus.
+    int pages() const { return pages_; }
+
   private:
-    void clear_canvas() noexcept;
-    void draw_centred(const LinearImage& picture);
+    const Texture2D& final_texture() const { return wire_ ? *wire_ : picture_; }
+    const Framebuffer& canvas() const { return wire_ ? *wire_target_ : picture_target_; }
+    void check_depth() const;
+    void clear_picture() noexcept;
+    void put_page(int page) noexcept;
+    void put_picture(const LinearImage& picture);
+    void compose() noexcept;
+    FlipReport present() noexcept;
+    void put_row(int row, int first_px, std::span<const WirePixel> pixels) noexcept;
+    void put_messages() noexcept;
 
     const GlContext* context_;
     DisplaySurface* surface_;
@@ -52,14 +75,30 @@ class PagePresenter final : public Presenter {
     DisplayEncoder encoder_;
     Texture2D background_;
     Framebuffer background_target_;
-    Texture2D canvas_;
-    Framebuffer canvas_target_;
-    Texture2D upload_;
+    // What is shown, as the encoder writes it; where the encoder leaves the last step, what becomes of it.
+    Texture2D picture_;
+    Framebuffer picture_target_;
+    std::optional<WirePass> last_step_;
+    std::optional<Texture2D> wire_;
+    std::optional<Framebuffer> wire_target_;
+    // The frame store.
+    ScreenPatch page_patch_;
     std::optional<TextureArray> store_;
     Framebuffer page_target_;
     std::vector<int> page_of_frame_;
+    int pages_ = 0;
     std::optional<Condition> loaded_;
-    bool canvas_holds_page_ = false;
+    int page_on_canvas_ = -1; ///< -1: another screen
+    // Messages to the display.
+    struct Message {
+        int row;
+        t_lock::PacketRow pixels;
+    };
+    std::array<std::optional<Message>, 2> messages_;
+    bool rows_are_dirty_ = false;
+    t_lock::ColourTableRow colour_table_row_{};
+    t_lock::Packet onset_packet_;
+    std::int64_t refreshes_ = 0; ///< presented so far
 };
 
 } // namespace overt

@@ -1,10 +1,13 @@
 #include "render/stimulus_library.h"
 
 #include <future>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "experiment/error.h"
+#include "experiment/parallel.h"
+#include "render/given_maps.h"
 #include "render/ready_made_frames.h"
 
 namespace overt {
@@ -101,6 +104,57 @@ void StimulusLibrary::prepare_frames(const Condition& condition, const Progress&
     writing.get();
     if (progress)
         progress("drawing " + name, count, count);
+}
+
+bool StimulusLibrary::has_given_maps(int sculpture) const {
+    return !protocol_->sculptures[static_cast<std::size_t>(sculpture)].lut.empty();
+}
+
+void StimulusLibrary::prepare_given_maps(const Progress& progress) {
+    const int count = static_cast<int>(poses_.angles.size());
+    for (int sculpture = 0; sculpture < static_cast<int>(sculptures_.size()); ++sculpture) {
+        if (!has_given_maps(sculpture))
+            continue;
+        const std::string what = "reading the maps of " + sculptures_[static_cast<std::size_t>(sculpture)].id;
+        if (progress)
+            progress(what, 0, count);
+        parallel_for(count, [&](int pose) {
+            const std::filesystem::path file = map_file(sculpture, {pose});
+            if (std::filesystem::exists(file))
+                return;
+            const CoordinateImageFile map =
+                read_given_map(*protocol_, sculpture, first_frame_of(poses_, PoseIndex{pose}));
+            std::filesystem::create_directories(file.parent_path());
+            write_coordinate_exr(file, map.image, map.description);
+        });
+        if (progress)
+            progress(what, count, count);
+    }
+}
+
+SceneView StimulusLibrary::scene_of_given_maps(int sculpture) const {
+    SceneView scene;
+    scene.view.camera.vertical_fov.value = 0.0;
+    scene.view.image_px = {protocol_->view.width_px, protocol_->view.height_px};
+    const MapDescription first = read_map_description(map_file(sculpture, {0}));
+    if (first.camera)
+        scene.view.camera = *first.camera;
+    if (first.bounds) {
+        scene.bounds = *first.bounds;
+        return scene;
+    }
+    // Coordinates that need no box to be read: it is as large as what is seen.
+    scene.bounds = {glm::dvec3(std::numeric_limits<double>::infinity()),
+                    glm::dvec3(-std::numeric_limits<double>::infinity())};
+    for (int pose = 0; pose < static_cast<int>(poses_.angles.size()); ++pose) {
+        for (const glm::vec4& pixel : read_coordinate_image(map_file(sculpture, {pose})).image.pixels) {
+            if (pixel.w == 0.0f)
+                continue;
+            scene.bounds.min = glm::min(scene.bounds.min, glm::dvec3(pixel));
+            scene.bounds.max = glm::max(scene.bounds.max, glm::dvec3(pixel));
+        }
+    }
+    return scene;
 }
 
 void StimulusLibrary::prepare_maps(const Progress& progress) {
@@ -202,19 +256,26 @@ ContentHash StimulusLibrary::frames_hash(const Condition& condition) const {
     return hasher.finish();
 }
 
+std::filesystem::path StimulusLibrary::cached(std::string_view kind, const ContentHash& hash,
+                                              int pose) const {
+    return cache_ / kind / hash.substr(0, 24) /
+           fmt::format("{:+010.5f}deg.exr", poses_.angles[static_cast<std::size_t>(pose)].value);
+}
+
 std::filesystem::path StimulusLibrary::page_file(const Condition& condition, int page) const {
-    const double angle_deg = poses_.angles[static_cast<std::size_t>(page)].value;
-    return cache_ / "frames" / frames_hash(condition).substr(0, 24) /
-           fmt::format("{:+010.5f}deg.exr", angle_deg);
+    return cached("frames", frames_hash(condition), page);
 }
 
 std::filesystem::path StimulusLibrary::map_file(int sculpture, PoseIndex pose) const {
+    if (has_given_maps(sculpture)) {
+        return cached("given_maps", hash_of_given_map(*protocol_, sculpture, first_frame_of(poses_, pose)),
+                      pose.value);
+    }
     const Sculpture& figure = sculptures_[static_cast<std::size_t>(sculpture)];
     ContentHasher hasher;
     hasher.add(std::string_view(figure.mesh_hash)).add(coordinate_pass_version);
     add_view(hasher, figure.scene);
-    const double angle_deg = poses_.angles[static_cast<std::size_t>(pose.value)].value;
-    return cache_ / "maps" / hasher.finish().substr(0, 24) / fmt::format("{:+010.5f}deg.exr", angle_deg);
+    return cached("maps", hasher.finish(), pose.value);
 }
 
 CoordinateMaps StimulusLibrary::maps_of(int sculpture) const {

@@ -31,6 +31,10 @@ class StimulusLibrary final : public FrameSource {
     void prepare_frames(const Progress& progress);
     void prepare_frames(const Condition& condition, const Progress& progress);
 
+    /// Brings ready-made maps (see given_maps.h) into the cache as maps of coordinates. Throws as
+    /// read_given_map does.
+    void prepare_given_maps(const Progress& progress);
+
     /// Draws whatever maps the cache lacks, of all sculptures with a mesh, or of one. Throws as above; an
     /// object that is nowhere in the picture is an InputError.
     void prepare_maps(const Progress& progress);
@@ -47,7 +51,14 @@ class StimulusLibrary final : public FrameSource {
     /// Of everything that made its frames; for ready-made ones, of the files' bytes.
     ContentHash frames_hash(const Condition& condition) const;
 
-    /// The map's file in the cache; only for a sculpture with a mesh.
+    /// The sculpture has no mesh, but ready-made maps.
+    bool has_given_maps(int sculpture) const;
+
+    /// The box of a sculpture with ready-made maps, and where the camera stood: the field of view is 0 if the
+    /// maps do not say. prepare_given_maps() must have been called.
+    SceneView scene_of_given_maps(int sculpture) const;
+
+    /// The map's file in the cache; only for a sculpture with a mesh, or ready-made maps.
     std::filesystem::path map_file(int sculpture, PoseIndex pose) const;
     /// All maps of a sculpture. prepare_maps() must have been called.
     CoordinateMaps maps_of(int sculpture) const;
@@ -58,6 +69,7 @@ class StimulusLibrary final : public FrameSource {
   private:
     const FrameSequenceSettings* sequence_of(const Condition& condition) const;
     std::filesystem::path page_file(const Condition& condition, int page) const;
+    std::filesystem::path cached(std::string_view kind, const ContentHash& hash, int pose) const;
     const MeshBuffers& buffers_of(int sculpture, bool for_light);
 
     const GlContext* context_;

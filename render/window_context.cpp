@@ -80,6 +80,9 @@ WindowContext::WindowContext(const WindowRequest& request) : state_(std::make_un
     glfwWindowHint(GLFW_VISIBLE, request.visible ? GLFW_TRUE : GLFW_FALSE);
     glfwWindowHint(GLFW_DECORATED, GLFW_FALSE);
     glfwWindowHint(GLFW_SAMPLES, 0);
+    for (const int channel : {GLFW_RED_BITS, GLFW_GREEN_BITS, GLFW_BLUE_BITS})
+        glfwWindowHint(channel, request.bits_per_channel);
+    glfwWindowHint(GLFW_ALPHA_BITS, request.bits_per_channel == 10 ? 2 : 8);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_FALSE);
     GLFWmonitor* monitor = request.fullscreen ? monitor_of_size(request.size_px) : nullptr;
@@ -109,6 +112,14 @@ glm::ivec2 WindowContext::framebuffer_px() const {
     glm::ivec2 size(0);
     glfwGetFramebufferSize(state_->window, &size.x, &size.y);
     return size;
+}
+
+int WindowContext::bits_per_channel() const {
+    GLint bits = 0;
+    gl().BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    gl().GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, GL_BACK_LEFT,
+                                             GL_FRAMEBUFFER_ATTACHMENT_RED_SIZE, &bits);
+    return bits;
 }
 
 void WindowContext::set_swap_interval(int refreshes) { glfwSwapInterval(refreshes); }

@@ -14,6 +14,7 @@ struct WindowRequest {
     std::string title = "overt";
     bool fullscreen = false; ///< on the monitor whose resolution is size_px; throws if there is none
     bool visible = true;
+    int bits_per_channel = 8; ///< of the framebuffer, 8 or 10; what came of it is bits_per_channel()
 };
 
 /// Keys that a window reports.
@@ -32,6 +33,9 @@ class WindowContext final : public GlContext {
     void make_current() override;
 
     glm::ivec2 framebuffer_px() const;
+
+    /// Of red in the window's framebuffer.
+    int bits_per_channel() const;
 
     /// 0: do not wait for the vertical blank; 1: wait for the next.
     void set_swap_interval(int refreshes);

@@ -1,0 +1,56 @@
+#include "render/level_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiment/error.h"
+
+namespace overt {
+
+namespace {
+
+constexpr int ranges = 65536;
+
+/// Also for what is not a number.
+double clipped(double light) { return light > 0.0 ? (light < 1.0 ? light : 1.0) : 0.0; }
+
+} // namespace
+
+LevelTable::LevelTable(int levels, double gamma) : levels_(levels), linear_(gamma == 1.0) {
+    OVERT_EXPECTS(levels >= 1 && levels <= 65535 && gamma > 0.0);
+    if (linear_)
+        return;
+    for (int level = 0; level <= levels; ++level)
+        lights_.push_back(std::pow(static_cast<double>(level) / levels, gamma));
+    for (int level = 1; level <= levels; ++level)
+        borders_.push_back(std::pow((level - 0.5) / levels, gamma));
+    for (int range = 0; range <= ranges; ++range) {
+        const double begin = static_cast<double>(range) / ranges;
+        first_of_range_.push_back(
+            static_cast<int>(std::lower_bound(borders_.begin(), borders_.end(), begin) - borders_.begin()));
+    }
+}
+
+int LevelTable::level_of(double light) const noexcept {
+    const double inside = clipped(light);
+    if (linear_)
+        return static_cast<int>(inside * levels_ + 0.5);
+    const auto range = static_cast<std::size_t>(inside * ranges);
+    const auto last = range < ranges ? borders_.begin() + first_of_range_[range + 1] : borders_.end();
+    const auto first = borders_.begin() + first_of_range_[range];
+    return static_cast<int>(std::upper_bound(first, last, inside) - borders_.begin());
+}
+
+double LevelTable::position_of(double light) const noexcept {
+    const double inside = clipped(light);
+    if (linear_)
+        return inside * levels_;
+    int level = level_of(inside);
+    if (light_of(level) > inside)
+        --level;
+    if (level == levels_)
+        return levels_;
+    return level + (inside - light_of(level)) / (light_of(level + 1) - light_of(level));
+}
+
+} // namespace overt

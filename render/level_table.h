@@ -1,0 +1,35 @@
+/// From light to the level of a signal that makes it: the inverse of a display's gamma.
+#pragma once
+
+#include <vector>
+
+namespace overt {
+
+/// Levels 0 … n of a signal, of which level i makes the light (i / n)^gamma. The borders between levels are
+/// tabulated in double precision, so that what comes out is floor(n * light^(1 / gamma) + 0.5) without the
+/// error of a power function, at the price of a search in a few neighbours.
+class LevelTable {
+  public:
+    /// `levels`: the highest level n, 1 … 65535. `gamma` > 0.
+    LevelTable(int levels, double gamma);
+
+    /// The nearest level. Light outside of 0 … 1 is clipped; not a number counts as 0.
+    int level_of(double light) const noexcept;
+
+    /// Where a light lies between the light of two neighbouring levels: level 7 and a quarter of the light's
+    /// way to level 8 is 7.25. Clipped as above.
+    double position_of(double light) const noexcept;
+
+    int levels() const { return levels_; }
+
+  private:
+    double light_of(int level) const noexcept { return lights_[static_cast<std::size_t>(level)]; }
+
+    int levels_;
+    bool linear_;
+    std::vector<double> borders_; ///< light at which level i begins to be nearer than i - 1, from i = 1 on
+    std::vector<double> lights_;  ///< of each level
+    std::vector<int> first_of_range_; ///< borders below each 65536th of the light
+};
+
+} // namespace overt
