@@ -129,10 +129,11 @@ std::optional<std::string> BitsLink::try_ask(std::string_view name, std::string_
 std::string BitsLink::ask(std::string_view name, std::string_view argument) {
     if (auto reply = try_ask(name, argument))
         return *reply;
+    const char* const what = bits_reply(splitter_.partial(), name) ? "end of" : "line beginning with";
     throw DeviceError(
-        fmt::format("{}: no «#{};» came within {:.1f} s of «${}», but {}; see that the box is in its serial "
-                    "(CDC) mode and that this is its port.",
-                    port(), name, to_seconds(timeouts_.reply), name, what_came()));
+        fmt::format("{}: no {} «#{};» came within {:.1f} s of «${}», but {}; see that the box is in its "
+                    "serial (CDC) mode and that this is its port.",
+                    port(), what, name, to_seconds(timeouts_.reply), name, what_came()));
 }
 
 bool BitsLink::reply_has_begun() const { return bits_reply(splitter_.partial(), expected_).has_value(); }
