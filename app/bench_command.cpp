@@ -18,7 +18,7 @@ struct Benchmark {
     BenchFigures (*measure)(const BenchOptions&);
 };
 
-constexpr Benchmark benchmarks[] = {{"lut", bench_lut}};
+constexpr Benchmark benchmarks[] = {{"lut", bench_lut}, {"reproject", bench_reproject}};
 
 } // namespace
 

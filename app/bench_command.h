@@ -22,5 +22,7 @@ BenchScene bench_scene(const BenchOptions& options);
 
 // The sub-benchmarks, each in a file of its name.
 BenchFigures bench_lut(const BenchOptions& options); ///< the hidden pass: its exactness, time and memory
+/// Gaze to surface: its speed, exactness and memory.
+BenchFigures bench_reproject(const BenchOptions& options);
 
 } // namespace overt

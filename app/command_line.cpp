@@ -204,8 +204,7 @@ int run_command_line(int argc, char** argv) {
                     "exr: coordinates as floats; png16: 16-bit codes as colours, with a JSON sidecar; both")
         ->check(CLI::IsMember({"exr", "png16", "both"}))
         ->capture_default_str();
-    lut_command
-        .add_option("--scale", lut.scale, "Factor of 16-bit codes: 65535, or 65536 as in the paper")
+    lut_command.add_option("--scale", lut.scale, "Factor of 16-bit codes: 65535, or 65536 as in the paper")
         ->check(CLI::IsMember({65535, 65536}))
         ->capture_default_str();
     lut_command.add_flag("--check", lut.check,
@@ -219,9 +218,12 @@ int run_command_line(int argc, char** argv) {
     auto& bench_command = add_command(app, "bench", "The program's own benchmarks",
                                       "overt bench lut --json\n"
                                       "  overt bench lut --mesh statue.ply --up y");
-    bench_command.add_option("WHICH", bench.what, "lut: the hidden pass, its exactness, time and memory")
+    bench_command
+        .add_option("WHICH", bench.what,
+                    "lut: the hidden pass, its exactness, time and memory; reproject: gaze to "
+                    "surface, its exactness, speed and memory")
         ->required()
-        ->check(CLI::IsMember({"lut"}));
+        ->check(CLI::IsMember({"lut", "reproject"}));
     bench_command
         .add_option("--mesh", bench.mesh,
                     "Measure on this mesh (PLY, OBJ, STL) instead of the shipped sculptures")

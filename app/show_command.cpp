@@ -82,8 +82,8 @@ void write_picture(const SessionRecord& record, const TrialRecord& trial, const 
     std::vector<glm::dvec3> gaze;
     for (const GazeSample& sample : record.samples(trial)) {
         const JoinedSample joined = join.join(sample);
-        if (joined.surface)
-            gaze.push_back(joined.surface->position);
+        if (joined.sight.surface)
+            gaze.push_back(joined.sight.surface->position);
     }
     const Condition condition = trial.trial.condition;
     TrialPictureContent content;

@@ -17,16 +17,18 @@ constexpr double touching_px = 1e-6;
 constexpr double doubtful_area_px2 = 1e-9;
 
 /// Twice the signed area of the projected triangle (a, b, c).
-double area_of(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
+double area_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Flags the pixels that a line touches.
-class LineMarker {
+/// Flags the pixels that an edge touches and does not pass behind.
+class EdgeMarker {
   public:
-    LineMarker(glm::ivec2 size_px, PixelFlags& flags) : size_px_(size_px), flags_(&flags) {}
+    EdgeMarker(glm::ivec2 size_px, const std::vector<float>& farthest_visible, PixelFlags& flags)
+        : size_px_(size_px), farthest_visible_(farthest_visible), flags_(flags) {}
 
-    void mark(glm::dvec2 a, glm::dvec2 b) {
+    /// Image points (x, y) with their depths (z).
+    void mark(glm::dvec3 a, glm::dvec3 b) {
         if (a.y > b.y)
             std::swap(a, b);
         const int top = row(a.y - touching_px), bottom = row(b.y + touching_px);
@@ -40,23 +42,25 @@ class LineMarker {
             }
             if (from > to)
                 std::swap(from, to);
-            mark_row(y, row(from - touching_px), row(to + touching_px));
+            mark_row(y, row(from - touching_px), row(to + touching_px), std::min(a.z, b.z));
         }
     }
 
   private:
     static int row(double at) { return static_cast<int>(std::floor(std::clamp(at, -1e6, 1e6))); }
 
-    void mark_row(int y, int from, int to) {
-        from = std::max(from, 0);
-        to = std::min(to, size_px_.x - 1);
-        if (from <= to)
-            std::fill_n(flags_->begin() + static_cast<std::ptrdiff_t>(y) * size_px_.x + from, to - from + 1,
-                        std::uint8_t{1});
+    void mark_row(int y, int from, int to, double nearest_depth) {
+        for (int x = std::max(from, 0); x <= std::min(to, size_px_.x - 1); ++x) {
+            const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(size_px_.x) +
+                                      static_cast<std::size_t>(x);
+            if (nearest_depth <= static_cast<double>(farthest_visible_[pixel]))
+                flags_[pixel] = 1;
+        }
     }
 
     glm::ivec2 size_px_;
-    PixelFlags* flags_;
+    const std::vector<float>& farthest_visible_;
+    PixelFlags& flags_;
 };
 
 } // namespace
@@ -75,23 +79,23 @@ Contours::Contours(const Mesh& mesh) : mesh_(&mesh) {
     });
 }
 
-PixelFlags Contours::touched_pixels(const SightLines& lines, glm::ivec2 size_px) const {
+PixelFlags Contours::touched_pixels(const SightLines& lines, glm::ivec2 size_px,
+                                    const std::vector<float>& farthest_visible) const {
     PixelFlags flags(static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y), 0);
-    std::vector<glm::dvec2> points(mesh_->positions.size());
+    std::vector<glm::dvec3> points(mesh_->positions.size());
     double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const glm::dvec3 projected = lines.project(glm::dvec3(mesh_->positions[i]));
-        points[i] = glm::dvec2(projected);
-        nearest = std::min(nearest, projected.z);
-        farthest = std::max(farthest, projected.z);
+        points[i] = lines.project(glm::dvec3(mesh_->positions[i]));
+        nearest = std::min(nearest, points[i].z);
+        farthest = std::max(farthest, points[i].z);
     }
     if (!(nearest > 1e-6 * farthest)) {
         std::fill(flags.begin(), flags.end(), std::uint8_t{1});
         return flags;
     }
-    LineMarker marker(size_px, flags);
+    EdgeMarker marker(size_px, farthest_visible, flags);
     for (const Edge& edge : folds_) {
-        const glm::dvec2 from = points[edge.from], to = points[edge.to];
+        const glm::dvec3 &from = points[edge.from], &to = points[edge.to];
         const double left = area_of(from, to, points[edge.left]),
                      right = area_of(from, to, points[edge.right]);
         const bool goes_on = (left > doubtful_area_px2 && right < -doubtful_area_px2) ||

@@ -23,9 +23,11 @@ class Contours {
     /// `mesh` must outlive this.
     explicit Contours(const Mesh& mesh);
 
-    /// Flags each pixel whose square a contour touches, hidden or not. All of them if a part of the mesh lies
-    /// beside or behind the camera.
-    PixelFlags touched_pixels(const SightLines& lines, glm::ivec2 size_px) const;
+    /// Flags each pixel whose square a contour touches that is no farther away than the pixel's farthest
+    /// visible depth: one for each pixel, top row first. All pixels if a part of the mesh lies beside or
+    /// behind the camera.
+    PixelFlags touched_pixels(const SightLines& lines, glm::ivec2 size_px,
+                              const std::vector<float>& farthest_visible) const;
 
   private:
     /// An edge and the corners opposite it in the two triangles that share it.

@@ -146,13 +146,13 @@ std::optional<SurfacePoint> CoordinateImageLookup::surface_at(PoseIndex pose, gl
     return surface;
 }
 
-void CoordinateImageLookup::look(std::span<const ImagePlace> places, std::span<Sight> sights) const {
+void CoordinateImageLookup::look(std::span<const ImagePlace> places, std::span<Sight* const> sights) const {
     OVERT_EXPECTS(places.size() == sights.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
         const auto& [pose, point] = places[i];
-        sights[i].surface = surface_at(pose, point);
-        sights[i].outline_px = patches_[static_cast<std::size_t>(pose.value)].cells.outline_near(
-            point, sights[i].surface.has_value());
+        sights[i]->surface = surface_at(pose, point);
+        sights[i]->outline_px = patches_[static_cast<std::size_t>(pose.value)].cells.outline_near(
+            point, sights[i]->surface.has_value());
     }
 }
 

@@ -29,7 +29,7 @@ class CoordinateImageLookup final : public SurfaceLookup {
     CoordinateImageLookup(std::vector<CoordinateImageFile> maps, glm::ivec2 image_px);
 
     std::optional<SurfacePoint> surface_at(PoseIndex pose, glm::dvec2 image_point_px) const override;
-    void look(std::span<const ImagePlace> places, std::span<Sight> sights) const override;
+    void look(std::span<const ImagePlace> places, std::span<Sight* const> sights) const override;
 
     std::size_t pose_count() const { return patches_.size(); }
     glm::ivec2 image_px() const { return image_px_; }

@@ -1,12 +1,12 @@
 #include "experiment/analysis/coordinate_maps.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "experiment/analysis/sheet_check.h"
+#include "experiment/analysis/visible_depth.h"
 #include "experiment/error.h"
 #include "experiment/parallel.h"
 
@@ -14,17 +14,9 @@ namespace overt {
 
 namespace {
 
-/// Places looked at in step with one another, so that each one's memory is on its way while the others are
-/// worked on.
-constexpr std::size_t in_step = 16;
-
-void fetch_soon(const void* address) {
-#if defined(__GNUC__)
-    __builtin_prefetch(address);
-#else
-    static_cast<void>(address);
-#endif
-}
+/// How many places before their turn the memory that they need is sent for: first a place's pixel, and when
+/// that is there, the triangle that it shows.
+constexpr std::size_t cells_ahead = 16, triangles_ahead = 8;
 
 void check_maps(const Mesh& mesh, glm::ivec2 image_px, const std::vector<TriangleMap>& maps) {
     for (const TriangleMap& map : maps) {
@@ -55,7 +47,8 @@ CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene, std::ve
     std::vector<std::optional<PoseCells>> cells(maps.size());
     parallel_for(static_cast<int>(maps.size()), [&](int index) {
         const auto pose = static_cast<std::size_t>(index);
-        PixelFlags contested = contours.touched_pixels(sight_lines_[pose], image_px_);
+        PixelFlags contested = contours.touched_pixels(
+            sight_lines_[pose], image_px_, farthest_visible_depths(maps[pose], sight_lines_[pose], walk_));
         flag_broken_sheets(maps[pose], sight_lines_[pose], walk_, contested);
         cells[pose].emplace(maps[pose], contested);
         maps[pose] = {};
@@ -65,72 +58,84 @@ CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene, std::ve
         cells_.push_back(*std::move(of_pose));
 }
 
-std::optional<Meeting> CoordinateMaps::cast(const SightLines& lines, const glm::dvec3& direction) const {
+bool CoordinateMaps::cast(const SightLines& lines, const glm::dvec3& direction, Meeting& meeting) const {
     const double length = glm::length(direction);
     const std::optional<RayHit> hit = caster_.first_hit({lines.origin(), direction / length});
     if (!hit)
-        return std::nullopt;
-    return Meeting{hit->triangle, hit->barycentric, hit->distance / length};
+        return false;
+    meeting = {hit->triangle, hit->barycentric, hit->distance / length};
+    return true;
 }
 
-std::optional<Meeting> CoordinateMaps::meet(PoseIndex pose, PixelCell cell,
-                                            const glm::dvec3& direction) const {
+bool CoordinateMaps::meet(PoseIndex pose, PixelCell cell, const glm::dvec3& direction,
+                          Meeting& meeting) const {
     const SightLines& lines = sight_lines(pose);
     if (cell.is_contested())
-        return cast(lines, direction);
+        return cast(lines, direction, meeting);
     if (!cell.is_covered())
-        return std::nullopt;
-    const std::optional<Meeting> meeting = walk_.meet(cell.triangle(), lines.origin(), direction);
-    return meeting ? meeting : cast(lines, direction);
+        return false;
+    return walk_.meet(cell.triangle(), lines.origin(), direction, meeting) || cast(lines, direction, meeting);
 }
 
-SurfacePoint CoordinateMaps::surface_of(const Meeting& meeting, const SightLines& lines,
-                                        const glm::dvec3& direction) const {
+void CoordinateMaps::find_surface(const ImagePlace& place, std::optional<SurfacePoint>& surface) const {
+    surface.reset();
+    if (!is_in_image(place.point_px))
+        return;
+    const SightLines& lines = sight_lines(place.pose);
+    const glm::dvec3 direction = lines.direction_through(place.point_px);
+    Meeting meeting;
+    if (!meet(place.pose, cells(place.pose).cell(glm::ivec2(place.point_px)), direction, meeting))
+        return;
     const WalkTriangle& triangle = walk_.triangle(meeting.triangle);
     const glm::dvec3 a(triangle.corners[0]), b(triangle.corners[1]), c(triangle.corners[2]);
     const glm::dvec3 normal = glm::cross(b - a, c - a);
     const double cosine = std::abs(glm::dot(normal, direction)) /
                           std::sqrt(glm::dot(normal, normal) * glm::dot(direction, direction));
-    return {lines.origin() + meeting.depth * direction,
-            meeting.triangle,
-            meeting.barycentric,
-            triangle.part,
-            meeting.depth,
-            to_degrees({std::acos(std::min(cosine, 1.0))})};
+    SurfacePoint& point = surface.emplace();
+    point.position = lines.origin() + meeting.depth * direction;
+    point.triangle = meeting.triangle;
+    point.barycentric = meeting.barycentric;
+    point.part = triangle.part;
+    point.depth = meeting.depth;
+    point.incidence = to_degrees({std::acos(std::min(cosine, 1.0))});
 }
 
 std::optional<SurfacePoint> CoordinateMaps::surface_at(PoseIndex pose, glm::dvec2 point) const {
-    if (!is_in_image(point))
-        return std::nullopt;
-    const glm::dvec3 direction = sight_lines(pose).direction_through(point);
-    const std::optional<Meeting> meeting = meet(pose, cells(pose).cell(glm::ivec2(point)), direction);
-    return meeting ? std::optional(surface_of(*meeting, sight_lines(pose), direction)) : std::nullopt;
+    std::optional<SurfacePoint> surface;
+    find_surface({pose, point}, surface);
+    return surface;
 }
 
-void CoordinateMaps::look_in_step(std::span<const ImagePlace> places, std::span<Sight> sights) const {
-    for (const ImagePlace& place : places) {
-        if (is_in_image(place.point_px))
-            fetch_soon(&cells(place.pose).cell(glm::ivec2(place.point_px)));
-    }
-    for (const ImagePlace& place : places) {
-        if (!is_in_image(place.point_px))
-            continue;
-        const PixelCell cell = cells(place.pose).cell(glm::ivec2(place.point_px));
-        if (cell.is_covered())
-            fetch_soon(&walk_.triangle(cell.triangle()));
-    }
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const auto& [pose, point] = places[i];
-        sights[i].surface = surface_at(pose, point);
-        sights[i].outline_px = cells(pose).outline_near(point, sights[i].surface.has_value());
-    }
+void CoordinateMaps::fetch_cell(const ImagePlace& place) const {
+    if (!is_in_image(place.point_px))
+        return;
+    const PoseCells& of_pose = cells(place.pose);
+    __builtin_prefetch(&of_pose.cell(glm::ivec2(place.point_px)));
+    of_pose.fetch_outline(glm::ivec2(place.point_px));
 }
 
-void CoordinateMaps::look(std::span<const ImagePlace> places, std::span<Sight> sights) const {
+void CoordinateMaps::fetch_triangle(const ImagePlace& place) const {
+    if (!is_in_image(place.point_px))
+        return;
+    const PixelCell cell = cells(place.pose).cell(glm::ivec2(place.point_px));
+    if (cell.is_covered())
+        __builtin_prefetch(&walk_.triangle(cell.triangle()));
+}
+
+void CoordinateMaps::look(std::span<const ImagePlace> places, std::span<Sight* const> sights) const {
     OVERT_EXPECTS(places.size() == sights.size());
-    for (std::size_t begin = 0; begin < places.size(); begin += in_step) {
-        const std::size_t count = std::min(in_step, places.size() - begin);
-        look_in_step(places.subspan(begin, count), sights.subspan(begin, count));
+    for (std::size_t i = 0; i < std::min(places.size(), cells_ahead); ++i)
+        fetch_cell(places[i]);
+    for (std::size_t i = 0; i < std::min(places.size(), triangles_ahead); ++i)
+        fetch_triangle(places[i]);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (i + cells_ahead < places.size())
+            fetch_cell(places[i + cells_ahead]);
+        if (i + triangles_ahead < places.size())
+            fetch_triangle(places[i + triangles_ahead]);
+        Sight& sight = *sights[i];
+        find_surface(places[i], sight.surface);
+        sight.outline_px = cells(places[i].pose).outline_near(places[i].point_px, sight.surface.has_value());
     }
 }
 
@@ -149,9 +154,10 @@ bool CoordinateMaps::is_one_sheet(PoseIndex pose, glm::ivec2 pixel, glm::ivec2 n
         return true;
     const SightLines& lines = sight_lines(pose);
     const glm::dvec3 direction = lines.direction_through(glm::dvec2(next) + 0.5);
-    const std::optional<Meeting> walked = walk_.meet(here.triangle(), lines.origin(), direction);
-    const std::optional<Meeting> shown = walk_.meet(there.triangle(), lines.origin(), direction);
-    return walked && shown && walked->triangle == shown->triangle;
+    Meeting walked, shown;
+    return walk_.meet(here.triangle(), lines.origin(), direction, walked) &&
+           walk_.meet(there.triangle(), lines.origin(), direction, shown) &&
+           walked.triangle == shown.triangle;
 }
 
 } // namespace overt

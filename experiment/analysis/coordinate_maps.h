@@ -30,7 +30,7 @@ class CoordinateMaps final : public SurfaceLookup {
                    std::vector<TriangleMap> maps);
 
     std::optional<SurfacePoint> surface_at(PoseIndex pose, glm::dvec2 image_point_px) const override;
-    void look(std::span<const ImagePlace> places, std::span<Sight> sights) const override;
+    void look(std::span<const ImagePlace> places, std::span<Sight* const> sights) const override;
     std::optional<PartIndex> part_near(PoseIndex pose, glm::dvec2 image_point_px) const override;
 
     const Mesh& mesh() const { return *mesh_; }
@@ -51,11 +51,13 @@ class CoordinateMaps final : public SurfaceLookup {
         // Also turns away what is not a number.
         return point_px.x >= 0.0 && point_px.y >= 0.0 && point_px.x < image_px_.x && point_px.y < image_px_.y;
     }
-    std::optional<Meeting> meet(PoseIndex pose, PixelCell cell, const glm::dvec3& direction) const;
-    std::optional<Meeting> cast(const SightLines& lines, const glm::dvec3& direction) const;
-    SurfacePoint surface_of(const Meeting& meeting, const SightLines& lines,
-                            const glm::dvec3& direction) const;
-    void look_in_step(std::span<const ImagePlace> places, std::span<Sight> sights) const;
+    // Results are written where they will stay: they are so large that copying them would take as long as
+    // finding them.
+    bool meet(PoseIndex pose, PixelCell cell, const glm::dvec3& direction, Meeting& meeting) const;
+    bool cast(const SightLines& lines, const glm::dvec3& direction, Meeting& meeting) const;
+    void find_surface(const ImagePlace& place, std::optional<SurfacePoint>& surface) const;
+    void fetch_cell(const ImagePlace& place) const;
+    void fetch_triangle(const ImagePlace& place) const;
 
     const Mesh* mesh_;
     glm::ivec2 image_px_;

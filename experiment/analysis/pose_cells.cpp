@@ -11,8 +11,6 @@ namespace overt {
 
 namespace {
 
-constexpr double distance_steps_per_px = 32.0; // reaches 2047 px
-
 std::size_t area_of(glm::ivec2 size) {
     return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
 }
@@ -36,8 +34,8 @@ PoseCells::PoseCells(const TriangleMap& map, const PixelFlags& contested) : size
         }
     }
     measure_extents();
-    if (any_covered_)
-        measure_inside(map);
+    if (any_covered_ && any_uncovered_)
+        find_outline_from_inside(map);
 }
 
 void PoseCells::measure_extents() {
@@ -64,58 +62,41 @@ void PoseCells::measure_extents() {
     }
 }
 
-void PoseCells::measure_inside(const TriangleMap& map) {
-    // A frame of one pixel around the box, where the image has one, is background all around.
-    const glm::ivec2 begin = glm::max(box_begin_ - 1, 0), end = glm::min(box_end_ + 1, size_px_);
-    const glm::ivec2 size = end - begin;
+void PoseCells::find_outline_from_inside(const TriangleMap& map) {
+    // The box with a frame of one pixel, where the image has one, holds all of the rim.
+    const glm::ivec2 begin = glm::max(box_begin_ - 1, 0), size = glm::min(box_end_ + 1, size_px_) - begin;
     PixelFlags uncovered(area_of(size));
     for (int y = 0; y < size.y; ++y) {
         for (int x = 0; x < size.x; ++x)
-            uncovered[static_cast<std::size_t>(y * size.x + x)] = map.code_at(begin.x + x, begin.y + y) == 0;
+            uncovered[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) +
+                      static_cast<std::size_t>(x)] = map.code_at(begin.x + x, begin.y + y) == 0;
     }
     const std::vector<glm::i16vec2> nearest = nearest_pixels(uncovered, size);
-    const glm::ivec2 box = box_end_ - box_begin_;
-    inside_distances_.reserve(area_of(box));
-    for (int y = 0; y < box.y; ++y) {
-        for (int x = 0; x < box.x; ++x) {
-            const glm::ivec2 pixel = glm::ivec2(x, y) + box_begin_ - begin;
-            const glm::dvec2 offset(
-                glm::ivec2(nearest[static_cast<std::size_t>(pixel.y * size.x + pixel.x)]) - pixel);
-            inside_distances_.push_back(static_cast<std::uint16_t>(
-                std::min(std::round(distance_steps_per_px * glm::length(offset)), 65535.0)));
+    std::vector<std::uint32_t> number_of(nearest.size(), 0); // in rim_, from 1
+    nearest_rim_.resize(area_of(box_end_ - box_begin_));
+    for (int y = box_begin_.y; y < box_end_.y; ++y) {
+        for (int x = box_begin_.x; x < box_end_.x; ++x) {
+            if (!cell({x, y}).is_covered())
+                continue;
+            const auto in_frame = [&](glm::ivec2 at) {
+                return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(size.x) +
+                       static_cast<std::size_t>(at.x);
+            };
+            const glm::ivec2 pixel(nearest[in_frame(glm::ivec2(x, y) - begin)]);
+            std::uint32_t& number = number_of[in_frame(pixel)];
+            if (number == 0) {
+                rim_.emplace_back(pixel + begin);
+                number = static_cast<std::uint32_t>(rim_.size());
+            }
+            const std::size_t place = place_in_box({x, y});
+            nearest_rim_[place] = static_cast<std::uint16_t>((number - 1) & 0xffffu);
+            if (number - 1 > 0xffffu) {
+                nearest_rim_high_.resize(nearest_rim_.size(), 0);
+                nearest_rim_high_[place] = static_cast<std::uint8_t>((number - 1) >> 16);
+            }
         }
     }
-}
-
-double PoseCells::inside_distance_px(glm::ivec2 pixel) const {
-    // Beyond the image's border it is taken to go on as at the border.
-    pixel = glm::clamp(pixel, glm::ivec2(0), size_px_ - 1);
-    if (pixel.x < box_begin_.x || pixel.y < box_begin_.y || pixel.x >= box_end_.x || pixel.y >= box_end_.y)
-        return 0.0;
-    const glm::ivec2 in_box = pixel - box_begin_;
-    return inside_distances_[static_cast<std::size_t>(in_box.y) *
-                                 static_cast<std::size_t>(box_end_.x - box_begin_.x) +
-                             static_cast<std::size_t>(in_box.x)] /
-           distance_steps_per_px;
-}
-
-glm::dvec2 PoseCells::outline_from_inside(glm::ivec2 pixel, glm::dvec2 point) const {
-    const double here = inside_distance_px(pixel), left = inside_distance_px(pixel - glm::ivec2(1, 0)),
-                 right = inside_distance_px(pixel + glm::ivec2(1, 0)),
-                 above = inside_distance_px(pixel - glm::ivec2(0, 1)),
-                 below = inside_distance_px(pixel + glm::ivec2(0, 1));
-    // The distance grows by one per pixel straight away from the nearest place of the outline. On a ridge,
-    // where several are equally near, the side that falls more steeply points to one of them.
-    glm::dvec2 away(right - left, below - above);
-    if (glm::dot(away, away) < 1.0)
-        away = {std::max(0.0, here - left) - std::max(0.0, here - right),
-                std::max(0.0, here - above) - std::max(0.0, here - below)};
-    if (glm::dot(away, away) < 1e-3)
-        away = {1.0, 0.0};
-    away = glm::normalize(away);
-    // Half a pixel nearer than the centre of the first uncovered pixel.
-    const double distance = here + glm::dot(away, point - (glm::dvec2(pixel) + 0.5)) - 0.5;
-    return point - std::max(distance, 0.0) * away;
+    OVERT_EXPECTS(rim_.size() <= 1u << 24);
 }
 
 glm::dvec2 PoseCells::outline_from_beyond_the_image(glm::dvec2 point) const {
@@ -159,8 +140,13 @@ std::optional<glm::dvec2> PoseCells::outline_near(glm::dvec2 point, bool on_surf
     const PixelCell here = cell(pixel);
     if (here.is_covered() != on_surface)
         return point;
-    return on_surface ? outline_from_inside(pixel, point)
-                      : nearest_place_of(pixel + here.to_outline(), point);
+    return nearest_place_of(on_surface ? nearest_uncovered(pixel) : pixel + here.to_outline(), point);
+}
+
+void PoseCells::fetch_outline(glm::ivec2 pixel) const {
+    if (pixel.x >= box_begin_.x && pixel.y >= box_begin_.y && pixel.x < box_end_.x && pixel.y < box_end_.y &&
+        !nearest_rim_.empty())
+        __builtin_prefetch(&nearest_rim_[place_in_box(pixel)]);
 }
 
 TriangleMap PoseCells::map() const {
@@ -171,7 +157,8 @@ TriangleMap PoseCells::map() const {
 }
 
 std::size_t PoseCells::memory_bytes() const {
-    return cells_.capacity() * sizeof(PixelCell) + inside_distances_.capacity() * sizeof(std::uint16_t) +
+    return cells_.capacity() * sizeof(PixelCell) + rim_.capacity() * sizeof(glm::i16vec2) +
+           nearest_rim_.capacity() * sizeof(std::uint16_t) + nearest_rim_high_.capacity() +
            (row_extents_.capacity() + column_extents_.capacity()) * sizeof(Extent);
 }
 

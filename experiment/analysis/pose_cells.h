@@ -11,6 +11,7 @@
 
 #include "experiment/analysis/contours.h"
 #include "experiment/analysis/triangle_map.h"
+#include "experiment/large_pages.h"
 
 namespace overt {
 
@@ -47,7 +48,8 @@ class PixelCell {
     std::uint32_t bits_;
 };
 
-/// All pixels of a pose. Takes 4 bytes for each, and 2 more within the box around those that are covered.
+/// All pixels of a pose. Takes 4 bytes for each, and 2 more (3 if the outline is longer than 65,536 pixels)
+/// within the box around those that are covered.
 class PoseCells {
   public:
     /// `contested` has a flag for each pixel of the map.
@@ -64,11 +66,13 @@ class PoseCells {
     }
 
     /// The place of the outline that is nearest to a point, of which the caller knows whether the object is
-    /// seen there. The outline is taken to run along the borders of covered pixels, so it is right to within
-    /// a pixel; from a covered pixel to within a pixel and a hundredth of the distance. Where the map has the
-    /// point's pixel on the other side of the outline than it is, the point itself. Nothing if no pixel is
-    /// covered, or all are.
+    /// seen there. The outline is taken to run along the borders between covered and uncovered pixels, so its
+    /// distance is right to within a pixel. Where the map has the point's pixel on the other side of the
+    /// outline than it is, the point itself. Nothing if no pixel is covered, or all are.
     std::optional<glm::dvec2> outline_near(glm::dvec2 point_px, bool on_surface) const;
+
+    /// Brings what outline_near reads for a pixel inside the image nearer to the processor.
+    void fetch_outline(glm::ivec2 pixel) const;
 
     TriangleMap map() const;
     std::size_t memory_bytes() const;
@@ -81,16 +85,27 @@ class PoseCells {
     };
 
     void measure_extents();
-    void measure_inside(const TriangleMap& map);
-    double inside_distance_px(glm::ivec2 pixel) const;
-    glm::dvec2 outline_from_inside(glm::ivec2 pixel, glm::dvec2 point_px) const;
+    void find_outline_from_inside(const TriangleMap& map);
+    std::size_t place_in_box(glm::ivec2 pixel) const {
+        const glm::ivec2 in_box = pixel - box_begin_;
+        return static_cast<std::size_t>(in_box.y) * static_cast<std::size_t>(box_end_.x - box_begin_.x) +
+               static_cast<std::size_t>(in_box.x);
+    }
+    glm::ivec2 nearest_uncovered(glm::ivec2 covered_pixel) const {
+        const std::size_t place = place_in_box(covered_pixel);
+        const std::size_t high = nearest_rim_high_.empty() ? 0u : nearest_rim_high_[place];
+        return glm::ivec2(rim_[high << 16 | nearest_rim_[place]]);
+    }
     glm::dvec2 outline_from_beyond_the_image(glm::dvec2 point_px) const;
 
     glm::ivec2 size_px_;
-    std::vector<PixelCell> cells_;
+    LargePageVector<PixelCell> cells_;
     std::vector<Extent> row_extents_, column_extents_;
-    glm::ivec2 box_begin_{0}, box_end_{0};        ///< pixels around all that are covered
-    std::vector<std::uint16_t> inside_distances_; ///< of the box, to the nearest uncovered pixel
+    glm::ivec2 box_begin_{0}, box_end_{0}; ///< pixels around all that are covered
+    std::vector<glm::i16vec2> rim_;        ///< uncovered pixels, each nearest to one that is covered
+    /// By pixel of the box, index into rim_: its lower 16 bits, and where they do not suffice the next 8.
+    LargePageVector<std::uint16_t> nearest_rim_;
+    std::vector<std::uint8_t> nearest_rim_high_;
     bool any_covered_ = false, any_uncovered_ = false;
 };
 

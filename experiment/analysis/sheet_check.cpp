@@ -29,12 +29,13 @@ class SheetCheck {
         const auto& neighbours = walk_.triangle(code - 1).neighbours;
         if (std::find(neighbours.begin(), neighbours.end(), next - 1) != neighbours.end())
             return true;
-        const auto meeting =
-            walk_.meet(code - 1, lines_.origin(), lines_.direction_through(glm::dvec2(other) + 0.5));
+        Meeting meeting;
+        const bool met =
+            walk_.meet(code - 1, lines_.origin(), lines_.direction_through(glm::dvec2(other) + 0.5), meeting);
         // Corners are snapped to a fraction of a pixel when a map is drawn: a centre beside an edge may be
         // given to the next triangle.
-        return meeting && (meeting->triangle + 1 == next ||
-                           share_a_corner(walk_.triangle(meeting->triangle), walk_.triangle(next - 1)));
+        return met && (meeting.triangle + 1 == next ||
+                       share_a_corner(walk_.triangle(meeting.triangle), walk_.triangle(next - 1)));
     }
 
   private:

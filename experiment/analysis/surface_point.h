@@ -44,11 +44,12 @@ class SurfaceLookup {
     /// Nothing where the image shows no surface, and outside of the image.
     virtual std::optional<SurfacePoint> surface_at(PoseIndex pose, glm::dvec2 image_point_px) const = 0;
 
-    /// What is seen at each of many places, with the outline: faster than one by one. Both spans are equally
-    /// long. Places outside of the image have no surface but an outline.
-    virtual void look(std::span<const ImagePlace> places, std::span<Sight> sights) const {
+    /// What is seen at each of many places, with the outline, written where the other span points to: faster
+    /// than one by one. Both spans are equally long. Places outside of the image have no surface but an
+    /// outline.
+    virtual void look(std::span<const ImagePlace> places, std::span<Sight* const> sights) const {
         for (std::size_t i = 0; i < places.size(); ++i)
-            sights[i] = {surface_at(places[i].pose, places[i].point_px), std::nullopt};
+            *sights[i] = {surface_at(places[i].pose, places[i].point_px), std::nullopt};
     }
 
     /// The part seen at a place, where the pixel is answer enough: its centre may stand for the place.

@@ -26,8 +26,8 @@ SurfaceWalk::SurfaceWalk(const Mesh& mesh) : triangles_(mesh.triangles.size()) {
     });
 }
 
-std::optional<Meeting> SurfaceWalk::meet(std::uint32_t start, const glm::dvec3& origin,
-                                         const glm::dvec3& direction) const {
+bool SurfaceWalk::meet(std::uint32_t start, const glm::dvec3& origin, const glm::dvec3& direction,
+                       Meeting& meeting) const {
     std::uint32_t triangle = start, came_from = no_triangle;
     bool front_seen = false;
     for (int step = 0; step < longest_walk; ++step) {
@@ -41,16 +41,17 @@ std::optional<Meeting> SurfaceWalk::meet(std::uint32_t start, const glm::dvec3& 
                      of_c = glm::dot(direction, glm::cross(a, b));
         const double sum = of_a + of_b + of_c;
         if (sum == 0.0 || (step > 0 && (sum > 0.0) != front_seen))
-            return std::nullopt; // seen edge-on, or turned away
+            return false; // seen edge-on, or turned away
         front_seen = sum > 0.0;
         const double per_sum = 1.0 / sum;
         const glm::dvec3 weights(of_a * per_sum, of_b * per_sum, of_c * per_sum);
         if (weights.x >= 0.0 && weights.y >= 0.0 && weights.z >= 0.0) {
             const glm::dvec3 normal = glm::cross(b - a, c - a);
             const double depth = glm::dot(normal, a) / glm::dot(normal, direction);
-            if (!(depth > 0.0))
-                return std::nullopt;
-            return Meeting{triangle, weights, depth};
+            meeting.triangle = triangle;
+            meeting.barycentric = weights;
+            meeting.depth = depth;
+            return depth > 0.0;
         }
         // Across the edge that it passes farthest outside, but not back to where the walk came from.
         std::uint32_t next = no_triangle;
@@ -63,11 +64,11 @@ std::optional<Meeting> SurfaceWalk::meet(std::uint32_t start, const glm::dvec3& 
             }
         }
         if (next == no_triangle)
-            return std::nullopt;
+            return false;
         came_from = triangle;
         triangle = next;
     }
-    return std::nullopt;
+    return false;
 }
 
 } // namespace overt

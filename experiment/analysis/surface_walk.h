@@ -4,11 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <optional>
-#include <vector>
 
 #include <glm/glm.hpp>
 
+#include "experiment/large_pages.h"
 #include "experiment/scene/mesh.h"
 
 namespace overt {
@@ -40,14 +39,14 @@ class SurfaceWalk {
     std::size_t size() const { return triangles_.size(); }
 
     /// Goes from triangle to triangle, always across the edge that the line passes farthest outside, until it
-    /// passes inside. Nothing if that leads over a border, over an edge behind which the surface turns its
-    /// other side to the eye, or farther than a few pixels should take; and if the eye has the surface behind
-    /// it.
-    std::optional<Meeting> meet(std::uint32_t start, const glm::dvec3& origin,
-                                const glm::dvec3& direction) const;
+    /// passes inside, and writes that into `meeting`. False if that leads over a border, over an edge behind
+    /// which the surface turns its other side to the eye, or farther than a few pixels should take; and if
+    /// the eye has the surface behind it.
+    bool meet(std::uint32_t start, const glm::dvec3& origin, const glm::dvec3& direction,
+              Meeting& meeting) const;
 
   private:
-    std::vector<WalkTriangle> triangles_;
+    LargePageVector<WalkTriangle> triangles_;
 };
 
 } // namespace overt

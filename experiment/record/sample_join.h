@@ -17,10 +17,10 @@
 namespace overt {
 
 struct JoinedSample {
-    std::optional<MappedTime> at;        ///< nothing if the clocks were never read together
-    std::optional<glm::dvec2> image_px;  ///< continuous image point, also outside of it; nothing without gaze
-    std::optional<LitFrame> shown;       ///< the frame lit at the gaze's row; nothing without gaze or time
-    std::optional<SurfacePoint> surface; ///< nothing beside the object, or without a lookup
+    std::optional<MappedTime> at;       ///< nothing if the clocks were never read together
+    std::optional<glm::dvec2> image_px; ///< continuous image point, also outside of it; nothing without gaze
+    std::optional<LitFrame> shown;      ///< the frame lit at the gaze's row; nothing without gaze or time
+    Sight sight;                        ///< empty without a lit frame, or without a lookup
     /// Visual angle between the gaze and the nearest place of the outline of the sculpture's picture (see
     /// PoseCells::outline_near): positive beside the sculpture, negative on it. Nothing without a lit frame,
     /// or where the lookup knows no outline.
@@ -45,7 +45,7 @@ class SampleJoin {
     JoinedSample join(const GazeSample& sample) const;
 
   private:
-    JoinedSample join_time_and_frame(const GazeSample& sample) const;
+    void join_time_and_frame(const GazeSample& sample, JoinedSample& joined) const;
     void join_surfaces(std::span<const GazeSample> samples, std::span<JoinedSample> joined) const;
 
     ScreenGeometry screen_;

@@ -143,7 +143,7 @@ TsvExportCounts TsvExport::write_samples(const TrialRecord& trial, const Surface
         write_sample(sample, joined, part_cells);
         ++counts.samples;
         counts.samples_without_gaze += !sample.gaze;
-        counts.samples_on_object += joined.surface.has_value();
+        counts.samples_on_object += joined.sight.surface.has_value();
         counts.samples_off_plan += joined.off_plan;
     }
     return counts;
@@ -173,7 +173,7 @@ void TsvExport::write_sample(const GazeSample& sample, const JoinedSample& joine
         samples_.fixed(joined.image_px->x, pixel_decimals).fixed(joined.image_px->y, pixel_decimals);
     else
         samples_.missing(2);
-    if (const auto& surface = joined.surface) {
+    if (const auto& surface = joined.sight.surface) {
         for (const double coordinate : {surface->position.x, surface->position.y, surface->position.z})
             samples_.fixed(coordinate, surface_decimals);
         samples_.integer(surface->triangle);
