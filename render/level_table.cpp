@@ -11,6 +11,9 @@ namespace {
 
 constexpr int ranges = 65536;
 
+/// What lies half-way between two levels, but for the rounding of the sums that led there, goes up.
+constexpr double tie = 1e-9;
+
 /// Also for what is not a number.
 double clipped(double light) { return light > 0.0 ? (light < 1.0 ? light : 1.0) : 0.0; }
 
@@ -23,7 +26,7 @@ LevelTable::LevelTable(int levels, double gamma) : levels_(levels), linear_(gamm
     for (int level = 0; level <= levels; ++level)
         lights_.push_back(std::pow(static_cast<double>(level) / levels, gamma));
     for (int level = 1; level <= levels; ++level)
-        borders_.push_back(std::pow((level - 0.5) / levels, gamma));
+        borders_.push_back(std::pow((level - 0.5 - tie) / levels, gamma));
     for (int range = 0; range <= ranges; ++range) {
         const double begin = static_cast<double>(range) / ranges;
         first_of_range_.push_back(
@@ -34,7 +37,7 @@ LevelTable::LevelTable(int levels, double gamma) : levels_(levels), linear_(gamm
 int LevelTable::level_of(double light) const noexcept {
     const double inside = clipped(light);
     if (linear_)
-        return static_cast<int>(inside * levels_ + 0.5);
+        return static_cast<int>(inside * levels_ + (0.5 + tie));
     const auto range = static_cast<std::size_t>(inside * ranges);
     const auto last = range < ranges ? borders_.begin() + first_of_range_[range + 1] : borders_.end();
     const auto first = borders_.begin() + first_of_range_[range];

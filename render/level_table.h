@@ -6,8 +6,9 @@
 namespace overt {
 
 /// Levels 0 … n of a signal, of which level i makes the light (i / n)^gamma. The borders between levels are
-/// tabulated in double precision, so that what comes out is floor(n * light^(1 / gamma) + 0.5) without the
-/// error of a power function, at the price of a search in a few neighbours.
+/// tabulated in double precision, so that what comes out is floor(n * light^(1 / gamma) + 0.5), a billionth
+/// of a level short of a tie going up with it, without the error of a power function, at the price of a
+/// search in a few neighbours.
 class LevelTable {
   public:
     /// `levels`: the highest level n, 1 … 65535. `gamma` > 0.

@@ -1,0 +1,60 @@
+/// A screen for windows where there is none: an Xvfb server of one's own, ended with its object.
+#pragma once
+
+#include <csignal>
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace overt::test {
+
+class VirtualScreen {
+  public:
+    /// Starts a server and points DISPLAY to it; nothing if there is no Xvfb on this machine.
+    static std::unique_ptr<VirtualScreen> start(int width, int height, int depth) {
+        int ends[2];
+        if (pipe(ends) != 0)
+            return nullptr;
+        const std::string screen =
+            std::to_string(width) + "x" + std::to_string(height) + "x" + std::to_string(depth);
+        const std::string fd = std::to_string(ends[1]);
+        const pid_t pid = fork();
+        if (pid == 0) {
+            close(ends[0]);
+            const int nowhere = open("/dev/null", O_WRONLY);
+            dup2(nowhere, 1);
+            dup2(nowhere, 2);
+            execlp("Xvfb", "Xvfb", "-displayfd", fd.c_str(), "-screen", "0", screen.c_str(), "-nolisten",
+                   "tcp", static_cast<char*>(nullptr));
+            _exit(127);
+        }
+        close(ends[1]);
+        // The server writes its number once it is ready; without a server the pipe ends.
+        std::string number;
+        for (char digit = 0; read(ends[0], &digit, 1) == 1 && digit != '\n';)
+            number += digit;
+        close(ends[0]);
+        std::unique_ptr<VirtualScreen> started(new VirtualScreen(pid));
+        if (number.empty())
+            return nullptr;
+        setenv("DISPLAY", (":" + number).c_str(), 1);
+        return started;
+    }
+    ~VirtualScreen() {
+        kill(pid_, SIGTERM);
+        waitpid(pid_, nullptr, 0);
+        unsetenv("DISPLAY");
+    }
+    VirtualScreen(const VirtualScreen&) = delete;
+    VirtualScreen& operator=(const VirtualScreen&) = delete;
+
+  private:
+    explicit VirtualScreen(pid_t pid) : pid_(pid) {}
+    pid_t pid_;
+};
+
+} // namespace overt::test
