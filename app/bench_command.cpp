@@ -18,7 +18,8 @@ struct Benchmark {
     BenchFigures (*measure)(const BenchOptions&);
 };
 
-constexpr Benchmark benchmarks[] = {{"lut", bench_lut}, {"reproject", bench_reproject}};
+constexpr Benchmark benchmarks[] = {
+    {"lut", bench_lut}, {"reproject", bench_reproject}, {"present", bench_present}};
 
 } // namespace
 

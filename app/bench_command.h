@@ -24,5 +24,7 @@ BenchScene bench_scene(const BenchOptions& options);
 BenchFigures bench_lut(const BenchOptions& options); ///< the hidden pass: its exactness, time and memory
 /// Gaze to surface: its speed, exactness and memory.
 BenchFigures bench_reproject(const BenchOptions& options);
+/// A flip of a 1920 x 1080 Color++ frame with its page: time, processor time, packing and memory.
+BenchFigures bench_present(const BenchOptions& options);
 
 } // namespace overt

@@ -219,11 +219,13 @@ int run_command_line(int argc, char** argv) {
                                       "overt bench lut --json\n"
                                       "  overt bench lut --mesh statue.ply --up y");
     bench_command
-        .add_option("WHICH", bench.what,
-                    "lut: the hidden pass, its exactness, time and memory; reproject: gaze to "
-                    "surface, its exactness, speed and memory")
+        .add_option(
+            "WHICH", bench.what,
+            "lut: the hidden pass, its exactness, time and memory; reproject: gaze to "
+            "surface, its exactness, speed and memory; present: a flip of a page, its time, processor "
+            "time, packing and memory")
         ->required()
-        ->check(CLI::IsMember({"lut", "reproject"}));
+        ->check(CLI::IsMember({"lut", "reproject", "present"}));
     bench_command
         .add_option("--mesh", bench.mesh,
                     "Measure on this mesh (PLY, OBJ, STL) instead of the shipped sculptures")
