@@ -33,6 +33,10 @@ install_packages() {
 # Configures and builds the preset $1, showing ninja's progress; silent when all is up to date.
 build() {
     local folder="$root/build/$1"
+    # A folder that was copied or moved here was configured for another place.
+    if [ -f "$folder/CMakeCache.txt" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt"; then
+        rm -rf "$folder"
+    fi
     if [ ! -f "$folder/build.ninja" ]; then
         say "configuring ($1)"
         (cd "$root" && cmake --preset "$1" >"$root/build.log" 2>&1) || { cat "$root/build.log" >&2; say "configuring failed"; exit 1; }
