@@ -105,6 +105,9 @@ std::optional<std::string> BitsLink::try_ask(std::string_view name, std::string_
     const SessionTime begun = clock_.now();
     while (pump(begun) == incoming_.size() && clock_.now() < begun + timeouts_.drain) {
     }
+    // Nor can half of an answer that came too late, once its other half is here.
+    if (bits_reply(splitter_.partial(), name))
+        splitter_.forget();
     noise_.clear();
     stream_lines_ = 0;
     replied_ = false;

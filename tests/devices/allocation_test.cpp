@@ -3,9 +3,11 @@
 #include <array>
 #include <memory>
 
+#include "devices/bits_link.h"
 #include "devices/simulated_response_panel.h"
 #include "devices/sitting.h"
 #include "support/counted_allocations.h"
+#include "tests/devices/in_memory_line.h"
 
 using namespace overt;
 
@@ -40,4 +42,38 @@ TEST_CASE("from the begin of a presentation to its last sample nothing is alloca
     const long before = test::allocations;
     const auto counted = std::make_unique<int>(1);
     CHECK(test::allocations - before >= *counted); // the count does count
+}
+
+TEST_CASE("status lines of a display box are read without allocating, noise among them", "[unit]") {
+    /// Gives the same bytes over and over, from where they were left, and allocates nothing itself.
+    class Chatter final : public ByteTransport {
+      public:
+        explicit Chatter(std::string said) : said_(std::move(said)) {}
+        const std::string& name() const noexcept override { return name_; }
+        bool write(std::string_view, SessionTime) noexcept override { return true; }
+        std::size_t read(std::span<char> into, SessionTime) noexcept override {
+            const std::size_t count = std::min<std::size_t>(into.size(), 1500);
+            for (std::size_t i = 0; i < count; ++i)
+                into[i] = said_[next_++ % said_.size()];
+            return count;
+        }
+        bool lost() const noexcept override { return false; }
+        std::string loss() const override { return {}; }
+
+      private:
+        std::string name_ = "chatter", said_;
+        std::size_t next_ = 0;
+    };
+    test::BitsBoxModel model;
+    const std::string noise(300, 'x');
+    VirtualClock clock;
+    BitsLink link(std::make_unique<Chatter>(model.status_line(1.0) + noise + "\r$touch;1.0;1;2;1;\r"), clock);
+    std::array<ArrivedStatus, 32> samples;
+    std::size_t taken = 0;
+    const long before = test::allocations;
+    for (int refresh = 0; refresh < 2000; ++refresh)
+        taken += link.poll_status(samples);
+    const long during = test::allocations - before;
+    CHECK(during == 0);
+    CHECK(taken > 2000);
 }

@@ -102,6 +102,32 @@ TEST_CASE("an answer that comes too late is not taken for that to the next quest
     bench.box.far.delay = 2ms;
     bench.box.model.rate_hz = 100.0;
     CHECK(display.video_rate_hz() == 100.0);
+
+    // Half of it came before the question and half after.
+    bench.box.far.send(bench.clock.now(), "#VideoFrameRate;50.0");
+    bench.box.far.send(bench.clock.now() + 1ms, "00;Hz;\r");
+    CHECK(display.video_rate_hz() == 100.0);
+}
+
+TEST_CASE("neither a stream nor a reply without end holds a question up", "[unit]") {
+    Bench bench;
+    auto display = bench.open();
+    SECTION("a stream") {
+        display.start_status();
+        bench.box.model.silent_on = {"VideoFrameRate"};
+        const SessionTime asked = bench.clock.now();
+        CHECK_THAT(message_of([&] { display.video_rate_hz(); }), Contains("lines of a stream"));
+        CHECK(to_seconds(bench.clock.now() - asked) == Approx(0.5).margin(0.01));
+    }
+    SECTION("a reply without end") {
+        const SessionTime asked = bench.clock.now();
+        bench.box.far.send(asked + 1ms, "#VideoFrameRate;");
+        for (int i = 1; i < 100; ++i)
+            bench.box.far.send(asked + i * 100ms, "1");
+        bench.box.model.silent_on = {"VideoFrameRate"};
+        CHECK_THAT(message_of([&] { display.video_rate_hz(); }), Contains("no end of «#VideoFrameRate;»"));
+        CHECK(to_seconds(bench.clock.now() - asked) == Approx(5.0).margin(0.01));
+    }
 }
 
 TEST_CASE("an answer that is no rate is refused", "[unit]") {
@@ -128,6 +154,8 @@ TEST_CASE("a change of mode returns when the box is back and its rate is steady"
     CHECK(display.mode() == BoxMode::mono_plus_plus);
     display.set_mode(BoxMode::color_plus_plus);
     CHECK(bench.box.model.mode == "colorPlusPlus");
+    for (const char* spelling : {"colorPlusPlus", "colourPlusPlus"}) // no box is known to take both
+        CHECK(std::ranges::count(bench.box.model.commands, spelling) == 1);
 }
 
 TEST_CASE("a box that does not settle after a change of mode is an error that says what was seen", "[unit]") {
@@ -217,6 +245,16 @@ TEST_CASE("the check names each changed byte, finds a shift of the picture, and 
         CHECK_FALSE(report.shift_px);
         CHECK_THAT(report.description(),
                    Contains("line 2, pixel 17, green: sent 238, received 1") && Contains("gamma"));
+    }
+    SECTION("one pixel at the edge of a line of one colour, which is no shift") {
+        bench.box.model.video = [](int, int pixel) {
+            return pixel == 0 ? RgbBytes{9, 9, 9} : RgbBytes{5, 5, 5};
+        };
+        const auto report = display.check_video([] {
+            return std::vector<DrawnLine>{{1, std::vector<RgbBytes>(64, RgbBytes{5, 5, 5})}};
+        });
+        CHECK(report.changed == 9);
+        CHECK_FALSE(report.shift_px);
     }
     SECTION("shift") {
         for (const int shift : {1, -2, 8}) {
@@ -366,12 +404,36 @@ TEST_CASE("the box's clock is related to the session's to within the stated unce
     }
 }
 
-TEST_CASE("a clock reset line that the box does not read is an error", "[unit]") {
+TEST_CASE("a clock reset line that the box does not read, or much later than shown, is an error", "[unit]") {
     Bench bench;
     bench.box.clock_zero = SessionTime(-100s);
     auto display = bench.open();
-    const auto show_reset = [&] { return ShownClockReset{bench.clock.now(), bench.clock.now() + 8ms}; };
+    bool late = false;
+    const auto show_reset = [&] {
+        if (late)
+            bench.box.clock_zero = bench.clock.now() + 50ms;
+        return ShownClockReset{bench.clock.now(), bench.clock.now() + 8ms};
+    };
     CHECK_THAT(message_of([&] { display.relate_clocks(show_reset); }), Contains("did not restart"));
+    late = true;
+    CHECK_THAT(message_of([&] { display.relate_clocks(show_reset); }), Contains("did not restart"));
+}
+
+TEST_CASE("a reading of the clocks holds also when the first status line is a leftover", "[unit]") {
+    Bench bench;
+    bench.box.clock_zero = SessionTime(-100s);
+    auto display = bench.open();
+    bool first = true;
+    bench.box.mutate = [&](std::string line) {
+        if (line.find("#sample;") == 0 && first) {
+            first = false;
+            return BitsBoxModel().status_line(12.0);
+        }
+        return line;
+    };
+    const BoxClockPair pair = display.read_clocks();
+    CHECK(to_seconds(pair.box) >= bench.box.box_s(pair.before) - 1e-6);
+    CHECK(to_seconds(pair.box) <= bench.box.box_s(pair.after) + 1e-6);
 }
 
 TEST_CASE("status fields that are switched off on the box are said to be the reason", "[unit]") {

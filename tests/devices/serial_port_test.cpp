@@ -75,7 +75,7 @@ TEST_CASE("a serial port belongs to one program at a time", "[unit]") {
     {
         const SerialPort port(terminal.path(), clock);
         CHECK_THROWS_WITH(SerialPort(terminal.path(), clock),
-                          Contains(terminal.path()) && Contains("in use"));
+                          Contains(terminal.path()) && Contains("another program has the port open"));
     }
     CHECK_NOTHROW(SerialPort(terminal.path(), clock));
 }
