@@ -17,11 +17,13 @@ int run_export(const ExportOptions& options) {
         ProgressBar bar;
         TsvExportOptions tsv;
         tsv.overwrite = options.overwrite;
+        if (options.cone_deg)
+            tsv.cone_accuracy = Degrees{*options.cone_deg};
         tsv.progress = [&](int done, int all) {
             bar.update("exporting " + record.directory().filename().string(), done, all);
         };
         const TsvExportCounts counts = export_tsv(
-            record, [&](int sculpture) { return surfaces.maps_of(sculpture); }, out, tsv);
+            record, [&](int sculpture) { return surfaces.lookup_of(sculpture); }, out, tsv);
         bar.finish();
         const auto share = [&](std::int64_t part) {
             return counts.samples > 0

@@ -108,6 +108,12 @@ CoordinateMaps draw_maps(StimulusLibrary& library, const Sculpture& sculpture, i
         bar.update("mapping " + sculpture.id, static_cast<int>(maps.size()), static_cast<int>(frames.size()));
         angles.push_back(library.poses().angles[static_cast<std::size_t>(pose.value)]);
         maps.push_back(library.draw_map(index, pose));
+        if (maps.back().covered_pixels() == 0) {
+            throw InputError(
+                fmt::format("sculpture «{}» is nowhere in the picture at {:.3g} degrees: correct the camera "
+                            "under [view]",
+                            sculpture.id, angles.back().value));
+        }
     }
     return {sculpture.mesh, sculpture.scene, std::move(angles), std::move(maps)};
 }
@@ -134,8 +140,10 @@ int run_lut(const LutOptions& options) {
     std::vector<Sculpture> sculptures(protocol.sculptures.size());
     Sculpture& sculpture = sculptures[static_cast<std::size_t>(index)];
     sculpture = load_sculpture(settings, protocol, cache_folder());
-    if (!sculpture.has_mesh())
-        throw InputError(fmt::format("sculpture «{}» has no mesh to make maps of", sculpture.id));
+    if (!sculpture.has_mesh()) {
+        throw InputError(fmt::format("sculpture «{}» has no mesh to make maps of, or to check them against",
+                                     sculpture.id));
+    }
 
     const auto context = make_headless_context(options.context);
     StimulusLibrary library(*context, protocol, sculptures, cache_folder());

@@ -5,6 +5,7 @@
 #include "app/progress_bar.h"
 #include "app/protocol_file.h"
 #include "experiment/error.h"
+#include "render/given_maps.h"
 #include "render/light_probe.h"
 #include "render/ready_made_frames.h"
 
@@ -62,6 +63,21 @@ std::vector<Sculpture> examine_sculptures(const Protocol& protocol, const std::f
     return sculptures;
 }
 
+void examine_given_maps(const Protocol& protocol, Diagnostics& diagnostics) {
+    ProgressBar bar;
+    const int count = static_cast<int>(protocol.sculptures.size());
+    for (int i = 0; i < count; ++i) {
+        if (protocol.sculptures[static_cast<std::size_t>(i)].lut.empty())
+            continue;
+        bar.update("reading ready-made maps", i, count);
+        const Place place = protocol.places.of(fmt::format("sculpture[{}].lut", i));
+        examine(protocol, place, diagnostics, [&] {
+            for (const std::string& remark : check_given_maps(protocol, i))
+                diagnostics.warning(protocol.file.string(), place, as_finding(remark));
+        });
+    }
+}
+
 void examine_frames(const Protocol& protocol, Diagnostics& diagnostics) {
     ProgressBar bar;
     const int count = static_cast<int>(protocol.frames.size());
@@ -88,8 +104,10 @@ std::optional<Experiment> read_experiment(const std::filesystem::path& file,
     if (experiment.protocol.light.probe != "overcast")
         examine(experiment.protocol, experiment.protocol.places.of("light.probe"), diagnostics,
                 [&] { load_light_probe(experiment.protocol.light); });
-    if (depth == InputDepth::everything)
+    if (depth == InputDepth::everything) {
         examine_frames(experiment.protocol, diagnostics);
+        examine_given_maps(experiment.protocol, diagnostics);
+    }
     if (diagnostics.has_errors())
         return std::nullopt;
     return experiment;

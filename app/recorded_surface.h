@@ -4,28 +4,36 @@
 #include <map>
 #include <memory>
 
+#include "experiment/analysis/coordinate_image_lookup.h"
 #include "experiment/analysis/coordinate_maps.h"
 #include "experiment/record/session_record.h"
 
 namespace overt {
 
-/// Loads each sculpture's mesh and maps when it is first asked for.
+/// Loads each sculpture's mesh and maps when it is first asked for. Every one of these throws InputError or
+/// RecordError for damaged or missing files.
 class RecordedSurfaces {
   public:
     /// `record` must outlive this.
     explicit RecordedSurfaces(const SessionRecord& record) : record_(&record) {}
 
-    /// The maps of a sculpture, or null if it has none. Throws InputError or RecordError for damaged or
-    /// missing files.
+    /// Where gaze on a sculpture goes, be its maps of triangles or of coordinates; null if it has none.
+    const SurfaceLookup* lookup_of(int sculpture);
+    /// The maps of a sculpture with a mesh, or null if it has none.
     const CoordinateMaps* maps_of(int sculpture);
-    /// Only for a sculpture that has maps.
-    const Mesh& mesh_of(int sculpture) { return loaded_.at(sculpture)->mesh; }
+    /// Only for a sculpture that maps_of() is not null for.
+    const Mesh& mesh_of(int sculpture) { return surface_of(sculpture).mesh; }
 
   private:
     struct Surface {
         Mesh mesh;
-        std::unique_ptr<CoordinateMaps> maps;
+        std::unique_ptr<CoordinateMaps> maps;          ///< with a mesh
+        std::unique_ptr<CoordinateImageLookup> images; ///< without, if there are maps
     };
+    Surface& surface_of(int sculpture);
+    void load_maps(Surface& surface, int sculpture) const;
+    void load_images(Surface& surface, int sculpture) const;
+
     const SessionRecord* record_;
     std::map<int, std::unique_ptr<Surface>> loaded_;
 };

@@ -96,6 +96,7 @@ int run_session(const RunOptions& options) {
         };
         if (!rig.maps_are_live())
             rig.library().prepare_maps(show);
+        rig.library().prepare_given_maps(show);
         rig.library().prepare_frames(show);
     }
     rig.open();

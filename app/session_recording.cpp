@@ -29,6 +29,20 @@ std::string map_name(const std::string& sculpture, PoseIndex pose) {
     return fmt::format("maps/{}/pose_{:02}.exr", sculpture, pose.value);
 }
 
+void add_prepared_maps(SessionHeader& header, const std::string& id, int sculpture,
+                       const StimulusLibrary& library) {
+    const auto kind =
+        library.has_given_maps(sculpture) ? RecordedMap::Kind::coordinates : RecordedMap::Kind::triangles;
+    for (int pose = 0; pose < static_cast<int>(library.poses().angles.size()); ++pose) {
+        header.maps.push_back({sculpture,
+                               {pose},
+                               map_name(id, {pose}),
+                               hash_of_file(library.map_file(sculpture, {pose})),
+                               RecordedMap::Made::prepared,
+                               kind});
+    }
+}
+
 void describe_sculptures(SessionHeader& header, const Protocol& protocol,
                          std::span<const Sculpture> sculptures, const StimulusLibrary& library,
                          bool with_prepared_maps) {
@@ -44,14 +58,14 @@ void describe_sculptures(SessionHeader& header, const Protocol& protocol,
             recorded.camera = sculpture.scene.view.camera;
             recorded.bounds = sculpture.scene.bounds;
             recorded.axis_point = sculpture.scene.bounds.centre();
-            const int poses = with_prepared_maps ? static_cast<int>(library.poses().angles.size()) : 0;
-            for (int pose = 0; pose < poses; ++pose) {
-                header.maps.push_back({static_cast<int>(i),
-                                       {pose},
-                                       map_name(sculpture.id, {pose}),
-                                       hash_of_file(library.map_file(static_cast<int>(i), {pose})),
-                                       RecordedMap::Made::prepared});
-            }
+            if (with_prepared_maps)
+                add_prepared_maps(header, recorded.id, static_cast<int>(i), library);
+        } else if (library.has_given_maps(static_cast<int>(i))) {
+            const SceneView scene = library.scene_of_given_maps(static_cast<int>(i));
+            recorded.camera = scene.view.camera;
+            recorded.bounds = scene.bounds;
+            recorded.axis_point = scene.bounds.centre();
+            add_prepared_maps(header, recorded.id, static_cast<int>(i), library);
         }
         header.sculptures.push_back(std::move(recorded));
     }

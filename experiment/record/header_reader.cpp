@@ -98,13 +98,19 @@ void read_sculptures(const SQLite::Database& database, SessionHeader& header) {
     }
     for (Query row(database, "SELECT sculpture, material, source, frames_sha256 FROM stimulus"); row.step();)
         header.stimuli.push_back({{row.small(), row.small()}, row.text(), row.text()});
-    for (Query row(database, "SELECT sculpture, pose, file, sha256, made FROM map"); row.step();)
+    // In version 1 all maps were of triangles.
+    Query version(database, "PRAGMA user_version");
+    const bool has_kind = version.step() && version.small() >= 2;
+    for (Query row(database, has_kind ? "SELECT sculpture, pose, file, sha256, made, kind FROM map"
+                                      : "SELECT sculpture, pose, file, sha256, made, 'triangles' FROM map");
+         row.step();)
         header.maps.push_back(
             {row.small(),
              {row.small()},
              row.text(),
              row.text(),
-             row.text() == "prepared" ? RecordedMap::Made::prepared : RecordedMap::Made::live});
+             row.text() == "prepared" ? RecordedMap::Made::prepared : RecordedMap::Made::live,
+             row.text() == "triangles" ? RecordedMap::Kind::triangles : RecordedMap::Kind::coordinates});
 }
 
 } // namespace

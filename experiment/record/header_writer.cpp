@@ -72,8 +72,9 @@ void insert_sculptures(SQLite::Database& database, const SessionHeader& header) 
         insert(database, "INSERT INTO stimulus VALUES (?,?,?,?)", stimulus.condition.sculpture,
                stimulus.condition.material, stimulus.source, stimulus.frames_sha256);
     for (const RecordedMap& map : header.maps)
-        insert(database, "INSERT INTO map VALUES (?,?,?,?,?)", map.sculpture, map.pose.value, map.file,
-               map.sha256, map.made == RecordedMap::Made::prepared ? "prepared" : "live");
+        insert(database, "INSERT INTO map VALUES (?,?,?,?,?,?)", map.sculpture, map.pose.value, map.file,
+               map.sha256, map.made == RecordedMap::Made::prepared ? "prepared" : "live",
+               map.kind == RecordedMap::Kind::triangles ? "triangles" : "coordinates");
 }
 
 } // namespace

@@ -56,7 +56,8 @@ RowWriter::RowWriter(const std::filesystem::path& session_file, const std::strin
       insert_sample_(database_, "INSERT INTO sample VALUES (?,?,?,?,?,?,?)"),
       insert_clock_pair_(database_, "INSERT INTO clock_pair VALUES (NULL,?,?,?,?)"),
       insert_event_(database_, "INSERT INTO event VALUES (NULL,?,?,?,?,?)"),
-      insert_map_(database_, "INSERT OR REPLACE INTO map VALUES (?,?,?,?,?)"),
+      insert_map_(database_,
+                  "INSERT OR REPLACE INTO map (sculpture, pose, file, sha256, made) VALUES (?,?,?,?,?)"),
       insert_trial_(database_,
                     "INSERT INTO trial (trial_id, sitting, trial, attempt, task, sculpture, material, "
                     "status, started_ns) VALUES (?,?,?,?,?,?,?,'open',?)"),

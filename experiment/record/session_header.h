@@ -63,9 +63,9 @@ struct RecordedSculpture {
     std::string id;
     std::string title;
     ContentHash mesh_sha256;
-    std::string mesh_file;               ///< relative to the session's directory
+    std::string mesh_file;               ///< relative to the session's directory; empty without a mesh
     std::vector<std::string> part_names; ///< by PartIndex
-    Camera camera;
+    Camera camera;              ///< a field of view of 0 if it is not known, as ready-made maps may leave it
     glm::dvec3 axis_point{0.0}; ///< through which the vertical axis of the turn goes
     Bounds bounds;              ///< by which the maps are coded
 };
@@ -84,11 +84,14 @@ struct RecordedStimulus {
 /// A coordinate-encoded map of a sculpture in a pose.
 struct RecordedMap {
     enum class Made : std::uint8_t { prepared, live };
+    /// What its file holds: numbers of triangles (triangle_map.h), or coordinates (coordinate_image_file.h).
+    enum class Kind : std::uint8_t { triangles, coordinates };
     int sculpture = 0;
     PoseIndex pose;
     std::string file; ///< relative to the session's directory
     ContentHash sha256;
     Made made = Made::prepared; ///< before the session, or while the frame was shown
+    Kind kind = Kind::triangles;
 };
 
 struct SessionHeader {

@@ -48,6 +48,7 @@ CREATE TABLE pose (pose INTEGER PRIMARY KEY, angle_deg REAL NOT NULL) STRICT;
 CREATE TABLE animation_frame (frame INTEGER PRIMARY KEY, pose INTEGER NOT NULL) STRICT;
 CREATE TABLE map (sculpture INTEGER NOT NULL, pose INTEGER NOT NULL, file TEXT NOT NULL, sha256 TEXT NOT NULL,
                   made TEXT NOT NULL CHECK (made IN ('prepared', 'live')),
+                  kind TEXT NOT NULL DEFAULT 'triangles' CHECK (kind IN ('triangles', 'coordinates')),
                   PRIMARY KEY (sculpture, pose)) STRICT, WITHOUT ROWID;
 CREATE TABLE sitting (sitting INTEGER PRIMARY KEY, started_utc TEXT NOT NULL,
                       closed INTEGER NOT NULL) STRICT;

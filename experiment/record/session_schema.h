@@ -10,7 +10,7 @@ namespace overt {
 inline constexpr std::int32_t session_application_id = 0x4f767274;
 
 /// PRAGMA user_version. Raised whenever a reader of an older version would misread the file.
-inline constexpr int session_schema_version = 1;
+inline constexpr int session_schema_version = 2;
 
 /// Name of the session file in a session's directory.
 inline constexpr const char* session_file_name = "session.sqlite";

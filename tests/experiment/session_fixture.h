@@ -57,7 +57,8 @@ inline SessionHeader example_header() {
     header.sculptures = {bust, vase};
     header.materials = {{"gold", "Gold"}, {"silver", "Silver"}};
     header.stimuli = {{{0, 0}, "rendered", std::string(64, 'c')}, {{1, 1}, "given: a/##.exr", ""}};
-    header.maps = {{0, {2}, "maps/bust_02.exr", std::string(64, 'd'), RecordedMap::Made::prepared},
+    header.maps = {{0, {2}, "maps/bust_02.exr", std::string(64, 'd'), RecordedMap::Made::prepared,
+                    RecordedMap::Kind::coordinates},
                    {1, {0}, "maps/vase_00.exr", std::string(64, 'e'), RecordedMap::Made::live}};
     return header;
 }

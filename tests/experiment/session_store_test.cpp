@@ -174,6 +174,7 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
         CHECK(out.maps[i].file == in.maps[i].file);
         CHECK(out.maps[i].sha256 == in.maps[i].sha256);
         CHECK(out.maps[i].made == in.maps[i].made);
+        CHECK(out.maps[i].kind == in.maps[i].kind);
     }
 }
 
