@@ -149,6 +149,12 @@ int run_command_line(int argc, char** argv) {
                     "Folder to write to (default: export_tsv in the session; for several sessions a folder "
                     "each is made in it)")
         ->type_name("DIR");
+    export_command
+        .add_option("--cone-deg", exporting.cone_deg,
+                    "Add the probability that the gaze was on the sculpture, and on each of its parts, for a "
+                    "tracker that is so far off on average (a usual accuracy: 0.5)")
+        ->type_name("DEG")
+        ->check(CLI::Range(0.0, 20.0));
     export_command.add_flag("--overwrite", exporting.overwrite, "Replace an export that is there");
     export_command.callback([&] { command = [&] { return run_export(exporting); }; });
 
@@ -213,6 +219,46 @@ int run_command_line(int argc, char** argv) {
     add_context_option(lut_command, lut.context);
     lut_command.add_flag("--json", lut.json, "Print JSON");
     lut_command.callback([&] { command = [&] { return run_lut(lut); }; });
+
+    ReconstructOptions reconstruct;
+    auto& reconstruct_command = add_command(
+        app, "reconstruct",
+        "Writes what the maps show of the object: a surface of one frame, or a cloud of all",
+        "overt reconstruct protocols/overt_2019.toml --stimulus muse --frame 15 --out muse_15.ply\n"
+        "  overt reconstruct protocols/overt_2019.toml --stimulus muse --frame all --out muse_cloud.ply");
+    reconstruct_command.add_option("PROTOCOL", reconstruct.protocol, "Protocol file (TOML)")->required();
+    reconstruct_command
+        .add_option("--stimulus", reconstruct.stimulus,
+                    "SCULPTURE or SCULPTURE/MATERIAL by their ids; the maps are the same for all materials")
+        ->required()
+        ->type_name("ID");
+    reconstruct_command
+        .add_option_function<std::string>(
+            "--frame",
+            [&reconstruct](const std::string& frame) {
+                if (frame != "all")
+                    reconstruct.frame = std::stoi(frame);
+            },
+            "Animation frame: the triangles between its pixels, cut at silhouettes and where one part hides "
+            "another; or all: a cloud of the points that any frame shows")
+        ->required()
+        ->check(CLI::IsMember({"all"}) | CLI::Range(0, 9999))
+        ->type_name("K|all");
+    reconstruct_command.add_flag("--points", reconstruct.points, "A cloud of points also of one frame");
+    reconstruct_command
+        .add_option(
+            "--spacing", reconstruct.spacing,
+            "Keep one point in each cube of this size, in the unit of the mesh (default: the distance "
+            "of neighbouring pixels)")
+        ->type_name("SIZE")
+        ->check(CLI::NonNegativeNumber);
+    reconstruct_command.add_option("--out", reconstruct.out, "File to write: .ply or .obj")
+        ->required()
+        ->type_name("FILE");
+    reconstruct_command.add_flag("--overwrite", reconstruct.overwrite, "Replace a file that is there");
+    add_context_option(reconstruct_command, reconstruct.context);
+    reconstruct_command.add_flag("--json", reconstruct.json, "Print JSON");
+    reconstruct_command.callback([&] { command = [&] { return run_reconstruct(reconstruct); }; });
 
     BenchOptions bench;
     auto& bench_command = add_command(app, "bench", "The program's own benchmarks",

@@ -58,6 +58,7 @@ struct ExportOptions {
     std::string format = "tsv";
     std::filesystem::path out;
     bool overwrite = false;
+    std::optional<double> cone_deg; ///< add the probabilities of a gaze cone of this accuracy
 };
 int run_export(const ExportOptions& options);
 
@@ -87,6 +88,19 @@ struct LutOptions {
     bool json = false;
 };
 int run_lut(const LutOptions& options);
+
+struct ReconstructOptions {
+    std::filesystem::path protocol;
+    std::string stimulus;      ///< SCULPTURE or SCULPTURE/MATERIAL
+    std::optional<int> frame;  ///< nothing: all
+    bool points = false;       ///< a cloud also of one frame
+    double spacing = 0.0;      ///< of a cloud's points, in the unit of the mesh; 0: as the pixels have it
+    std::filesystem::path out; ///< .ply or .obj
+    ContextChoice context;
+    bool overwrite = false;
+    bool json = false;
+};
+int run_reconstruct(const ReconstructOptions& options);
 
 struct BenchOptions {
     std::string what;           ///< which benchmark

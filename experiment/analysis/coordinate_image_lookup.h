@@ -31,6 +31,11 @@ class CoordinateImageLookup final : public SurfaceLookup {
     std::optional<SurfacePoint> surface_at(PoseIndex pose, glm::dvec2 image_point_px) const override;
     void look(std::span<const ImagePlace> places, std::span<Sight* const> sights) const override;
 
+    /// By the steps of the map, as above.
+    bool goes_on(PoseIndex pose, glm::ivec2 pixel, glm::ivec2 neighbour) const override {
+        return belong_together(patches_[static_cast<std::size_t>(pose.value)], pixel, neighbour - pixel);
+    }
+
     std::size_t pose_count() const { return patches_.size(); }
     glm::ivec2 image_px() const { return image_px_; }
 

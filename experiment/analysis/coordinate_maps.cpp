@@ -146,18 +146,27 @@ std::optional<PartIndex> CoordinateMaps::part_near(PoseIndex pose, glm::dvec2 po
     return cell.is_covered() ? std::optional(mesh_->triangle_parts[cell.triangle()]) : std::nullopt;
 }
 
-bool CoordinateMaps::is_one_sheet(PoseIndex pose, glm::ivec2 pixel, glm::ivec2 next) const {
-    const PixelCell here = cells(pose).cell(pixel), there = cells(pose).cell(next);
+bool CoordinateMaps::goes_on(PoseIndex pose, glm::ivec2 pixel, glm::ivec2 neighbour) const {
+    const PoseCells& of_pose = cells(pose);
+    if (!of_pose.is_inside(pixel) || !of_pose.is_inside(neighbour))
+        return false;
+    const PixelCell here = of_pose.cell(pixel), there = of_pose.cell(neighbour);
     if (!here.is_covered() || !there.is_covered())
         return false;
     if (!here.is_contested() && !there.is_contested())
         return true;
     const SightLines& lines = sight_lines(pose);
-    const glm::dvec3 direction = lines.direction_through(glm::dvec2(next) + 0.5);
+    const glm::dvec3 direction = lines.direction_through(glm::dvec2(neighbour) + 0.5);
     Meeting walked, shown;
     return walk_.meet(here.triangle(), lines.origin(), direction, walked) &&
            walk_.meet(there.triangle(), lines.origin(), direction, shown) &&
            walked.triangle == shown.triangle;
+}
+
+bool CoordinateMaps::is_visible(PoseIndex pose, glm::dvec3 object_point) const {
+    const glm::dvec3 seen = sight_lines(pose).project(object_point);
+    return seen.z > 0.0 && is_in_image(glm::dvec2(seen)) &&
+           !caster_.is_hidden(object_point, sight_lines(pose).origin());
 }
 
 } // namespace overt

@@ -32,6 +32,8 @@ class CoordinateMaps final : public SurfaceLookup {
     std::optional<SurfacePoint> surface_at(PoseIndex pose, glm::dvec2 image_point_px) const override;
     void look(std::span<const ImagePlace> places, std::span<Sight* const> sights) const override;
     std::optional<PartIndex> part_near(PoseIndex pose, glm::dvec2 image_point_px) const override;
+    /// By the mesh: walking along the surface from the one pixel's centre leads to the other's.
+    bool goes_on(PoseIndex pose, glm::ivec2 pixel, glm::ivec2 neighbour) const override;
 
     const Mesh& mesh() const { return *mesh_; }
     glm::ivec2 image_px() const { return image_px_; }
@@ -40,8 +42,8 @@ class CoordinateMaps final : public SurfaceLookup {
     const SightLines& sight_lines(PoseIndex pose) const {
         return sight_lines_[static_cast<std::size_t>(pose.value)];
     }
-    /// The surface at a pixel's centre goes on to the next pixel's: the mesh is one sheet between them.
-    bool is_one_sheet(PoseIndex pose, glm::ivec2 pixel, glm::ivec2 next) const;
+    /// A point of the surface is in the image and nothing hides it.
+    bool is_visible(PoseIndex pose, glm::dvec3 object_point) const;
 
     /// The same as ever was given.
     TriangleMap map(PoseIndex pose) const { return cells(pose).map(); }

@@ -57,6 +57,10 @@ class SurfaceLookup {
         const std::optional<SurfacePoint> surface = surface_at(pose, image_point_px);
         return surface ? std::optional(surface->part) : std::nullopt;
     }
+
+    /// The surface at the centre of a pixel goes on to that of a neighbouring one: no edge lies between them
+    /// across which one would step from one sheet of surface to another. False where either shows no surface.
+    virtual bool goes_on(PoseIndex pose, glm::ivec2 pixel, glm::ivec2 neighbour) const = 0;
 };
 
 } // namespace overt

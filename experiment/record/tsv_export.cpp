@@ -7,7 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "experiment/analysis/gaze_cone.h"
+#include "experiment/analysis/surface_walk.h"
 #include "experiment/error.h"
+#include "experiment/parallel.h"
 #include "experiment/record/partial_directory.h"
 #include "experiment/record/sample_join.h"
 #include "experiment/record/tsv_tables.h"
@@ -24,6 +27,8 @@ constexpr int pixel_decimals = 3; // a thousandth of a pixel
 constexpr int pupil_decimals = 4;
 constexpr int surface_decimals = 6; // a nanometre, if the mesh is in millimetres
 constexpr int incidence_decimals = 4;
+constexpr int silhouette_decimals = 4; // a hundredth of a pixel
+constexpr int probability_decimals = 4;
 
 template <class List> const auto* item(const List& list, int index) {
     return index >= 0 && static_cast<std::size_t>(index) < list.size()
@@ -31,14 +36,21 @@ template <class List> const auto* item(const List& list, int index) {
                : nullptr;
 }
 
+/// People count trials from 1.
+int number_of(const Trial& trial) { return trial.index + 1; }
+
 /// Writes one session's tables into a directory.
 class TsvExport {
   public:
-    TsvExport(const SessionRecord& record, const fs::path& directory)
-        : record_(record), header_(record.header()), tables_(header_), trials_(directory, tables_.trials),
-          flips_(directory, tables_.flips), samples_(directory, tables_.samples),
-          events_(directory, tables_.events), responses_(directory, tables_.responses),
-          stimuli_(directory, tables_.stimuli), directory_(directory) {}
+    TsvExport(const SessionRecord& record, const fs::path& directory, std::optional<Degrees> cone_accuracy)
+        : record_(record), header_(record.header()), tables_(header_, cone_accuracy),
+          trials_(directory, tables_.trials), flips_(directory, tables_.flips),
+          samples_(directory, tables_.samples), events_(directory, tables_.events),
+          responses_(directory, tables_.responses), stimuli_(directory, tables_.stimuli),
+          directory_(directory) {
+        if (cone_accuracy)
+            cone_.emplace(header_.display.screen, *cone_accuracy);
+    }
 
     void write_trial(const TrialRecord& trial, const SurfaceLookup* lookup);
     void write_attempt_without_rows(const TrialRecord& trial);
@@ -53,6 +65,11 @@ class TsvExport {
     TsvExportCounts write_samples(const TrialRecord& trial, const SurfaceLookup* lookup);
     void write_sample(const GazeSample& sample, const JoinedSample& joined,
                       const std::vector<std::string>& part_cells);
+    std::vector<GazeCone::Shares> cone_shares(const SurfaceLookup& lookup,
+                                              const std::vector<GazeSample>& samples,
+                                              const std::vector<JoinedSample>& joined,
+                                              std::size_t parts) const;
+    void write_cone(const GazeCone::Shares& shares, int sculpture);
     void write_response(const TrialRecord& trial);
     void angle(TsvWriter& writer, PoseIndex pose) const;
 
@@ -61,6 +78,7 @@ class TsvExport {
     const TsvTables tables_;
     TsvWriter trials_, flips_, samples_, events_, responses_, stimuli_;
     const fs::path directory_;
+    std::optional<GazeCone> cone_;
     TsvExportCounts counts_;
 };
 
@@ -77,7 +95,7 @@ void TsvExport::angle(TsvWriter& writer, PoseIndex pose) const {
 }
 
 void TsvExport::begin_trial_row(const TrialRecord& trial) {
-    trials_.integer(trial.trial.index).integer(trial.attempt).integer(trial.sitting);
+    trials_.integer(number_of(trial.trial)).integer(trial.attempt).integer(trial.sitting);
     trials_.ready(condition_cells(trial.trial), 3).ready(name_of(trial.status)).seconds(trial.started);
 }
 
@@ -116,7 +134,7 @@ void TsvExport::write_trial(const TrialRecord& trial, const SurfaceLookup* looku
 
 void TsvExport::write_flips(const TrialRecord& trial) {
     for (const FlipRecord& flip : record_.flips(trial)) {
-        flips_.integer(trial.trial.index).integer(flip.refresh_in_trial);
+        flips_.integer(number_of(trial.trial)).integer(flip.refresh_in_trial);
         flips_.integer(flip.planned.value).integer(flip.shown.value);
         angle(flips_, flip.page);
         flips_.seconds(flip.report.requested)
@@ -131,20 +149,30 @@ void TsvExport::write_flips(const TrialRecord& trial) {
 
 TsvExportCounts TsvExport::write_samples(const TrialRecord& trial, const SurfaceLookup* lookup) {
     const SampleJoin join(record_, trial, lookup);
-    const std::string trial_cells = fmt::format("{}\t{}", trial.trial.index, condition_cells(trial.trial));
+    const std::string trial_cells =
+        fmt::format("{}\t{}", number_of(trial.trial), condition_cells(trial.trial));
     std::vector<std::string> part_cells;
     for (const std::string& name : item(header_.sculptures, trial.trial.condition.sculpture)->part_names)
         part_cells.push_back(tsv_cell(name));
 
+    const std::vector<GazeSample> samples = record_.samples(trial);
+    std::vector<JoinedSample> joined(samples.size());
+    join.join(samples, joined);
+    std::vector<GazeCone::Shares> shares;
+    if (cone_ && lookup)
+        shares = cone_shares(*lookup, samples, joined, part_cells.size());
+
     TsvExportCounts counts;
-    for (const GazeSample& sample : record_.samples(trial)) {
-        const JoinedSample joined = join.join(sample);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
         samples_.ready(trial_cells, 4);
-        write_sample(sample, joined, part_cells);
+        write_sample(samples[i], joined[i], part_cells);
+        if (cone_)
+            write_cone(shares.empty() ? GazeCone::Shares{} : shares[i], trial.trial.condition.sculpture);
+        samples_.end_row();
         ++counts.samples;
-        counts.samples_without_gaze += !sample.gaze;
-        counts.samples_on_object += joined.sight.surface.has_value();
-        counts.samples_off_plan += joined.off_plan;
+        counts.samples_without_gaze += !samples[i].gaze;
+        counts.samples_on_object += joined[i].sight.surface.has_value();
+        counts.samples_off_plan += joined[i].off_plan;
     }
     return counts;
 }
@@ -176,19 +204,53 @@ void TsvExport::write_sample(const GazeSample& sample, const JoinedSample& joine
     if (const auto& surface = joined.sight.surface) {
         for (const double coordinate : {surface->position.x, surface->position.y, surface->position.z})
             samples_.fixed(coordinate, surface_decimals);
-        samples_.integer(surface->triangle);
+        surface->triangle == no_triangle ? samples_.missing() : samples_.integer(surface->triangle);
         const std::string* const part = item(part_cells, surface->part);
         part ? samples_.ready(*part) : samples_.missing();
         samples_.fixed(surface->depth, surface_decimals).fixed(surface->incidence.value, incidence_decimals);
     } else {
         samples_.missing(7);
     }
-    samples_.end_row();
+    joined.outline_distance ? samples_.fixed(joined.outline_distance->value, silhouette_decimals)
+                            : samples_.missing();
+}
+
+/// Of each sample that fell on a lit frame; the others' shares are empty.
+std::vector<GazeCone::Shares> TsvExport::cone_shares(const SurfaceLookup& lookup,
+                                                     const std::vector<GazeSample>& samples,
+                                                     const std::vector<JoinedSample>& joined,
+                                                     std::size_t parts) const {
+    std::vector<GazeCone::Shares> shares(samples.size());
+    constexpr std::size_t batch = 256;
+    parallel_for(static_cast<int>((samples.size() + batch - 1) / batch), [&](int index) {
+        const std::size_t begin = static_cast<std::size_t>(index) * batch;
+        for (std::size_t i = begin; i < std::min(begin + batch, samples.size()); ++i) {
+            if (joined[i].shown)
+                shares[i] = cone_->shares(lookup, joined[i].shown->pose, *samples[i].gaze, parts);
+        }
+    });
+    return shares;
+}
+
+void TsvExport::write_cone(const GazeCone::Shares& shares, int sculpture) {
+    const std::vector<std::string>& own_parts = item(header_.sculptures, sculpture)->part_names;
+    if (shares.of_part.empty()) {
+        samples_.missing(1 + static_cast<int>(tables_.cone_parts.size()));
+        return;
+    }
+    samples_.fixed(shares.of_object, probability_decimals);
+    for (const std::string& name : tables_.cone_parts) {
+        const auto own = std::find(own_parts.begin(), own_parts.end(), name);
+        own == own_parts.end()
+            ? samples_.missing()
+            : samples_.fixed(shares.of_part[static_cast<std::size_t>(own - own_parts.begin())],
+                             probability_decimals);
+    }
 }
 
 void TsvExport::write_response(const TrialRecord& trial) {
     const TrialOutcome& outcome = trial.outcome;
-    responses_.integer(trial.trial.index).ready(condition_cells(trial.trial), 3);
+    responses_.integer(number_of(trial.trial)).ready(condition_cells(trial.trial), 3);
     responses_.text(item(header_.tasks, trial.trial.task)->question)
         .seconds(outcome.response_screen_onset)
         .seconds(outcome.responded_at)
@@ -200,7 +262,7 @@ void TsvExport::write_response(const TrialRecord& trial) {
 void TsvExport::write_what_belongs_to_no_trial() {
     for (const RecordedEvent& event : record_.events()) {
         events_.seconds(event.at);
-        event.trial < 0 ? events_.missing() : events_.integer(event.trial);
+        event.trial < 0 ? events_.missing() : events_.integer(event.trial + 1);
         events_.text(event.kind).text(event.detail).end_row();
     }
     for (const RecordedStimulus& stimulus : header_.stimuli) {
@@ -249,7 +311,7 @@ TsvExportCounts export_tsv(const SessionRecord& record, const LookupFor& lookup_
                            const fs::path& directory, const TsvExportOptions& options) {
     refuse_target(record.header(), directory, options.overwrite);
     PartialDirectory partial(directory);
-    TsvExport tables(record, partial.path());
+    TsvExport tables(record, partial.path(), options.cone_accuracy);
     const int all = static_cast<int>(record.trials().size());
     int done = 0;
     for (const TrialRecord& trial : record.trials()) {

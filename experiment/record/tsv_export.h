@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 #include "experiment/analysis/surface_point.h"
 #include "experiment/record/session_record.h"
@@ -13,6 +14,8 @@ namespace overt {
 struct TsvExportOptions {
     bool overwrite = false;                          ///< replace an earlier export
     std::function<void(int done, int all)> progress; ///< told after each trial; may be empty
+    /// Adds columns with the probabilities of a gaze cone (see GazeCone) of this accuracy to samples.tsv.
+    std::optional<Degrees> cone_accuracy = {};
 };
 
 /// What was written.

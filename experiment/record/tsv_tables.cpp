@@ -22,7 +22,7 @@ struct SharedColumns {
         for (const RecordedMaterial& entry : header.materials)
             material.levels.emplace_back(entry.id, entry.title);
     }
-    TsvColumn trial{"trial", "Position of the trial in the observer's order, from 0", "", {}};
+    TsvColumn trial{"trial", "Position of the trial in the observer's order, from 1", "", {}};
     TsvColumn task{"task", "Which question was asked", "", {}};
     TsvColumn sculpture{"sculpture", "Which sculpture was shown", "", {}};
     TsvColumn material{"material", "In which material it was shown", "", {}};
@@ -91,13 +91,19 @@ TsvTable flips_table(const SharedColumns& shared) {
              {"missed", "Refreshes that went by with the old picture before this one", "", {}}}};
 }
 
-TsvTable samples_table(const SharedColumns& shared, const SessionHeader& header) {
-    TsvColumn part{"part", "Part of the figure that is looked at", "", {}};
+std::vector<std::string> all_part_names(const SessionHeader& header) {
+    std::vector<std::string> names;
     for (const RecordedSculpture& sculpture : header.sculptures)
         for (const std::string& name : sculpture.part_names)
-            if (std::none_of(part.levels.begin(), part.levels.end(),
-                             [&](const auto& level) { return level.first == name; }))
-                part.levels.emplace_back(name, fmt::format("the triangles labelled «{}»", name));
+            if (std::find(names.begin(), names.end(), name) == names.end())
+                names.push_back(name);
+    return names;
+}
+
+TsvTable samples_table(const SharedColumns& shared, const SessionHeader& header) {
+    TsvColumn part{"part", "Part of the figure that is looked at", "", {}};
+    for (const std::string& name : all_part_names(header))
+        part.levels.emplace_back(name, fmt::format("the triangles labelled «{}»", name));
     const std::string mesh_unit = "unit of the mesh";
     return {
         "samples.tsv",
@@ -121,20 +127,48 @@ TsvTable samples_table(const SharedColumns& shared, const SessionHeader& header)
          {"surface_x", "Place on the unturned surface", mesh_unit, {}},
          {"surface_y", "Place on the unturned surface", mesh_unit, {}},
          {"surface_z", "Place on the unturned surface, upwards", mesh_unit, {}},
-         {"triangle", "Index of the mesh's triangle, from 0", "", {}},
+         {"triangle", "Index of the mesh's triangle, from 0; n/a where maps were given without a mesh", "", {}},
          part,
          {"depth", "Distance of the surface from the camera along the viewing direction", mesh_unit, {}},
          {"incidence_deg",
           "Angle between the line of sight and the surface's normal, 0 is head-on",
           "deg",
+          {}},
+         {"silhouette_distance_deg",
+          "Visual angle from the gaze to the nearest place of the outline of the sculpture's picture: "
+          "positive "
+          "beside the sculpture, negative on it; n/a without gaze, when no frame was lit, or if the "
+          "sculpture "
+          "has no map. Right to within a pixel",
+          "deg",
           {}}}};
+}
+
+/// What stands after the columns of samples_table if there is a gaze cone.
+void add_cone_columns(TsvTable& samples, const std::vector<std::string>& parts, Degrees accuracy) {
+    samples.columns.push_back(
+        {"p_object",
+         fmt::format(
+             "Probability that the gaze was on the sculpture, taking the tracker to be {} degrees off "
+             "on average, normally distributed to all sides; n/a as in silhouette_distance_deg",
+             accuracy.value),
+         "",
+         {}});
+    for (const std::string& part : parts)
+        samples.columns.push_back(
+            {"p_" + part,
+             fmt::format("The same for the part «{}»; n/a, too, if the sculpture has no such part. All parts "
+                         "together make p_object",
+                         part),
+             "",
+             {}});
 }
 
 TsvTable events_table() {
     return {"events.tsv",
             "What happened besides flips and samples, in all attempts and between trials.",
             {session_seconds("time_s", "When it happened"),
-             {"trial", "Position of the trial in the observer's order, from 0", "", {}},
+             {"trial", "Position of the trial in the observer's order, from 1", "", {}},
              {"kind", "What happened", "", {}},
              {"detail", "Particulars", "", {}}}};
 }
@@ -179,11 +213,15 @@ nlohmann::ordered_json describe(const TsvTable& table) {
 
 } // namespace
 
-TsvTables::TsvTables(const SessionHeader& header) {
+TsvTables::TsvTables(const SessionHeader& header, std::optional<Degrees> cone_accuracy) {
     const SharedColumns shared(header);
     trials = trials_table(shared);
     flips = flips_table(shared);
     samples = samples_table(shared, header);
+    if (cone_accuracy) {
+        cone_parts = all_part_names(header);
+        add_cone_columns(samples, cone_parts, *cone_accuracy);
+    }
     events = events_table();
     responses = responses_table(shared);
     stimuli = stimuli_table(shared);

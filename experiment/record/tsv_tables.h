@@ -2,16 +2,23 @@
 /// from here.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "experiment/record/session_header.h"
 #include "experiment/record/tsv_writer.h"
+#include "experiment/units.h"
 
 namespace overt {
 
 /// All tables of one session's export. Levels name the session's own tasks, sculptures and materials.
 struct TsvTables {
-    explicit TsvTables(const SessionHeader& header);
+    /// With the columns of a gaze cone if its accuracy is given.
+    explicit TsvTables(const SessionHeader& header, std::optional<Degrees> cone_accuracy = {});
+
+    /// The parts of all sculptures, each name once: a cone has a column for each, after p_object.
+    std::vector<std::string> cone_parts;
 
     TsvTable trials, flips, samples, events, responses, stimuli;
 };
