@@ -5,6 +5,7 @@
 
 #include "app/cache_folder.h"
 #include "app/commands.h"
+#include "app/frame_light.h"
 #include "app/protocol_file.h"
 #include "app/protocol_inputs.h"
 #include "experiment/protocol/design_report.h"
@@ -51,11 +52,15 @@ int run_check(const CheckOptions& options) {
         nlohmann::ordered_json json = diagnostics.to_json();
         if (experiment)
             json["design"] = to_json(report_on(*experiment, options));
+        if (experiment && options.frames)
+            json["light"] = to_json(measure_light(*experiment));
         text = json.dump(2) + "\n";
     } else {
         print_findings(diagnostics);
         if (experiment)
             text = to_text(report_on(*experiment, options));
+        if (experiment && options.frames)
+            text += to_text(measure_light(*experiment));
     }
     std::fwrite(text.data(), 1, text.size(), stdout);
     return experiment ? 0 : 2;

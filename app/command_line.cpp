@@ -68,6 +68,8 @@ int run_command_line(int argc, char** argv) {
                     "Seconds an answer is taken to last, for the session's length")
         ->type_name("S")
         ->capture_default_str();
+    check_command.add_flag("--frames", check.frames,
+                           "Read every frame, and say how much of its light the display cannot show");
     check_command.add_flag("--json", check.json, "Print JSON");
     check_command.callback([&] { command = [&] { return run_check(check); }; });
 
@@ -114,6 +116,9 @@ int run_command_line(int argc, char** argv) {
             "graphics processor)")
         ->transform(CLI::CheckedTransformer(map_times))
         ->type_name("auto|live|prepared");
+    run_command.add_flag("--verify-output", run.verify_output,
+                         "Decode every page before the first trial, compare it with its prediction, and "
+                         "record the result with the hash of what is sent");
     add_context_option(run_command, run.context);
     run_command.callback([&] { command = [&] { return run_session(run); }; });
 
@@ -259,6 +264,28 @@ int run_command_line(int argc, char** argv) {
     add_context_option(reconstruct_command, reconstruct.context);
     reconstruct_command.add_flag("--json", reconstruct.json, "Print JSON");
     reconstruct_command.callback([&] { command = [&] { return run_reconstruct(reconstruct); }; });
+
+    auto& display_command =
+        add_command(app, "display", "The way to the display", "overt display verify --context osmesa");
+    display_command.require_subcommand(1);
+    DisplayVerifyOptions verify;
+    auto& verify_command = add_command(
+        display_command, "verify",
+        "Draws all levels, random light, edges and stimuli, reads them back, decodes them, and counts what "
+        "differs",
+        "overt display verify\n"
+        "  overt display verify protocols/overt_2019.toml --stimulus muse/smooth --mode color++");
+    verify_command.add_option("PROTOCOL", verify.protocol,
+                              "Protocol file (TOML): its screen, and its stimuli as it sends them");
+    verify_command.add_option("--stimulus", verify.stimulus, "SCULPTURE/MATERIAL by their ids (default: all)")
+        ->type_name("ID");
+    verify_command.add_option("--mode", verify.modes, "Output mode, as in a protocol (default: all)")
+        ->check(CLI::IsMember({"native-8bit", "native-10bit", "mono++", "color++", "bits++", "vpixx-m16",
+                               "vpixx-c48"}))
+        ->type_name("MODE");
+    add_context_option(verify_command, verify.context);
+    verify_command.add_flag("--json", verify.json, "Print JSON");
+    verify_command.callback([&] { command = [&] { return run_display_verify(verify); }; });
 
     BenchOptions bench;
     auto& bench_command = add_command(app, "bench", "The program's own benchmarks",

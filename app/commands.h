@@ -20,6 +20,7 @@ struct CheckOptions {
     std::string observer; ///< show this observer's order; empty: the first
     bool all_observers = false;
     double answer_time_s = 8.0;
+    bool frames = false; ///< read every frame, and say what light of it the display cannot show
     bool json = false;
 };
 int run_check(const CheckOptions& options);
@@ -39,6 +40,7 @@ struct RunOptions {
     std::filesystem::path sessions = "sessions";
     std::optional<int> trials; ///< only the first so many
     MapTime maps = MapTime::automatic;
+    bool verify_output = false; ///< decode every page before the first trial
     std::filesystem::path print_session_to;
 };
 int run_session(const RunOptions& options);
@@ -101,6 +103,15 @@ struct ReconstructOptions {
     bool json = false;
 };
 int run_reconstruct(const ReconstructOptions& options);
+
+struct DisplayVerifyOptions {
+    std::filesystem::path protocol; ///< its screen and its stimuli, too; empty: a screen of 1920 x 1080
+    std::string stimulus;           ///< SCULPTURE/MATERIAL; empty: all of the protocol's
+    std::vector<std::string> modes; ///< as in a protocol; empty: all
+    ContextChoice context;          ///< nothing: all there are
+    bool json = false;
+};
+int run_display_verify(const DisplayVerifyOptions& options);
 
 struct BenchOptions {
     std::string what;           ///< which benchmark

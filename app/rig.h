@@ -47,7 +47,7 @@ class Rig {
     /// clock starts here.
     void open();
 
-    Presenter& presenter() { return *presenter_; }
+    PagePresenter& presenter() { return *presenter_; }
     EyeTracker& tracker() { return *tracker_; }
     ResponsePanel& panel() { return *panel_; }
     /// Those who see what is shown: the simulated observer, and the hidden pass if it is live.

@@ -5,6 +5,7 @@
 
 #include "app/cache_folder.h"
 #include "app/commands.h"
+#include "app/output_verification.h"
 #include "app/progress_bar.h"
 #include "app/protocol_file.h"
 #include "app/protocol_inputs.h"
@@ -112,6 +113,11 @@ int run_session(const RunOptions& options) {
     SessionStore store(
         directory.session_file(),
         {.wait_when_full = options.virtual_time, .ring_capacity = 65536, .started_utc = header.started_utc});
+    if (options.verify_output) {
+        ProgressBar bar;
+        record_verification(rig.presenter(), rig.library(), protocol, schedule, rig.clock(), store,
+                            [&](int done, int total) { bar.update("verifying the output", done, total); });
+    }
     Session session(protocol, schedule, screen_geometry_of(protocol).centre(),
                     {rig.clock(), rig.presenter(), rig.tracker(), rig.panel(), store, rig.witnesses()});
     TrialProgress progress(protocol, static_cast<int>(schedule.trials.size()));
