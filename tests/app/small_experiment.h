@@ -1,0 +1,158 @@
+/// An experiment like the paper's, small enough to run in a second: two busts in two materials, three tasks,
+/// 128 x 128 pixels, animations of a second.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiment/scene/ply_writer.h"
+#include "support/figures.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+namespace overt::test {
+
+inline constexpr std::string_view small_protocol = R"([protocol]
+name = "small"
+title = "A small experiment"
+
+[display]
+width_px = 256
+height_px = 192
+refresh_hz = 120
+width_mm = 128
+height_mm = 96
+viewing_distance_mm = 573
+output = "color++"
+latency_ms = 3.5
+background = 0.1
+
+[tracker]
+rate_hz = 1000
+
+[view]
+width_px = 128
+height_px = 128
+
+[animation]
+frame_count = 31
+frame_rate_hz = 30
+amplitude_deg = 25
+duration_s = 1
+
+[schedule]
+observers = 2
+max_sculpture_run = 0
+
+[screens]
+task_min_s = 0.2
+drift_target_s = 0.3
+response_min_s = 0.2
+
+[[sculpture]]
+id = "bust"
+title = "Bust"
+mesh = "meshes/bust.ply"
+
+[[sculpture]]
+id = "tall"
+title = "Tall bust"
+mesh = "meshes/tall.ply"
+
+[[material]]
+id = "smooth"
+kind = "smooth-conductor"
+
+[[material]]
+id = "matt"
+kind = "diffuse"
+
+[[task]]
+id = "face"
+question = "Look at the face."
+simulated_head_share = 1
+
+[[task]]
+id = "clothes"
+question = "Look at the clothes."
+simulated_head_share = 0
+
+[[task]]
+id = "free"
+question = "Look as you like."
+stimuli = "once-per-sculpture"
+simulated_head_share = 0.5
+)";
+inline constexpr int small_trials = 10; ///< two tasks for four stimuli, one for each sculpture
+
+/// The text with one of its lines, or a part of it, replaced. It must occur exactly once.
+inline std::string with(std::string_view text, std::string_view part, std::string_view instead) {
+    std::string changed(text);
+    const std::size_t at = changed.find(part);
+    if (at == std::string::npos || changed.find(part, at + 1) != std::string::npos)
+        throw std::runtime_error("the text does not hold this once: " + std::string(part));
+    return changed.replace(at, part.size(), instead);
+}
+
+inline Mesh tall_bust() {
+    Mesh mesh;
+    add_part(mesh, box({-45.0, -40.0, 40.0}, {45.0, 40.0, 260.0}), "body");
+    add_part(mesh, ball({0.0, -15.0, 310.0}, 48.0), "head");
+    add_part(mesh, box({-60.0, -60.0, 0.0}, {60.0, 60.0, 38.0}), "plinth");
+    return mesh;
+}
+
+/// Its protocol and meshes in a folder of their own, with a cache and a place for sessions.
+class SmallExperiment {
+  public:
+    explicit SmallExperiment(std::string_view protocol = small_protocol) {
+        folder_.file("small.toml", protocol);
+        std::filesystem::create_directories(folder_.path() / "meshes");
+        write_ply(folder_.path() / "meshes/bust.ply", bust());
+        write_ply(folder_.path() / "meshes/tall.ply", tall_bust());
+    }
+
+    const TemporaryFolder& folder() const { return folder_; }
+    std::filesystem::path protocol() const { return folder_.path() / "small.toml"; }
+    std::filesystem::path cache() const { return folder_.path() / "cache"; }
+    std::filesystem::path sessions() const { return folder_.path() / "sessions"; }
+
+    /// `overt ARGUMENTS` with this experiment's cache.
+    ProgramRun overt(const std::vector<std::string>& arguments,
+                     std::vector<std::string> environment = {}) const {
+        environment.push_back("OVERT_CACHE=" + cache().string());
+        return run_overt(arguments, environment);
+    }
+
+    /// `overt run` for a simulated observer in virtual time, headless on OSMesa unless `more` says otherwise.
+    ProgramRun run(const std::vector<std::string>& more = {},
+                   std::vector<std::string> environment = {}) const {
+        std::vector<std::string> arguments{
+            "run",        protocol().string(), "--simulate-observer", "5", "--virtual-time",
+            "--sessions", sessions().string()};
+        const auto has = [&](std::string_view option) {
+            return std::find(more.begin(), more.end(), option) != more.end();
+        };
+        if (!has("--observer"))
+            arguments.insert(arguments.end(), {"--observer", "P01"});
+        if (!has("--context"))
+            arguments.insert(arguments.end(), {"--context", "osmesa"});
+        if (!has("--seed"))
+            arguments.insert(arguments.end(), {"--seed", "7"});
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return overt(arguments, std::move(environment));
+    }
+
+    /// Where the n-th session of an observer is.
+    std::filesystem::path session(int number = 1, const std::string& observer = "P01") const {
+        return sessions() / "small" / ("sub-" + observer + "_ses-0" + std::to_string(number));
+    }
+
+  private:
+    TemporaryFolder folder_;
+};
+
+} // namespace overt::test
