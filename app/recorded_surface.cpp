@@ -6,10 +6,26 @@
 #include "experiment/error.h"
 #include "experiment/parallel.h"
 #include "experiment/scene/mesh_reader.h"
+#include "experiment/sculpture.h"
 
 namespace overt {
 
 namespace {
+
+RecordError not_as_recorded(const std::filesystem::path& file, std::string_view what) {
+    return RecordError(fmt::format(
+        "{}: is not the {} that was recorded: it was changed, damaged or taken away", file.string(), what));
+}
+
+/// What cannot be read here was no user's input.
+Mesh recorded_mesh(const std::filesystem::path& file) {
+    try {
+        MeshCleaningReport unused;
+        return import_mesh(file, {}, unused);
+    } catch (const InputError& error) {
+        throw RecordError(error.what());
+    }
+}
 
 /// Calls read(pose, file) for each map of a sculpture that is of this kind, on all processors, once it is
 /// known that the file is the one recorded.
@@ -23,10 +39,8 @@ void read_maps(const SessionRecord& record, int sculpture, RecordedMap::Kind kin
     parallel_for(static_cast<int>(maps.size()), [&](int i) {
         const RecordedMap& map = *maps[static_cast<std::size_t>(i)];
         const std::filesystem::path file = record.directory() / map.file;
-        if (hash_of_file(file) != map.sha256) {
-            throw RecordError(fmt::format("{}: is not the map that was recorded: it was changed or damaged",
-                                          file.string()));
-        }
+        if (!std::filesystem::is_regular_file(file) || hash_of_file(file) != map.sha256)
+            throw not_as_recorded(file, "map");
         read(static_cast<std::size_t>(map.pose.value), file);
     });
 }
@@ -59,8 +73,10 @@ RecordedSurfaces::Surface& RecordedSurfaces::surface_of(int sculpture) {
 void RecordedSurfaces::load_maps(Surface& surface, int sculpture) const {
     const SessionHeader& header = record_->header();
     const RecordedSculpture& recorded = header.sculptures[static_cast<std::size_t>(sculpture)];
-    MeshCleaningReport unused;
-    surface.mesh = import_mesh(record_->directory() / recorded.mesh_file, {}, unused);
+    const std::filesystem::path mesh_file = record_->directory() / recorded.mesh_file;
+    surface.mesh = recorded_mesh(mesh_file);
+    if (hash_of_mesh(surface.mesh) != recorded.mesh_sha256)
+        throw not_as_recorded(mesh_file, "mesh");
     SceneView scene{{recorded.camera, header.display.screen.image_px}, surface.mesh.bounds()};
     // A pose that was never lit in a session with live maps has an empty one.
     const glm::ivec2 image_px = header.display.screen.image_px;

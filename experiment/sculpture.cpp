@@ -65,6 +65,14 @@ std::optional<PartRegion> head_region(const SculptureSettings& settings) {
     return head;
 }
 
+ContentHash hash_of_mesh(const Mesh& mesh) {
+    ContentHasher hasher;
+    hasher.add(mesh.positions).add(mesh.triangles).add(mesh.triangle_parts);
+    for (const std::string& name : mesh.part_names)
+        hasher.add(std::string_view(name));
+    return hasher.finish();
+}
+
 Sculpture load_sculpture(const SculptureSettings& settings, const Protocol& protocol,
                          const std::filesystem::path& cache) {
     Sculpture sculpture;
@@ -84,11 +92,7 @@ Sculpture load_sculpture(const SculptureSettings& settings, const Protocol& prot
         }
         return sculpture;
     }
-    ContentHasher hasher;
-    hasher.add(sculpture.mesh.positions).add(sculpture.mesh.triangles).add(sculpture.mesh.triangle_parts);
-    for (const std::string& name : sculpture.mesh.part_names)
-        hasher.add(std::string_view(name));
-    sculpture.mesh_hash = hasher.finish();
+    sculpture.mesh_hash = hash_of_mesh(sculpture.mesh);
     sculpture.scene.view.image_px = {protocol.view.width_px, protocol.view.height_px};
     sculpture.scene.bounds = sculpture.mesh.bounds();
     sculpture.scene.view.camera = camera_of(protocol.view, protocol, sculpture.mesh);

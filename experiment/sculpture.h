@@ -19,7 +19,7 @@ struct Sculpture {
     /// Without triangles if the protocol gives none: then its stimuli are frames. Where it gives ready-made
     /// maps, the part names are those of the maps.
     Mesh mesh;
-    ContentHash mesh_hash; ///< of positions, triangles and parts
+    ContentHash mesh_hash; ///< see hash_of_mesh
     SceneView scene;
     std::vector<std::string> remarks; ///< on the mesh, for the experimenter
 
@@ -28,6 +28,9 @@ struct Sculpture {
 
 /// The part "head" that the protocol describes, in the coordinates of the file; nothing if it describes none.
 std::optional<PartRegion> head_region(const SculptureSettings& settings);
+
+/// Of positions, triangles and parts: what a mesh file of any format is to the program.
+ContentHash hash_of_mesh(const Mesh& mesh);
 
 /// Imports or makes the mesh of one sculpture of the protocol and places the camera. A sculpture that overt
 /// makes itself is kept as PLY in `cache` and taken from there the next time. Throws InputError naming the

@@ -32,8 +32,13 @@ void check_identity(const SQLite::Database& database, const std::filesystem::pat
 } // namespace
 
 SQLite::Database open_session_file(const std::filesystem::path& file, SessionFileUse use) {
-    if (!std::filesystem::is_regular_file(file))
-        throw RecordError(fmt::format("{}: there is no session file here.", file.string()));
+    if (!std::filesystem::is_regular_file(file)) {
+        const std::string missing = fmt::format("{}: there is no session file here.", file.string());
+        // To be read, a session is named by the user; to be written, by the program that has just made it.
+        if (use == SessionFileUse::read)
+            throw InputError(missing);
+        throw RecordError(missing);
+    }
     try {
         SQLite::Database database(file.string(), use == SessionFileUse::write ? SQLite::OPEN_READWRITE
                                                                               : SQLite::OPEN_READONLY);

@@ -22,9 +22,9 @@ constexpr int width = 32, height = 24, frame_count = 5, first_number = 7;
 constexpr std::string_view protocol_text = R"([protocol]
 name = "ready-made"
 [display]
-width_px = 128
+width_px = 544
 height_px = 96
-width_mm = 64
+width_mm = 272
 height_mm = 48
 viewing_distance_mm = 573
 output = "color++"

@@ -20,10 +20,10 @@ name = "small"
 title = "A small experiment"
 
 [display]
-width_px = 256
+width_px = 544
 height_px = 192
 refresh_hz = 120
-width_mm = 128
+width_mm = 272
 height_mm = 96
 viewing_distance_mm = 573
 output = "color++"
