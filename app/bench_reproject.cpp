@@ -1,14 +1,16 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <fstream>
 
-#include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include "app/bench_command.h"
 #include "app/bench_gaze.h"
 #include "app/progress_bar.h"
+#include "experiment/analysis/gaze_cone.h"
 #include "experiment/parallel.h"
 #include "experiment/random.h"
 #include "experiment/record/sample_join.h"
@@ -93,6 +95,7 @@ class Reprojection {
 
     void measure_contested_pixels();
     void measure_exactness();
+    void measure_cone();
 
   private:
     void add(BenchFigure figure) {
@@ -204,6 +207,37 @@ void Reprojection::measure_exactness() {
     add({"interior, nearest pixel instead, error 99.9 %", centre.quantile(0.999), "LSB"});
 }
 
+void Reprojection::measure_cone() {
+    const GazeCone cone(screen_);
+    RandomStream random(3, "cones");
+    constexpr int cones = 2000;
+    const std::size_t parts = sculpture_.mesh.part_names.size();
+    std::vector<ScreenPoint> gazes;
+    for (int i = 0; i < cones; ++i)
+        gazes.push_back(screen_.screen_from_image(
+            {random.uniform(0.0, maps_.image_px().x), random.uniform(0.0, maps_.image_px().y)}));
+    const auto mean_us = [&](const auto& work) {
+        const double before_s = thread_seconds();
+        for (int i = 0; i < cones; ++i)
+            work(PoseIndex{i % static_cast<int>(maps_.pose_count())}, gazes[static_cast<std::size_t>(i)]);
+        return 1e6 * (thread_seconds() - before_s) / cones;
+    };
+    double on_object = 0.0;
+    add({"cone of 0.5 deg, probabilities of object and parts", mean_us([&](PoseIndex pose, ScreenPoint gaze) {
+             on_object += cone.shares(maps_, pose, gaze, parts).of_object / cones;
+         }),
+         "us/sample"});
+    std::size_t points = 0;
+    add({"cone of 0.5 deg, distribution over surface points", mean_us([&](PoseIndex pose, ScreenPoint gaze) {
+             points += cone.on_surface(maps_, pose, gaze).size();
+         }),
+         "us/sample"});
+    // The two go by pixels and by sub-pixel places: on average they agree.
+    add({"cone of 0.5 deg, probability of the object, mean", on_object, ""});
+    add({"the same by its surface points",
+         static_cast<double>(points) / (static_cast<double>(cones) * GazeCone::usual_directions), ""});
+}
+
 } // namespace
 
 BenchFigures bench_reproject(const BenchOptions& options) {
@@ -212,18 +246,24 @@ BenchFigures bench_reproject(const BenchOptions& options) {
     BenchFigures figures;
     const auto context = make_headless_context(options.context);
     for (const Sculpture& sculpture : scene.sculptures) {
+        const double before_mib = resident_mib();
         std::vector<TriangleMap> drawn = draw_maps(*context, sculpture, poses);
-        const double before_mib = resident_mib(), before_s = thread_seconds();
+        const auto begin = std::chrono::steady_clock::now();
         const CoordinateMaps maps(sculpture.mesh, sculpture.scene, poses.angles, std::move(drawn));
+        const double making_s =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        ::malloc_trim(0); // what was needed only meanwhile
         figures.push_back(
             {sculpture.id + ", triangles", static_cast<double>(sculpture.mesh.triangles.size()), ""});
-        fmt::print(stderr, "ctor {:.3f} s, {} MiB more\n", thread_seconds() - before_s,
-                   resident_mib() - before_mib);
+        figures.push_back(at_most(sculpture.id + ", memory of all maps with the surface",
+                                  resident_mib() - before_mib, "MiB", 256.0));
+        figures.push_back({sculpture.id + ", making the maps ready for questions", making_s, "s"});
         Reprojection reprojection(scene.protocol, sculpture, maps, poses, figures);
         reprojection.measure_contested_pixels();
         reprojection.measure_speed(GazeKind::fixations, "fixations");
         reprojection.measure_speed(GazeKind::uniform, "uniform gaze");
         reprojection.measure_exactness();
+        reprojection.measure_cone();
     }
     return figures;
 }

@@ -143,7 +143,16 @@ class SurfaceBuilder {
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
     void add(glm::ivec2 a, glm::ivec2 b, glm::ivec2 c) {
-        surface_.triangles.emplace_back(point_at(a), point_at(b), point_at(c));
+        const glm::uvec3 triangle(point_at(a), point_at(b), point_at(c));
+        surface_.triangles.push_back(triangle);
+        // A pixel that is joined to others in its row alone, or in its column, has this triangle's normal.
+        const glm::dvec3 normal = glm::normalize(
+            glm::cross(grid_.position(b) - grid_.position(a), grid_.position(c) - grid_.position(a)));
+        for (int corner = 0; corner < 3; ++corner) {
+            glm::vec3& of_point = surface_.normals[triangle[corner]];
+            if (of_point == glm::vec3(0.0f))
+                of_point = glm::vec3(normal);
+        }
     }
     std::uint32_t point_at(glm::ivec2 pixel) {
         std::uint32_t& point = point_of_[grid_.index_of(pixel)];
