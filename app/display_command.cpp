@@ -129,17 +129,12 @@ struct Stage {
     }
 };
 
-BenchFigure none_of(const std::string& what, std::int64_t count, std::int64_t of) {
-    return at_most(fmt::format("{} (of {})", what, of), static_cast<double>(count), "values", 0.0);
-}
-
 void add_findings(const std::string& what, const WireFindings& found, bool dithered, BenchFigures& figures) {
-    figures.push_back(none_of(what + ": differences", found.different, found.compared));
-    if (found.different > 0)
-        fmt::print(stderr, "{}: {}\n", what, found.first);
+    figures.push_back(at_most(fmt::format("{}: differences among {} values", what, found.compared),
+                              static_cast<double>(found.different), "values", 0.0));
     if (dithered && found.largest_mean_error > 0.0)
         figures.push_back(at_most(what + ": largest error of the mean of 64 x 64 pixels",
-                                  found.largest_mean_error, "16-bit codes", 0.5));
+                                  found.largest_mean_error, "codes", 0.5));
 }
 
 /// A trigger and a clock reset with one flip, nothing with the next.
@@ -184,6 +179,8 @@ void verify_output(ContextKind kind, const Output& output, DisplaySettings displ
     display.dither = output.dither;
     Stage stage(kind, screen, output.mode);
     const std::string where = fmt::format("{}, {}", name_of(kind), output.name());
+    WireFindings all;
+    std::optional<int> wrong_in_rows;
     for (const TestPicture& picture : test_pictures(screen)) {
         ScreenGeometry geometry;
         geometry.screen_px = screen;
@@ -195,23 +192,24 @@ void verify_output(ContextKind kind, const Output& output, DisplaySettings displ
         presenter.flip({0});
         const std::vector<std::byte> bytes = presenter.read_canvas();
         const LinearImage light = pages.page({0, 0}, 0);
-        add_findings(where + ", " + picture.name,
-                     check_wire({screen, bytes}, display, {&light, picture.origin_px}),
-                     output.dither != Dithering::none, figures);
-        if (picture.light != TestPicture::Light::levels)
-            continue;
-        if (has_t_lock(output.mode))
-            figures.push_back(at_most(where + ", trigger and clock reset: faults",
-                                      wrong_messages(presenter, screen), "faults", 0.0));
-        else if (reserved_rows(output.mode) > 0)
-            figures.push_back(
-                at_most(where + ", PSYNC: faults", wrong_psync(presenter, screen), "faults", 0.0));
+        const WireFindings found = check_wire({screen, bytes}, display, {&light, picture.origin_px});
+        if (found.different > 0)
+            fmt::print(stderr, "{}, {}: {}\n", where, picture.name, found.first);
+        all += found;
+        if (picture.light == TestPicture::Light::levels && reserved_rows(output.mode) > 0)
+            wrong_in_rows =
+                has_t_lock(output.mode) ? wrong_messages(presenter, screen) : wrong_psync(presenter, screen);
+    }
+    add_findings(where, all, output.dither != Dithering::none, figures);
+    if (wrong_in_rows) {
+        figures.push_back(at_most(
+            where + (has_t_lock(output.mode) ? ": faults of triggers and clock reset" : ": faults of PSYNC"),
+            *wrong_in_rows, "faults", 0.0));
     }
 }
 
-void verify_stimuli(ContextKind kind, const DisplayVerifyOptions& options, BenchFigures& figures) {
-    const Experiment experiment =
-        read_experiment_or_report(options.protocol, cache_folder(), InputDepth::sculptures);
+void verify_stimuli(ContextKind kind, const Experiment& experiment, const DisplayVerifyOptions& options,
+                    BenchFigures& figures) {
     const Protocol& protocol = experiment.protocol;
     const ScreenGeometry geometry = screen_geometry_of(protocol);
     Stage stage(kind, geometry.screen_px, protocol.display.output);
@@ -236,6 +234,8 @@ void verify_stimuli(ContextKind kind, const DisplayVerifyOptions& options, Bench
         for (const PageVerification& page :
              verify_pages(presenter, library, stimulus, geometry, protocol.display))
             all += page.findings;
+        if (all.different > 0)
+            fmt::print(stderr, "{}\n", all.first);
         add_findings(fmt::format("{}, {}, {}/{}, {} pages", name_of(kind), name_of(protocol.display.output),
                                  protocol.sculptures[static_cast<std::size_t>(stimulus.sculpture)].id,
                                  protocol.materials[static_cast<std::size_t>(stimulus.material)].id,
@@ -256,8 +256,10 @@ int run_display_verify(const DisplayVerifyOptions& options) {
     BenchFigures figures;
     std::vector<std::string> refused;
     ProgressBar bar;
-    const DisplaySettings display =
-        options.protocol.empty() ? DisplaySettings{} : read_protocol_or_report(options.protocol).display;
+    std::optional<Experiment> experiment;
+    if (!options.protocol.empty())
+        experiment = read_experiment_or_report(options.protocol, cache_folder(), InputDepth::sculptures);
+    const DisplaySettings display = experiment ? experiment->protocol.display : DisplaySettings{};
     constexpr ContextKind kinds[] = {ContextKind::osmesa, ContextKind::egl, ContextKind::window};
     for (const ContextKind kind : kinds) {
         if (options.context && *options.context != kind)
@@ -278,8 +280,8 @@ int run_display_verify(const DisplayVerifyOptions& options) {
             }
         }
         bar.update(fmt::format("verifying {}", name_of(kind)), done, done);
-        if (!options.protocol.empty() && (kind != ContextKind::window || display_is_available()))
-            verify_stimuli(kind, options, figures);
+        if (experiment && (kind != ContextKind::window || display_is_available()))
+            verify_stimuli(kind, *experiment, options, figures);
     }
     bar.finish();
     if (options.json) {

@@ -1,0 +1,70 @@
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "experiment/protocol_fixtures.h"
+
+using namespace overt;
+using namespace overt::test;
+
+using Lines = std::vector<std::string>;
+
+TEST_CASE("keys that a mode of output cannot follow are errors at these keys", "[unit]") {
+    CHECK(ReadText(minimal_protocol, "[display]\noutput = \"vpixx-c48\"\nwidth_px = 1919\n").lines() ==
+          Lines{"14:12: vpixx-c48 joins pixels in pairs: the width has to be even"});
+    CHECK(ReadText(minimal_protocol, "[display]\noutput = \"mono++\"\npair_filter = \"lanczos\"\n").lines() ==
+          Lines{"14:15: mono++ joins no pixels in pairs: pair_filter has no meaning"});
+    CHECK(
+        ReadText(minimal_protocol, "[display]\ndither = \"ordered\"\n").lines() ==
+        Lines{
+            "13:10: color++ carries 16 bits in bytes that noise would turn into others: nothing to dither"});
+    CHECK(ReadText(minimal_protocol, "[display]\noutput = \"native-10bit\"\ngamma = 2.2\nonset_trigger = 1\n")
+              .lines() ==
+          Lines{"15:17: native-10bit has no digital outputs: onset_trigger needs mono++, color++ or bits++"});
+    CHECK(ReadText(minimal_protocol,
+                   "[display]\noutput = \"bits++\"\nwidth_px = 512\nheight_px = 288\n[view]\n"
+                   "width_px = 64\nheight_px = 64\n[screens]\ntext_height_deg = 1\n")
+              .lines() == Lines{"14:12: bits++ carries messages in rows of 524 px: the screen is narrower"});
+    for (const char* sound : {"output = \"native-8bit\"\ngamma = 2.2\ndither = \"blue-noise\"\n",
+                              "output = \"vpixx-c48\"\npair_filter = \"lanczos\"\n",
+                              "output = \"bits++\"\nonset_trigger = 1023\n"}) {
+        CAPTURE(sound);
+        CHECK(ReadText(minimal_protocol, std::string("[display]\n") + sound).lines().empty());
+    }
+}
+
+TEST_CASE("a stimulus stays on the screen and off the rows that speak to the display", "[unit]") {
+    const auto lines = [](const std::string& more) { return ReadText(minimal_protocol, more).lines(); };
+    CHECK(lines("[view]\nleft_px = 897\n") ==
+          Lines{"13:11: the stimulus takes the columns 897 to 1920, the screen has 0 to 1919"});
+    CHECK(lines("[view]\ntop_px = 57\n") ==
+          Lines{"13:10: the stimulus takes the rows 57 to 1080, the screen has 0 to 1079"});
+    CHECK(lines("[view]\ncentre_up_deg = 0.5\n") ==
+          Lines{"13:17: the stimulus takes the rows -14 to 1009, the screen has 0 to 1079"});
+    CHECK(lines("[view]\ntop_px = 2\n") ==
+          Lines{"13:10: the stimulus begins in row 2, but color++ keeps the first three rows for messages to "
+                "the display"});
+    CHECK(lines("[view]\ntop_px = 3\n").empty());
+    CHECK(lines("[view]\nheight_px = 1080\n").size() == 1);
+    CHECK(lines("[display]\noutput = \"vpixx-m16\"\n[view]\ntop_px = 1\n").empty());
+    CHECK(lines("[display]\noutput = \"native-8bit\"\ngamma = 2.2\n[view]\nheight_px = 1080\n").empty());
+    CHECK(lines("[view]\nleft_px = 3\ncentre_right_deg = 1\n") ==
+          Lines{"14:20: left_px already says where the stimulus is"});
+    CHECK(lines("[view]\nwidth_px = 333\nleft_px = 101\n").empty());
+}
+
+TEST_CASE("a stimulus placed by angles is seen under these angles", "[unit]") {
+    const ReadText read(minimal_protocol, "[view]\nwidth_px = 101\nheight_px = 100\ncentre_right_deg = -7.5\n"
+                                          "centre_up_deg = 3\n");
+    REQUIRE(read.protocol);
+    const ScreenGeometry geometry = screen_geometry_of(*read.protocol);
+    const ScreenPoint middle = geometry.screen_from_image(0.5 * glm::dvec2(geometry.image_px));
+    CHECK(middle.x_px < geometry.centre().x_px);
+    CHECK(middle.y_px < geometry.centre().y_px);
+    // Half a pixel is what whole pixels may be off.
+    const double half_px_deg = 0.5 / geometry.px_per_deg_at_centre();
+    CHECK(geometry.angle_between(geometry.centre(), {middle.x_px, geometry.centre().y_px}).value ==
+          Approx(7.5).margin(half_px_deg));
+    CHECK(geometry.angle_between(geometry.centre(), {geometry.centre().x_px, middle.y_px}).value ==
+          Approx(3.0).margin(half_px_deg));
+}
