@@ -140,8 +140,8 @@ TEST_CASE("the share of gaze on the head comes back as the tasks had it", "[sess
         if (!truth.target || !truth.frame || truth.gaze.state != EyeState::fixation)
             continue;
         const std::string& task = samples.text(i, "task");
-        const int trial = static_cast<int>(samples.integer(i, "trial"));
-        const int sculpture = sitting.schedule.trials[static_cast<std::size_t>(trial)].condition.sculpture;
+        const auto trial = static_cast<std::size_t>(samples.integer(i, "trial") - 1);
+        const int sculpture = sitting.schedule.trials.at(trial).condition.sculpture;
         const Mesh& mesh = sitting.experiment.sculptures[static_cast<std::size_t>(sculpture)].mesh;
         ++exported[task].all;
         exported[task].head += samples.text(i, "part") == "head";
