@@ -1,14 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <fstream>
 
 #include <fmt/format.h>
-#include <malloc.h>
-#include <unistd.h>
 
 #include "app/bench_command.h"
 #include "app/map_figures.h"
+#include "app/resident_memory.h"
 #include "experiment/analysis/coordinate_maps.h"
 #include "experiment/error.h"
 #include "render/coordinate_pass.h"
@@ -28,15 +26,6 @@ double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
-}
-
-/// Memory of this process that is in use, in MB; what the allocator keeps for later is given back first.
-double memory_mb() {
-    malloc_trim(0);
-    std::ifstream file("/proc/self/statm");
-    double all_pages = 0.0, resident_pages = 0.0;
-    file >> all_pages >> resident_pages;
-    return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)) * 1e-6;
 }
 
 /// The maps of all poses of a sculpture, and how long each took to draw and read back.
@@ -123,10 +112,7 @@ void measure_drawing(BenchFigures& figures, const GlContext& context, const Scul
 
 void measure_maps(BenchFigures& figures, const Sculpture& sculpture, const PoseTable& poses,
                   std::vector<TriangleMap> maps) {
-    const double of_maps_mb = static_cast<double>(maps.size() * maps.front().codes.size()) * 4e-6;
-    const double before_mb = memory_mb();
     const CoordinateMaps lookup(sculpture.mesh, sculpture.scene, poses.angles, std::move(maps));
-    const double memory = memory_mb() - before_mb + of_maps_mb;
     const RayCaster rays(sculpture.mesh);
     std::vector<double> times_ms;
     std::optional<MapCheck> check;
@@ -140,8 +126,6 @@ void measure_maps(BenchFigures& figures, const Sculpture& sculpture, const PoseT
         check = check ? worst_of(*check, one) : one;
     }
     figures.push_back({sculpture.id + ", exact coordinates of a map, median", median(times_ms), "ms"});
-    figures.push_back(
-        at_most(sculpture.id + ", memory of all maps of a stimulus, ready for look-up", memory, "MB", 256.0));
     const BenchFigures checked = figures_of(*check, sculpture.scene.view.image_px, sculpture.id);
     figures.insert(figures.end(), checked.begin(), checked.end());
 }

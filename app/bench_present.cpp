@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include "app/bench_command.h"
+#include "app/resident_memory.h"
 #include "devices/clocks.h"
 #include "experiment/random.h"
 #include "render/page_presenter.h"
@@ -29,17 +29,6 @@ double processor_s() {
         return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
     };
     return seconds(used.ru_utime) + seconds(used.ru_stime);
-}
-
-/// Of this process, from /proc/self/status; 0 if it does not say.
-double resident_mib() {
-    std::ifstream status("/proc/self/status");
-    for (std::string word; status >> word;) {
-        double kib = 0.0;
-        if (word == "VmRSS:" && status >> kib)
-            return kib / 1024.0;
-    }
-    return 0.0;
 }
 
 /// 61 pages that differ in every pixel: the same random light, begun at another place.
@@ -103,7 +92,7 @@ void measure_flips(GlContext& context, const RandomPages& pages, const ScreenGeo
         surface = std::make_unique<WindowDisplay>(*window, clock, 120.0, true);
     else
         surface = std::make_unique<VirtualDisplay>(context, clock, 120.0);
-    const double before_mib = resident_mib();
+    const double before_mb = resident_memory_mb();
     PagePresenter presenter(context, *surface, pages, geometry, color_plus_plus(), {});
     const auto begin = std::chrono::steady_clock::now();
     presenter.load_frames({0, 0});
@@ -130,7 +119,7 @@ void measure_flips(GlContext& context, const RandomPages& pages, const ScreenGeo
     figures.push_back(software ? at_most(processor, processor_ms, "ms", 17.0)
                                : BenchFigure{processor, processor_ms, "ms"});
     figures.push_back({where + ", loading 61 pages", loading_s, "s"});
-    figures.push_back({where + ", memory with 61 pages", resident_mib() - before_mib, "MiB"});
+    figures.push_back({where + ", memory with 61 pages", resident_memory_mb() - before_mb, "MB"});
 }
 
 } // namespace

@@ -2,14 +2,11 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <fstream>
-
-#include <malloc.h>
-#include <unistd.h>
 
 #include "app/bench_command.h"
 #include "app/bench_gaze.h"
 #include "app/progress_bar.h"
+#include "app/resident_memory.h"
 #include "experiment/analysis/gaze_cone.h"
 #include "experiment/parallel.h"
 #include "experiment/random.h"
@@ -29,14 +26,6 @@ double thread_seconds() {
     timespec time{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-/// Memory of this process that is really there, in MiB.
-double resident_mib() {
-    std::ifstream statm("/proc/self/statm");
-    double all = 0.0, resident = 0.0;
-    statm >> all >> resident;
-    return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
 }
 
 std::vector<TriangleMap> draw_maps(const GlContext& context, const Sculpture& sculpture,
@@ -246,17 +235,18 @@ BenchFigures bench_reproject(const BenchOptions& options) {
     BenchFigures figures;
     const auto context = make_headless_context(options.context);
     for (const Sculpture& sculpture : scene.sculptures) {
-        const double before_mib = resident_mib();
         std::vector<TriangleMap> drawn = draw_maps(*context, sculpture, poses);
+        // The maps are handed over: they count, what OpenGL keeps of drawing them does not.
+        const double drawn_mb = static_cast<double>(drawn.size() * drawn.front().codes.size()) * 4e-6;
+        const double before_mb = resident_memory_mb() - drawn_mb;
         const auto begin = std::chrono::steady_clock::now();
         const CoordinateMaps maps(sculpture.mesh, sculpture.scene, poses.angles, std::move(drawn));
         const double making_s =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        ::malloc_trim(0); // what was needed only meanwhile
         figures.push_back(
             {sculpture.id + ", triangles", static_cast<double>(sculpture.mesh.triangles.size()), ""});
         figures.push_back(at_most(sculpture.id + ", memory of all maps with the surface",
-                                  resident_mib() - before_mib, "MiB", 256.0));
+                                  resident_memory_mb() - before_mb, "MB", 256.0));
         figures.push_back({sculpture.id + ", making the maps ready for questions", making_s, "s"});
         Reprojection reprojection(scene.protocol, sculpture, maps, poses, figures);
         reprojection.measure_contested_pixels();
