@@ -41,11 +41,6 @@ constexpr Output outputs[] = {{OutputMode::native_8bit},
                               {OutputMode::vpixx_m16},
                               {OutputMode::vpixx_c48}};
 
-bool has_t_lock(OutputMode mode) {
-    return mode == OutputMode::mono_plus_plus || mode == OutputMode::color_plus_plus ||
-           mode == OutputMode::bits_plus_plus;
-}
-
 /// What is drawn to prove a mode.
 struct TestPicture {
     std::string name;

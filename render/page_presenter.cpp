@@ -34,11 +34,6 @@ std::size_t bytes_in(glm::ivec2 size_px, PixelFormat format) {
            bytes_per_pixel(format);
 }
 
-bool has_t_lock(OutputMode mode) {
-    return mode == OutputMode::mono_plus_plus || mode == OutputMode::color_plus_plus ||
-           mode == OutputMode::bits_plus_plus;
-}
-
 bool has_psync(OutputMode mode) { return mode == OutputMode::vpixx_m16 || mode == OutputMode::vpixx_c48; }
 
 } // namespace

@@ -17,11 +17,6 @@ bool is_native(OutputMode mode) {
     return mode == OutputMode::native_8bit || mode == OutputMode::native_10bit;
 }
 
-bool has_t_lock(OutputMode mode) {
-    return mode == OutputMode::mono_plus_plus || mode == OutputMode::color_plus_plus ||
-           mode == OutputMode::bits_plus_plus;
-}
-
 void check_keys_of_mode(ProtocolExamination& examination) {
     const DisplaySettings& display = examination.protocol.display;
     const std::string_view mode = name_of(display.output);
@@ -53,12 +48,20 @@ void check_keys_of_mode(ProtocolExamination& examination) {
             examination.error({"display.width_px", "display.output"},
                               fmt::format("{} carries messages in rows of {} px: the screen is narrower",
                                           mode, t_lock_row_px));
-    } else if (display.onset_trigger != 0) {
-        examination.error({"display.onset_trigger"},
-                          fmt::format("{} has no digital outputs: onset_trigger needs mono++, color++ or "
-                                      "bits++",
-                                      mode));
+    } else {
+        if (display.onset_trigger != 0)
+            examination.error({"display.onset_trigger"},
+                              fmt::format("{} has no digital outputs: onset_trigger needs mono++, color++ or "
+                                          "bits++",
+                                          mode));
+        if (display.box.starts_with('/'))
+            examination.error(
+                {"display.box"},
+                fmt::format("{} is sent through no box: box needs mono++, color++ or bits++", mode));
     }
+    if (display.box != "auto" && display.box != "none" && !display.box.starts_with('/'))
+        examination.error({"display.box"}, fmt::format("«{}» is no serial port", display.box),
+                          "write \"auto\", \"none\", or a path such as \"/dev/ttyACM0\"");
 }
 
 void check_place(ProtocolExamination& examination) {

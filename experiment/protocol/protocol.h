@@ -35,6 +35,12 @@ constexpr bool joins_pixels_in_pairs(OutputMode mode) {
     return mode == OutputMode::color_plus_plus || mode == OutputMode::vpixx_c48;
 }
 
+/// Whether the top rows of the screen carry messages to a Display++ or Bits#, which has to be in the mode.
+constexpr bool has_t_lock(OutputMode mode) {
+    return mode == OutputMode::mono_plus_plus || mode == OutputMode::color_plus_plus ||
+           mode == OutputMode::bits_plus_plus;
+}
+
 /// Rows at the top of the screen that carry messages to the display and never light.
 constexpr int reserved_rows(OutputMode mode) {
     switch (mode) {
@@ -70,6 +76,8 @@ struct DisplaySettings {
     OutputMode output = OutputMode::color_plus_plus;
     Dithering dither = Dithering::none;       ///< of the native modes
     PairFilter pair_filter = PairFilter::box; ///< of the modes that join pixels in pairs
+    /// The box that reads mono++, color++ and bits++: "auto", "none", or its serial port.
+    std::string box = "auto";
     int onset_trigger = 0; ///< digital outputs that a presentation's first refresh raises, a bit each
     double gamma = 1.0;    ///< exponent between wire value and light; 1 for a display that linearises itself
     double latency_ms = 0.0; ///< from vertical blank to the first row's light

@@ -71,6 +71,13 @@ Section<DisplaySettings> display() {
                   .explanation = "How pixels become the one colour of a pair, in linear light: the mean of "
                                  "the two, or a Lanczos filter over twelve."},
                  &D::pair_filter},
+                {{.name = "box",
+                  .explanation =
+                      "The Display++ or Bits# that shows `mono++`, `color++` and `bits++`: `auto` looks for "
+                      "it on the USB serial ports, a path such as `/dev/ttyACM0` names its port, and with "
+                      "`none` nobody switches its mode or asks it anything. Sessions on a real screen in "
+                      "real time need it; see [display_plus_plus.md](display_plus_plus.md)."},
+                 &D::box},
                 {{.name = "onset_trigger",
                   .low = 0,
                   .high = 1023,

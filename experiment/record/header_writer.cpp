@@ -90,6 +90,7 @@ void create_session_file(const std::filesystem::path& file, const SessionHeader&
                                   session_application_id, session_schema_version));
         SQLite::Transaction transaction(database);
         database.exec(session_schema_sql);
+        database.exec(box_tables_sql);
         insert_session(database, header);
         insert_design(database, header);
         insert_sculptures(database, header);

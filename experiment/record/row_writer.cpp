@@ -10,6 +10,7 @@
 
 #include "experiment/error.h"
 #include "experiment/record/session_file.h"
+#include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
 
 namespace overt {
@@ -140,6 +141,29 @@ void RowWriter::map(const RecordedMap& map) {
     begin();
     run_statement(insert_map_, map.sculpture, map.pose.value, map.file, map.sha256,
                   map.made == RecordedMap::Made::prepared ? "prepared" : "live");
+}
+
+void RowWriter::display_box(const RecordedBox& box) {
+    begin();
+    database_.exec(box_tables_sql);
+    SQLite::Statement insert(
+        database_, "INSERT OR REPLACE INTO display_box (sitting, use, port, product, serial_number, "
+                   "firmware_date, mode, gamma_table, settled_after_ns, video_rate_hz) "
+                   "VALUES (?,?,?,?,?,?,?,?,?,?)");
+    const bool is_there = box.use == RecordedBox::Use::box;
+    run_statement(insert, sitting_, std::string(name_of(box.use)), box.port, box.product, box.serial_number,
+                  box.firmware_date, box.mode, box.gamma_table,
+                  is_there ? std::optional<std::int64_t>(box.settled_after.count()) : std::nullopt,
+                  is_there ? std::optional(box.video_rate_hz) : std::nullopt);
+}
+
+void RowWriter::box_clock(const std::vector<BoxClockReading>& readings) {
+    begin();
+    database_.exec(box_tables_sql);
+    SQLite::Statement insert(
+        database_, "INSERT INTO box_clock_pair (sitting, before_ns, box_us, after_ns) VALUES (?,?,?,?)");
+    for (const BoxClockReading& reading : readings)
+        run_statement(insert, sitting_, reading.before, reading.box_us, reading.after);
 }
 
 void RowWriter::start_trial(const Trial& trial, SessionTime at) {

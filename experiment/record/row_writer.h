@@ -7,6 +7,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "experiment/ports.h"
+#include "experiment/record/recorded_box.h"
 #include "experiment/record/session_header.h"
 
 namespace overt {
@@ -37,6 +38,8 @@ class RowWriter {
     void clock_pair(const ClockPair& pair);
     void event(SessionTime at, int trial, const std::string& kind, const std::string& detail);
     void map(const RecordedMap& map);
+    void display_box(const RecordedBox& box);
+    void box_clock(const std::vector<BoxClockReading>& readings);
     void start_trial(const Trial& trial, SessionTime at);
 
     /// Commits what is open, then the outcome in a transaction of its own that is on the disk, with

@@ -97,6 +97,20 @@ GazeSample read_sample(Query& row) {
     return sample;
 }
 
+RecordedBox::Use use_from(const std::string& word) {
+    for (const auto use : {RecordedBox::Use::box, RecordedBox::Use::declined, RecordedBox::Use::simulated})
+        if (word == name_of(use))
+            return use;
+    return RecordedBox::Use::no_mode;
+}
+
+bool has_table(const SQLite::Database& database, const char* name) {
+    Query row(
+        database,
+        fmt::format("SELECT COUNT(*) FROM sqlite_schema WHERE type = 'table' AND name = '{}'", name).c_str());
+    return row.step() && row.integer() > 0;
+}
+
 /// Indices that lead out of the header's lists would be undefined behaviour in every reader.
 void check_indices(const SessionHeader& header, const std::vector<TrialRecord>& trials,
                    const std::filesystem::path& file) {
@@ -195,6 +209,38 @@ std::vector<ClockPair> SessionRecord::clock_pairs(int sitting) const {
 std::optional<ClockMap> SessionRecord::clock_map(int sitting) const {
     const std::vector<ClockPair> pairs = clock_pairs(sitting);
     return pairs.empty() ? std::nullopt : std::optional<ClockMap>(ClockMap(pairs));
+}
+
+std::vector<std::pair<int, RecordedBox>> SessionRecord::display_boxes() const {
+    return reading(file_, [&] {
+        std::vector<std::pair<int, RecordedBox>> boxes;
+        if (!has_table(*database_, "display_box"))
+            return boxes;
+        for (Query row(*database_, "SELECT sitting, use, port, product, serial_number, firmware_date, mode, "
+                                   "gamma_table, COALESCE(settled_after_ns, 0), COALESCE(video_rate_hz, 0.0) "
+                                   "FROM display_box ORDER BY sitting");
+             row.step();) {
+            const int sitting = row.small();
+            boxes.emplace_back(sitting, RecordedBox{use_from(row.text()), row.text(), row.text(), row.text(),
+                                                    row.text(), row.text(), row.text(),
+                                                    SessionDuration(row.integer()), row.real()});
+        }
+        return boxes;
+    });
+}
+
+std::vector<BoxClockReading> SessionRecord::box_clock_readings(int sitting) const {
+    return reading(file_, [&] {
+        std::vector<BoxClockReading> readings;
+        if (!has_table(*database_, "box_clock_pair"))
+            return readings;
+        Query row(*database_,
+                  "SELECT before_ns, box_us, after_ns FROM box_clock_pair WHERE sitting = ? ORDER BY id");
+        row.bind(1, sitting);
+        while (row.step())
+            readings.push_back({row.session_time(), row.integer(), row.session_time()});
+        return readings;
+    });
 }
 
 FlipHistory SessionRecord::flip_history(const TrialRecord& trial) const {

@@ -5,11 +5,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiment/analysis/flip_history.h"
 #include "experiment/clock_map.h"
 #include "experiment/ports.h"
+#include "experiment/record/recorded_box.h"
 #include "experiment/record/session_header.h"
 
 namespace SQLite {
@@ -76,6 +78,12 @@ class SessionRecord {
 
     /// Nothing if that sitting read the clocks never.
     std::optional<ClockMap> clock_map(int sitting) const;
+
+    /// What each sitting's display was sent through, by sitting. Sessions of earlier programs say nothing.
+    std::vector<std::pair<int, RecordedBox>> display_boxes() const;
+
+    /// Readings of the display box's clock in one sitting, in the order in which they were made.
+    std::vector<BoxClockReading> box_clock_readings(int sitting) const;
 
     /// The trial's frames as they were lit on this session's display.
     FlipHistory flip_history(const TrialRecord& trial) const;

@@ -82,4 +82,17 @@ CREATE TABLE event (id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES 
                     at_ns INTEGER NOT NULL, trial INTEGER, kind TEXT NOT NULL, detail TEXT NOT NULL) STRICT;
 )sql";
 
+const char* const box_tables_sql = R"sql(
+CREATE TABLE IF NOT EXISTS display_box (
+    sitting INTEGER PRIMARY KEY REFERENCES sitting,
+    use TEXT NOT NULL CHECK (use IN ('box', 'declined', 'simulated', 'not needed')),
+    port TEXT NOT NULL, product TEXT NOT NULL, serial_number TEXT NOT NULL, firmware_date TEXT NOT NULL,
+    mode TEXT NOT NULL, gamma_table TEXT NOT NULL, settled_after_ns INTEGER, video_rate_hz REAL
+) STRICT;
+CREATE TABLE IF NOT EXISTS box_clock_pair (
+    id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting,
+    before_ns INTEGER NOT NULL, box_us INTEGER NOT NULL, after_ns INTEGER NOT NULL
+) STRICT;
+)sql";
+
 } // namespace overt

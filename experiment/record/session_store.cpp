@@ -74,7 +74,8 @@ struct TrialFinish {
 
 /// What is too large or too rare for the ring itself: it carries the pointer, so that the order holds.
 struct Message {
-    std::variant<Event, TrialStart, TrialFinish, RecordedMap> content;
+    std::variant<Event, TrialStart, TrialFinish, RecordedMap, RecordedBox, std::vector<BoxClockReading>>
+        content;
     std::promise<void> written;
 };
 
@@ -219,6 +220,10 @@ void SessionStore::Writer::write_message(const Message& message) {
         rows_.start_trial(start->trial, start->at);
     } else if (const auto* map = std::get_if<RecordedMap>(&message.content)) {
         rows_.map(*map);
+    } else if (const auto* box = std::get_if<RecordedBox>(&message.content)) {
+        rows_.display_box(*box);
+    } else if (const auto* readings = std::get_if<std::vector<BoxClockReading>>(&message.content)) {
+        rows_.box_clock(*readings);
     } else {
         const auto& finish = std::get<TrialFinish>(message.content);
         rows_.finish_trial(finish.trial, finish.outcome, finish.lost.flips, finish.lost.samples);
@@ -301,6 +306,10 @@ void SessionStore::trial_finished(const Trial& trial, const TrialOutcome& outcom
 }
 
 void SessionStore::map_made(const RecordedMap& map) { writer_->send(map); }
+
+void SessionStore::display_box(const RecordedBox& box) { writer_->send(box); }
+
+void SessionStore::box_clock(const std::vector<BoxClockReading>& readings) { writer_->send(readings); }
 
 LostRows SessionStore::lost() const noexcept { return writer_ ? writer_->lost() : lost_in_all_; }
 

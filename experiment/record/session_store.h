@@ -7,6 +7,7 @@
 #include <string>
 
 #include "experiment/ports.h"
+#include "experiment/record/recorded_box.h"
 #include "experiment/record/session_header.h"
 
 namespace overt {
@@ -52,6 +53,13 @@ class SessionStore final : public SessionLog {
 
     /// Notes a map made while the session runs, replacing one of the same sculpture and pose.
     void map_made(const RecordedMap& map);
+
+    /// Notes which display box this sitting has, or why none; replaces what was noted before.
+    void display_box(const RecordedBox& box);
+
+    /// Adds readings of the display box's clock and the session's. Readings of one sitting must come from one
+    /// run of the box's clock.
+    void box_clock(const std::vector<BoxClockReading>& readings);
 
     /// Since the store was opened. After a failure of writing, rows count as the writer comes to them: all of
     /// them do once close() has returned or thrown.

@@ -29,6 +29,8 @@ constexpr int surface_decimals = 6; // a nanometre, if the mesh is in millimetre
 constexpr int incidence_decimals = 4;
 constexpr int silhouette_decimals = 4; // a hundredth of a pixel
 constexpr int probability_decimals = 4;
+constexpr int rate_decimals = 3;  // a millihertz
+constexpr int drift_decimals = 3; // a thousandth of a millionth
 
 template <class List> const auto* item(const List& list, int index) {
     return index >= 0 && static_cast<std::size_t>(index) < list.size()
@@ -47,7 +49,7 @@ class TsvExport {
           trials_(directory, tables_.trials), flips_(directory, tables_.flips),
           samples_(directory, tables_.samples), events_(directory, tables_.events),
           responses_(directory, tables_.responses), stimuli_(directory, tables_.stimuli),
-          directory_(directory) {
+          display_box_(directory, tables_.display_box), directory_(directory) {
         if (cone_accuracy)
             cone_.emplace(header_.display.screen, *cone_accuracy);
     }
@@ -55,6 +57,7 @@ class TsvExport {
     void write_trial(const TrialRecord& trial, const SurfaceLookup* lookup);
     void write_attempt_without_rows(const TrialRecord& trial);
     void write_what_belongs_to_no_trial();
+    void write_display_boxes();
     void close();
     const TsvExportCounts& counts() const { return counts_; }
 
@@ -76,7 +79,7 @@ class TsvExport {
     const SessionRecord& record_;
     const SessionHeader& header_;
     const TsvTables tables_;
-    TsvWriter trials_, flips_, samples_, events_, responses_, stimuli_;
+    TsvWriter trials_, flips_, samples_, events_, responses_, stimuli_, display_box_;
     const fs::path directory_;
     std::optional<GazeCone> cone_;
     TsvExportCounts counts_;
@@ -275,8 +278,29 @@ void TsvExport::write_what_belongs_to_no_trial() {
     }
 }
 
+void TsvExport::write_display_boxes() {
+    TsvWriter& row = display_box_;
+    for (const auto& [sitting, box] : record_.display_boxes()) {
+        row.integer(sitting).ready(name_of(box.use));
+        row.text(box.product).text(box.serial_number).text(box.firmware_date).text(box.port);
+        row.text(box.mode).text(box.gamma_table);
+        if (box.use == RecordedBox::Use::box)
+            row.seconds(box.settled_after).fixed(box.video_rate_hz, rate_decimals);
+        else
+            row.missing(2);
+        if (const auto readings = record_.box_clock_readings(sitting); readings.empty()) {
+            row.integer(0).missing(4);
+        } else {
+            const BoxClockFit fit = fit_box_clock(readings);
+            row.integer(fit.readings).seconds(fit.zero).seconds(fit.uncertainty);
+            row.fixed(fit.drift_ppm, drift_decimals).fixed(fit.drift_uncertainty_ppm, drift_decimals);
+        }
+        row.end_row();
+    }
+}
+
 void TsvExport::close() {
-    for (TsvWriter* writer : {&trials_, &flips_, &samples_, &events_, &responses_, &stimuli_})
+    for (TsvWriter* writer : {&trials_, &flips_, &samples_, &events_, &responses_, &stimuli_, &display_box_})
         writer->close();
     std::ofstream dictionary(directory_ / dictionary_file, std::ios::binary);
     dictionary << tsv_dictionary(tables_);
@@ -294,8 +318,8 @@ void refuse_target(const SessionHeader& header, const fs::path& directory, bool 
             "{}: exists already. Name another folder, or allow it to be overwritten.", directory.string()));
     const TsvTables tables(header);
     std::vector<std::string> ours{dictionary_file};
-    for (const TsvTable* table :
-         {&tables.trials, &tables.flips, &tables.samples, &tables.events, &tables.responses, &tables.stimuli})
+    for (const TsvTable* table : {&tables.trials, &tables.flips, &tables.samples, &tables.events,
+                                  &tables.responses, &tables.stimuli, &tables.display_box})
         ours.push_back(table->file);
     for (const auto& entry : fs::directory_iterator(directory))
         if (std::find(ours.begin(), ours.end(), entry.path().filename().string()) == ours.end())
@@ -323,6 +347,7 @@ TsvExportCounts export_tsv(const SessionRecord& record, const LookupFor& lookup_
             options.progress(++done, all);
     }
     tables.write_what_belongs_to_no_trial();
+    tables.write_display_boxes();
     tables.close();
     std::error_code error;
     fs::remove_all(partial.final_path(), error);

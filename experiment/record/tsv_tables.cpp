@@ -127,7 +127,10 @@ TsvTable samples_table(const SharedColumns& shared, const SessionHeader& header)
          {"surface_x", "Place on the unturned surface", mesh_unit, {}},
          {"surface_y", "Place on the unturned surface", mesh_unit, {}},
          {"surface_z", "Place on the unturned surface, upwards", mesh_unit, {}},
-         {"triangle", "Index of the mesh's triangle, from 0; n/a where maps were given without a mesh", "", {}},
+         {"triangle",
+          "Index of the mesh's triangle, from 0; n/a where maps were given without a mesh",
+          "",
+          {}},
          part,
          {"depth", "Distance of the surface from the camera along the viewing direction", mesh_unit, {}},
          {"incidence_deg",
@@ -198,6 +201,33 @@ TsvTable stimuli_table(const SharedColumns& shared) {
              {"mesh_sha256", "SHA-256 of the mesh", "", {}}}};
 }
 
+TsvTable display_box_table() {
+    return {
+        "display_box.tsv",
+        "What the video signal went through: one row for each sitting.",
+        {{"sitting", "Counts how often the session was begun or resumed, from 1", "", {}},
+         {"use",
+          "Whether there was a display box",
+          "",
+          {{"box", "A Display++ or Bits# was switched to the mode"},
+           {"declined", "The protocol says that there is none: its mode was nobody's business"},
+           {"simulated", "Nothing was shown on a real screen in real time"},
+           {"not needed", "The output goes through no box"}}},
+         {"product", "Name of the box", "", {}},
+         {"serial_number", "Its serial number", "", {}},
+         {"firmware_date", "Date of its firmware", "", {}},
+         {"port", "Serial port at which it was found", "", {}},
+         {"mode", "To which it was switched", "", {}},
+         {"gamma_table", "File on its disk that it was told to use", "", {}},
+         {"settled_after_s", "From the command to two equal measurements of the video rate", "s", {}},
+         {"video_rate_hz", "Rate of the video signal as the box measures it", "Hz", {}},
+         {"clock_readings", "Readings of its clock and the session's", "", {}},
+         session_seconds("clock_zero_s", "When its clock showed 0, by the line through the readings"),
+         {"clock_uncertainty_s", "Bound on the error of times read off that line", "s", {}},
+         {"clock_drift_ppm", "By how much a second of the session exceeds a second of the box", "ppm", {}},
+         {"clock_drift_uncertainty_ppm", "Bound on the error of clock_drift_ppm", "ppm", {}}}};
+}
+
 nlohmann::ordered_json describe(const TsvTable& table) {
     nlohmann::ordered_json columns = nlohmann::ordered_json::object();
     for (const TsvColumn& column : table.columns) {
@@ -225,6 +255,7 @@ TsvTables::TsvTables(const SessionHeader& header, std::optional<Degrees> cone_ac
     events = events_table();
     responses = responses_table(shared);
     stimuli = stimuli_table(shared);
+    display_box = display_box_table();
 }
 
 std::string tsv_dictionary(const TsvTables& tables) {
@@ -232,8 +263,8 @@ std::string tsv_dictionary(const TsvTables& tables) {
     dictionary["Description"] =
         "Tab-separated tables in UTF-8. Missing values are n/a. In texts, tab, newline, "
         "carriage return and backslash are written as \\t, \\n, \\r and \\\\.";
-    for (const TsvTable* table :
-         {&tables.trials, &tables.flips, &tables.samples, &tables.events, &tables.responses, &tables.stimuli})
+    for (const TsvTable* table : {&tables.trials, &tables.flips, &tables.samples, &tables.events,
+                                  &tables.responses, &tables.stimuli, &tables.display_box})
         dictionary["Files"][table->file] = describe(*table);
     return dictionary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }

@@ -20,7 +20,7 @@ struct TsvTables {
     /// The parts of all sculptures, each name once: a cone has a column for each, after p_object.
     std::vector<std::string> cone_parts;
 
-    TsvTable trials, flips, samples, events, responses, stimuli;
+    TsvTable trials, flips, samples, events, responses, stimuli, display_box;
 };
 
 /// The dictionary as JSON: for each file its description and, column by column, Description, Units and Levels

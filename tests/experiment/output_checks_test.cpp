@@ -33,6 +33,19 @@ TEST_CASE("keys that a mode of output cannot follow are errors at these keys", "
     }
 }
 
+TEST_CASE("a display box is named by its port, and only where the output goes through one", "[unit]") {
+    CHECK(ReadText(minimal_protocol, "[display]\nbox = \"ttyACM0\"\n").lines() ==
+          Lines{"13:7: «ttyACM0» is no serial port"});
+    CHECK(ReadText(minimal_protocol, "[display]\noutput = \"vpixx-m16\"\nbox = \"/dev/ttyACM0\"\n").lines() ==
+          Lines{"14:7: vpixx-m16 is sent through no box: box needs mono++, color++ or bits++"});
+    for (const char* sound : {"box = \"auto\"\n", "box = \"none\"\n", "box = \"/dev/pts/3\"\n",
+                              "output = \"vpixx-m16\"\nbox = \"none\"\n"}) {
+        CAPTURE(sound);
+        CHECK(ReadText(minimal_protocol, std::string("[display]\n") + sound).lines().empty());
+    }
+    CHECK(ReadText(minimal_protocol, "").protocol->display.box == "auto");
+}
+
 TEST_CASE("a stimulus stays on the screen and off the rows that speak to the display", "[unit]") {
     const auto lines = [](const std::string& more) { return ReadText(minimal_protocol, more).lines(); };
     CHECK(lines("[view]\nleft_px = 897\n") ==
