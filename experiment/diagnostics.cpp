@@ -142,6 +142,11 @@ void Diagnostics::warning(std::string file, Place place, std::string message, st
     findings_.push_back({Severity::warning, std::move(file), place, std::move(message), std::move(hint)});
 }
 
+void Diagnostics::take(const Diagnostics& other) {
+    findings_.insert(findings_.end(), other.findings_.begin(), other.findings_.end());
+    lines_of_.insert(other.lines_of_.begin(), other.lines_of_.end());
+}
+
 std::vector<Finding> Diagnostics::findings() const {
     std::vector<Finding> sorted = findings_;
     std::stable_sort(sorted.begin(), sorted.end(), [](const Finding& a, const Finding& b) {

@@ -40,6 +40,9 @@ class Diagnostics {
     void error(std::string file, Place place, std::string message, std::string hint = {});
     void warning(std::string file, Place place, std::string message, std::string hint = {});
 
+    /// Adds the findings of another, with the texts that it quotes from.
+    void take(const Diagnostics& other);
+
     /// All findings, sorted by file and place; at the same place in the order in which they were found.
     std::vector<Finding> findings() const;
 

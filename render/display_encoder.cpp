@@ -21,8 +21,44 @@ int levels_of(const DisplaySettings& display) {
     }
 }
 
-/// Rec. 709, ITU-R BT.709-6: the grey of a colour.
-double luminance(const glm::dvec3& light) { return 0.2126 * light.r + 0.7152 * light.g + 0.0722 * light.b; }
+bool is_grey(OutputMode mode) {
+    return mode == OutputMode::mono_plus_plus || mode == OutputMode::vpixx_m16 ||
+           mode == OutputMode::bits_plus_plus;
+}
+
+/// How much of a grey's luminance each channel has: as measured, or as in Rec. 709 (ITU-R BT.709-6).
+glm::dvec3 luminance_shares(const DisplaySettings& display) {
+    return display.characterisation ? display.characterisation->luminance_shares()
+                                    : glm::dvec3(0.2126, 0.7152, 0.0722);
+}
+
+/// One table for each channel of a characterised display.
+std::vector<LevelTable> channel_tables(const DisplaySettings& display, int levels) {
+    if (!display.characterisation)
+        return {LevelTable(levels, display.gamma)};
+    std::vector<LevelTable> tables;
+    for (const ChannelCurve& curve : display.characterisation->curves)
+        tables.emplace_back(levels, [&curve](double signal) { return curve.light_of(signal); });
+    return tables;
+}
+
+std::vector<LevelTable> tables_of(const DisplaySettings& display) {
+    const int levels = levels_of(display);
+    // The index of Bits++ counts light itself: its table of colours undoes the gamma, in 16 bits.
+    if (display.output == OutputMode::bits_plus_plus)
+        return {LevelTable(levels, 1.0)};
+    if (!display.characterisation || !is_grey(display.output))
+        return channel_tables(display, levels);
+    // One signal drives all three channels; what counts is the luminance that they make together.
+    const glm::dvec3 shares = luminance_shares(display);
+    const auto& curves = display.characterisation->curves;
+    const auto mixed = [&](double signal) {
+        return shares.r * curves[0].light_of(signal) + shares.g * curves[1].light_of(signal) +
+               shares.b * curves[2].light_of(signal);
+    };
+    const double full = mixed(1.0); // but for rounding, 1
+    return {LevelTable(levels, [&](double signal) { return mixed(signal) / full; })};
+}
 
 double sinc(double x) {
     const double angle = std::numbers::pi * x;
@@ -62,9 +98,7 @@ DisplayEncoder::DisplayEncoder(const DisplaySettings& display)
       leaves_last_step_(display.output == OutputMode::native_10bit ||
                         (display.output == OutputMode::native_8bit && display.dither != Dithering::none)),
       reach_px_(joins_pixels_in_pairs(display.output) && display.pair_filter == PairFilter::lanczos ? 6 : 0),
-      // The index of Bits++ counts light itself: its table of colours undoes the gamma, in 16 bits.
-      table_(levels_of(display), display.output == OutputMode::bits_plus_plus ? 1.0 : display.gamma),
-      lanczos_(lanczos_weights()) {}
+      luminance_(luminance_shares(display)), tables_(tables_of(display)), lanczos_(lanczos_weights()) {}
 
 ScreenPatch DisplayEncoder::patch_of(glm::ivec2 origin_px, glm::ivec2 size_px) const {
     if (!joins_pixels_in_pairs(display_.output))
@@ -84,16 +118,22 @@ glm::dvec3 DisplayEncoder::pair_at(const glm::dvec3* left) const {
     return sum;
 }
 
+int DisplayEncoder::grey_level(const glm::dvec3& light) const {
+    return table_of(0).level_of(luminance_.r * light.r + luminance_.g * light.g + luminance_.b * light.b);
+}
+
 void DisplayEncoder::encode_row(const Row& row, int width, std::byte* into) const {
     const glm::dvec3* light = row.data() + reach_px_;
+    const LevelTable &reds = table_of(0), &greens = table_of(1), &blues = table_of(2);
     if (leaves_last_step_) {
         auto* codes = reinterpret_cast<std::uint16_t*>(into);
         for (int x = 0; x < width; ++x, codes += 4) {
             for (int channel = 0; channel < 3; ++channel) {
+                const LevelTable& table = table_of(channel);
                 const double position = display_.dither == Dithering::none
-                                            ? table_.level_of(light[x][channel])
-                                            : table_.position_of(light[x][channel]);
-                codes[channel] = static_cast<std::uint16_t>(position * (65535.0 / table_.levels()) + 0.5);
+                                            ? table.level_of(light[x][channel])
+                                            : table.position_of(light[x][channel]);
+                codes[channel] = static_cast<std::uint16_t>(position * (65535.0 / table.levels()) + 0.5);
             }
             codes[3] = 65535;
         }
@@ -103,19 +143,19 @@ void DisplayEncoder::encode_row(const Row& row, int width, std::byte* into) cons
     case OutputMode::native_8bit:
     case OutputMode::native_10bit:
         for (int x = 0; x < width; ++x, into += 4)
-            put_bytes(into, table_.level_of(light[x].r), table_.level_of(light[x].g),
-                      table_.level_of(light[x].b));
+            put_bytes(into, reds.level_of(light[x].r), greens.level_of(light[x].g),
+                      blues.level_of(light[x].b));
         return;
     case OutputMode::bits_plus_plus:
         for (int x = 0; x < width; ++x, into += 4) {
-            const int index = table_.level_of(luminance(light[x]));
+            const int index = grey_level(light[x]);
             put_bytes(into, index, index, index);
         }
         return;
     case OutputMode::mono_plus_plus:
     case OutputMode::vpixx_m16:
         for (int x = 0; x < width; ++x, into += 4) {
-            const int code = table_.level_of(luminance(light[x]));
+            const int code = grey_level(light[x]);
             put_bytes(into, code >> 8, code & 255, 0); // blue 0: no overlay
         }
         return;
@@ -123,8 +163,8 @@ void DisplayEncoder::encode_row(const Row& row, int width, std::byte* into) cons
     case OutputMode::vpixx_c48:
         for (int x = 0; x < width; x += 2, into += 8) {
             const glm::dvec3 colour = pair_at(light + x);
-            const int red = table_.level_of(colour.r), green = table_.level_of(colour.g),
-                      blue = table_.level_of(colour.b);
+            const int red = reds.level_of(colour.r), green = greens.level_of(colour.g),
+                      blue = blues.level_of(colour.b);
             put_bytes(into, red >> 8, green >> 8, blue >> 8);
             put_bytes(into + 4, red & 255, green & 255, blue & 255);
         }
@@ -158,10 +198,13 @@ void DisplayEncoder::encode_background(glm::ivec2 size_px, std::span<std::byte> 
 }
 
 ColourTable DisplayEncoder::colour_table() const {
-    const LevelTable table(65535, display_.gamma);
+    const std::vector<LevelTable> tables = channel_tables(display_, 65535);
     ColourTable colours{};
-    for (std::size_t i = 0; i < colours.size(); ++i)
-        colours[i].fill(static_cast<std::uint16_t>(table.level_of(static_cast<double>(i) / 255.0)));
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            colours[i][channel] = static_cast<std::uint16_t>(
+                tables[tables.size() == 1 ? 0 : channel].level_of(static_cast<double>(i) / 255.0));
+    }
     return colours;
 }
 

@@ -42,18 +42,23 @@ class DisplayEncoder {
     /// The same for the background alone.
     void encode_background(glm::ivec2 size_px, std::span<std::byte> into) const;
 
-    /// The table of colours of Bits++: light of index i / 255, as 16 bits.
+    /// The table of colours of Bits++: light of index i / 255, as 16 bits of each channel.
     ColourTable colour_table() const;
 
   private:
     using Row = std::vector<glm::dvec3>;
     glm::dvec3 pair_at(const glm::dvec3* left) const;
+    const LevelTable& table_of(int channel) const {
+        return tables_[tables_.size() == 1 ? 0 : static_cast<std::size_t>(channel)];
+    }
+    int grey_level(const glm::dvec3& light) const;
     void encode_row(const Row& row, int width, std::byte* into) const;
 
     DisplaySettings display_;
     bool leaves_last_step_;
-    int reach_px_; ///< of the filter, to each side of a pair
-    LevelTable table_;
+    int reach_px_;                     ///< of the filter, to each side of a pair
+    glm::dvec3 luminance_;             ///< share of each channel in the light of a grey mode
+    std::vector<LevelTable> tables_;   ///< of each channel, or one for all
     std::array<double, 12> lanczos_{}; ///< weights of a pair's neighbourhood
 };
 

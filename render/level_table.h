@@ -1,18 +1,22 @@
 /// From light to the level of a signal that makes it: the inverse of a display's gamma.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 namespace overt {
 
-/// Levels 0 … n of a signal, of which level i makes the light (i / n)^gamma. The borders between levels are
-/// tabulated in double precision, so that what comes out is floor(n * light^(1 / gamma) + 0.5), a billionth
-/// of a level short of a tie going up with it, without the error of a power function, at the price of a
-/// search in a few neighbours.
+/// Levels 0 … n of a signal, of which level i makes the light curve(i / n), such as (i / n)^gamma. The light
+/// at the borders between levels is tabulated in double precision, so that what comes out is floor(n * s +
+/// 0.5) with s the smallest signal that makes the light, a billionth of a level short of a tie going up with
+/// it, without the error of an inverted curve, at the price of a search in a few neighbours.
 class LevelTable {
   public:
     /// `levels`: the highest level n, 1 … 65535. `gamma` > 0.
     LevelTable(int levels, double gamma);
+
+    /// `curve` goes from 0 at 0 to 1 at 1 and never falls.
+    LevelTable(int levels, const std::function<double(double)>& curve);
 
     /// The nearest level. Light outside of 0 … 1 is clipped; not a number counts as 0.
     int level_of(double light) const noexcept;
@@ -24,6 +28,7 @@ class LevelTable {
     int levels() const { return levels_; }
 
   private:
+    void tabulate(const std::function<double(double)>& curve);
     double light_of(int level) const noexcept { return lights_[static_cast<std::size_t>(level)]; }
 
     int levels_;

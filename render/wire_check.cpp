@@ -19,7 +19,7 @@ WireFindings check_row(const ReceivedLight& received, const WirePrediction& pred
         const auto light = prediction.shown_light_at(x, y);
         const auto& levels = received.at(x, y);
         for (std::size_t channel = 0; channel < channels; ++channel) {
-            const double signal = prediction.signal_of(light[channel], received.highest);
+            const double signal = prediction.signal_of(channel, light[channel], received.highest);
             const int level = levels[channel];
             int difference = 0;
             if (dithered) {
@@ -64,13 +64,14 @@ double worst_mean(const ReceivedLight& received, const WirePrediction& predictio
             for (std::size_t channel = 0; plain && channel < 3; ++channel) {
                 // What the eye takes in is light: the share of the higher level is that of the light's way
                 // between the light of both.
-                const double signal = prediction.signal_of(light[channel], received.highest);
+                const double signal = prediction.signal_of(channel, light[channel], received.highest);
                 const double low = std::min(std::floor(signal), received.highest - 1.0);
                 const auto light_of = [&](double level) {
                     double below = 0.0, above = 1.0; // inverted by halving: the signal is monotone
                     for (int i = 0; i < 60; ++i) {
                         const double middle = 0.5 * (below + above);
-                        (prediction.signal_of(middle, received.highest) < level ? below : above) = middle;
+                        (prediction.signal_of(channel, middle, received.highest) < level ? below : above) =
+                            middle;
                     }
                     return 0.5 * (below + above);
                 };

@@ -196,7 +196,6 @@ ReceivedLight receive_light(const WireScreen& screen, OutputMode mode) {
                     return table.colours[static_cast<std::size_t>(i)][channel];
                 };
                 add(of(index.r, 0), of(index.g, 1), of(index.b, 2));
-                light.is_grey = true;
                 break;
             }
             }

@@ -19,6 +19,18 @@ double lanczos3(double t) {
 
 } // namespace
 
+WirePrediction::WirePrediction(const DisplaySettings& display, const ShownPicture& shown)
+    : display_(&display), shown_(shown) {
+    if (!display.characterisation)
+        return;
+    const auto& primaries = display.characterisation->primaries_xyz;
+    const double sum = primaries[0].y + primaries[1].y + primaries[2].y;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        luminance_shares_[channel] = primaries[channel].y / sum;
+        curves_[channel] = PredictedCurve(display.characterisation->curves[channel]);
+    }
+}
+
 std::array<double, 3> WirePrediction::light_at(int x, int y) const {
     const double around = display_->background;
     if (!shown_.picture)
@@ -69,7 +81,8 @@ std::array<double, 3> WirePrediction::shown_light_at(int x, int y) const {
     case OutputMode::vpixx_m16:
     case OutputMode::bits_plus_plus: {
         const auto [r, g, b] = light_at(x, y);
-        double grey = std::clamp(r * 0.2126 + g * 0.7152 + b * 0.0722, 0.0, 1.0);
+        const auto [red, green, blue] = luminance_shares_;
+        double grey = std::clamp(r * red + g * green + b * blue, 0.0, 1.0);
         if (display_->output == OutputMode::bits_plus_plus)
             grey = std::floor(grey * 255.0 + 0.5) / 255.0;
         light = {grey, grey, grey};
@@ -81,8 +94,31 @@ std::array<double, 3> WirePrediction::shown_light_at(int x, int y) const {
     return light;
 }
 
-double WirePrediction::signal_of(double light, int highest) const {
-    return highest * (display_->gamma == 1.0 ? light : std::pow(light, 1.0 / display_->gamma));
+double WirePrediction::grey_signal_of(double light) const {
+    // The channels drawn singly enclose the signal that they need together.
+    double low = 1.0, high = 0.0;
+    for (const PredictedCurve& curve : curves_) {
+        low = std::min(low, curve.signal_of(light));
+        high = std::max(high, curve.signal_of(light));
+    }
+    while (high - low > 1e-15) {
+        const double middle = 0.5 * (low + high);
+        if (middle == low || middle == high)
+            break;
+        double sum = 0.0;
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            sum += luminance_shares_[channel] * curves_[channel].light_of(middle);
+        (sum < light ? low : high) = middle;
+    }
+    return high;
+}
+
+double WirePrediction::signal_of(std::size_t channel, double light, int highest) const {
+    if (!display_->characterisation)
+        return highest * (display_->gamma == 1.0 ? light : std::pow(light, 1.0 / display_->gamma));
+    const bool is_grey =
+        display_->output == OutputMode::mono_plus_plus || display_->output == OutputMode::vpixx_m16;
+    return highest * (is_grey ? grey_signal_of(light) : curves_[channel].signal_of(light));
 }
 
 } // namespace overt

@@ -29,12 +29,13 @@ void check_keys_of_mode(ProtocolExamination& examination) {
                           fmt::format("{} joins no pixels in pairs: pair_filter has no meaning", mode));
     }
     if (is_native(display.output)) {
-        if (display.gamma == 1.0 && !examination.is_written("display.gamma")) {
+        if (display.gamma == 1.0 && !examination.is_written("display.gamma") &&
+            !examination.is_written("display.characterisation")) {
             examination.warning(
                 {"display.output", "display.gamma"},
                 fmt::format("{} with the default gamma of 1: the display would have to linearise itself",
                             mode),
-                "ordinary monitors need gamma = 2.2; write gamma = 1 if it is meant");
+                "ordinary monitors need gamma = 2.2, or a characterisation; write gamma = 1 if it is meant");
         }
     } else if (display.dither != Dithering::none) {
         examination.error(

@@ -13,6 +13,7 @@
 #include <glm/glm.hpp>
 
 #include "experiment/animation.h"
+#include "experiment/colour/display_characterisation.h"
 #include "experiment/protocol/key_places.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/units.h"
@@ -79,9 +80,15 @@ struct DisplaySettings {
     /// The box that reads mono++, color++ and bits++: "auto", "none", or its serial port.
     std::string box = "auto";
     int onset_trigger = 0; ///< digital outputs that a presentation's first refresh raises, a bit each
-    double gamma = 1.0;    ///< exponent between wire value and light; 1 for a display that linearises itself
-    double latency_ms = 0.0; ///< from vertical blank to the first row's light
-    double background = 0.0; ///< linear grey, 0 … 1 of the display's white
+    /// Exponent between wire value and light; 1 for a display that linearises itself. Without a
+    /// characterisation.
+    double gamma = 1.0;
+    std::filesystem::path characterisation_file; ///< or empty; resolved against the protocol's folder
+    std::optional<DisplayCharacterisation> characterisation; ///< what stands in it
+    double latency_ms = 0.0;                                 ///< from vertical blank to the first row's light
+    double background = 0.0;                                 ///< linear grey, 0 … 1 of the display's white
+    double frame_store_mb = 1000.0; ///< what the frames of two stimuli may take on the graphics card
+    std::optional<double> background_cd_m2; ///< or its luminance, from which `background` is made
 };
 
 enum class TrackerKind : std::uint8_t { simulated };
@@ -139,7 +146,8 @@ struct ScreenSettings {
     double response_min_s = 1.0;
     double response_max_s = 60.0; ///< goes on without an answer
     double text_height_deg = 0.5;
-    double text_grey = 0.6; ///< linear, 0 … 1 of the display's white
+    double text_grey = 0.6;           ///< linear, 0 … 1 of the display's white
+    std::optional<double> text_cd_m2; ///< or its luminance, from which `text_grey` is made
     std::string response_text = "Please answer now.\nPress a key when you have finished.";
     std::string welcome_text = "Welcome.\nPress a key to begin.";
     std::string farewell_text = "Thank you. This is the end.";

@@ -27,6 +27,9 @@ class ProtocolExamination {
     void error(std::initializer_list<std::string_view> paths, std::string message, std::string hint = {});
     void warning(std::initializer_list<std::string_view> paths, std::string message, std::string hint = {});
 
+    /// Where findings about files that the protocol names belong.
+    Diagnostics& diagnostics() { return diagnostics_; }
+
     bool is_written(std::string_view path) const { return protocol.places.is_written(path); }
 
   private:
@@ -43,6 +46,10 @@ void check_output(ProtocolExamination& examination);
 void check_animation(ProtocolExamination& examination);
 void check_screens(ProtocolExamination& examination);
 void check_schedule(ProtocolExamination& examination);
+
+/// Reads the characterisation of the display, if the protocol names one and `look_at_files`, and finds what
+/// in the protocol contradicts it or asks for it. Turns luminances into linear light.
+void take_characterisation(ProtocolExamination& examination, bool look_at_files);
 
 // The lists: ids, references, and what belongs together in one entry.
 void check_ids(ProtocolExamination& examination);

@@ -217,6 +217,8 @@ void complete(Protocol& protocol) {
         if (!sequence.files.empty())
             sequence.files = (folder / sequence.files).string();
     }
+    if (!protocol.display.characterisation_file.empty())
+        protocol.display.characterisation_file = folder / protocol.display.characterisation_file;
     if (protocol.light.probe != "overcast")
         protocol.light.probe = (folder / protocol.light.probe).string();
 }
@@ -236,6 +238,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
     // With lines missing from the tree, comparing keys would raise false alarms.
     if (toml.is_whole) {
         require_lists(examination);
+        take_characterisation(examination, look_at_files);
         check_image_fits(examination);
         check_output(examination);
         check_animation(examination);

@@ -90,6 +90,12 @@ Section<DisplaySettings> display() {
                   .explanation = "Exponent from signal to light: 1 for a display that linearises itself, "
                                  "about 2.2 for an ordinary monitor."},
                  &D::gamma},
+                {{.name = "characterisation",
+                  .if_left_out = "none",
+                  .explanation = "File with what was measured of the display, instead of `gamma`: primaries, "
+                                 "black, and the curve of each channel; see "
+                                 "[characterisation.md](characterisation.md)."},
+                 &D::characterisation_file},
                 {{.name = "latency_ms",
                   .unit = "ms",
                   .low = 0,
@@ -101,6 +107,21 @@ Section<DisplaySettings> display() {
                   .high = 1,
                   .explanation = "Linear grey around the stimulus, 1 being the display's white."},
                  &D::background},
+                {{.name = "frame_store_mb",
+                  .unit = "MB",
+                  .low = 1,
+                  .high = 1000000,
+                  .explanation = "What the frames of the shown stimulus and of the next may take on the graphics "
+                                 "card. If both do not fit, the next is loaded before its trial instead of "
+                                 "during the answer before."},
+                 &D::frame_store_mb},
+                {{.name = "background_cd_m2",
+                  .unit = "cd/m2",
+                  .low = 0,
+                  .high = 1e5,
+                  .if_left_out = "by `background`",
+                  .explanation = "The same as a luminance; needs a `characterisation`."},
+                 &D::background_cd_m2},
             },
         .one = &Protocol::display};
 }
@@ -197,6 +218,13 @@ Section<ScreenSettings> screens() {
                   .high = 1,
                   .explanation = "Linear grey of the text, 1 being the display's white."},
                  &S::text_grey},
+                {{.name = "text_cd_m2",
+                  .unit = "cd/m2",
+                  .low = 0,
+                  .high = 1e5,
+                  .if_left_out = "by `text_grey`",
+                  .explanation = "The same as a luminance; needs a `characterisation` of the display."},
+                 &S::text_cd_m2},
                 {{.name = "response_text", .explanation = "Shown while the observer answers aloud."},
                  &S::response_text},
                 {{.name = "welcome_text", .explanation = "Shown before the first trial."}, &S::welcome_text},

@@ -157,6 +157,22 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::array<d
     return read_numbers(value, rule, "a list of three numbers", out.size(), out.data());
 }
 
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<double>& out) {
+    if (!value.list()) {
+        double number = 0.0;
+        const bool is_number = std::holds_alternative<double>(value.content) ||
+                               std::holds_alternative<std::int64_t>(value.content);
+        if (!is_number)
+            return wrong_kind(value, rule, "a list of numbers");
+        if (ValueResult fault = read_value(value, rule, number))
+            return fault;
+        out = {number};
+        return std::nullopt;
+    }
+    out.resize(value.list()->size());
+    return read_numbers(value, rule, "a list of numbers", out.size(), out.data());
+}
+
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<std::array<double, 4>>& out) {
     constexpr std::string_view noun = "a list of spheres [x, y, z, radius]";
     if (!value.list())

@@ -27,6 +27,8 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::optiona
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::optional<std::uint64_t>& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::optional<glm::dvec3>& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::array<double, 3>& out);
+/// A list of numbers, or one number, which is a list of one.
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<double>& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<std::array<double, 4>>& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<std::array<double, 6>>& out);
 

@@ -29,7 +29,9 @@ const std::string opengl = "^(GL/|GLES|GLFW/|EGL/|KHR/|glad/|X11/)", usb = "^(li
 const std::vector<Layer> layers{
     {"experiment/scene/", "^experiment/([^/]+|scene/.*)$",
      opengl + "|" + usb + "|" + drawing + "|" + database},
-    {"experiment/protocol/", "^experiment/([^/]+|protocol/.*)$",
+    {"experiment/colour/", "^experiment/([^/]+|colour/.*)$",
+     opengl + "|" + usb + "|" + drawing + "|" + database},
+    {"experiment/protocol/", "^experiment/([^/]+|(colour|protocol)/.*)$",
      opengl + "|" + usb + "|" + drawing + "|" + database},
     {"experiment/analysis/", "^experiment/([^/]+|(scene|analysis)/.*)$", opengl + "|" + usb + "|" + database},
     // A recorded session is read without the protocol that it came from.
@@ -40,8 +42,8 @@ const std::vector<Layer> layers{
     {"experiment/schedule.", "^experiment/([^/]+|protocol/.*)$", opengl + "|" + usb + "|" + drawing},
     {"experiment/sculpture.", "^experiment/([^/]+|(protocol|scene)/.*)$", opengl + "|" + usb + "|" + drawing},
     {"experiment/", "^experiment/[^/]+$", opengl + "|" + usb + "|" + drawing + "|" + database},
-    {"render/", "^(experiment/([^/]+|(scene|protocol|analysis)/.*)|render/.*)$", usb + "|" + database},
-    {"devices/", "^(experiment/([^/]+|(scene|protocol|analysis)/.*)|devices/.*)$",
+    {"render/", "^(experiment/([^/]+|(colour|scene|protocol|analysis)/.*)|render/.*)$", usb + "|" + database},
+    {"devices/", "^(experiment/([^/]+|(colour|scene|protocol|analysis)/.*)|devices/.*)$",
      opengl + "|" + drawing + "|" + database},
     {"app/", "^(experiment|render|devices|app)/.*$", "^$"},
 };

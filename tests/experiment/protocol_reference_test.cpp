@@ -31,7 +31,9 @@ TEST_CASE("every key is explained in a sentence, once in its section, with its u
             if (!key.rule.unit.empty()) {
                 std::string suffix = fmt::format("_{}", key.rule.unit);
                 std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](char letter) {
-                    return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32) : letter;
+                    return letter == '/'                    ? '_'
+                           : letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32)
+                                                            : letter;
                 });
                 CHECK(key.rule.name.ends_with(suffix));
             }

@@ -1,0 +1,208 @@
+#include "experiment/colour/number_table.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiment/error.h"
+
+namespace overt {
+
+namespace {
+
+/// A piece of a line, and its column in characters.
+struct Cell {
+    std::string_view text;
+    int column;
+};
+
+int characters_in(std::string_view text) {
+    return static_cast<int>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::vector<Cell> cells_of(std::string_view line) {
+    constexpr std::string_view blanks = " \t\r";
+    std::vector<Cell> cells;
+    for (std::size_t begin = 0; begin <= line.size();) {
+        const std::size_t end = std::min(line.find(',', begin), line.size());
+        std::size_t first = begin, last = end;
+        while (first < last && blanks.find(line[first]) != blanks.npos)
+            ++first;
+        while (last > first && blanks.find(line[last - 1]) != blanks.npos)
+            --last;
+        cells.push_back({line.substr(first, last - first), characters_in(line.substr(0, first)) + 1});
+        begin = end + 1;
+    }
+    return cells;
+}
+
+class TableWalk {
+  public:
+    TableWalk(NumberTable& table, std::span<const std::string_view> required,
+              std::span<const std::string_view> optional, Diagnostics& diagnostics)
+        : table_(table), required_(required), optional_(optional), diagnostics_(diagnostics) {}
+
+    void read() {
+        std::string_view rest = table_.text;
+        if (rest.starts_with("\xEF\xBB\xBF"))
+            rest.remove_prefix(3);
+        while (!rest.empty() && faults_ < most_faults) {
+            const std::size_t end = std::min(rest.find('\n'), rest.size());
+            const std::string_view line = rest.substr(0, end);
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+            ++line_;
+            const std::size_t first = line.find_first_not_of(" \t\r");
+            if (first == line.npos || line[first] == '#')
+                continue;
+            if (table_.columns.empty())
+                read_header(cells_of(line));
+            else
+                read_row(line);
+        }
+        if (table_.columns.empty())
+            fault(0, "the table has no line of column names", header_hint());
+        else if (table_.rows.empty() && faults_ == 0)
+            fault(0, "the table has no lines of numbers");
+    }
+
+  private:
+    static constexpr int most_faults = 20; ///< a file of another kind would fill the screen
+
+    void fault(int column, std::string message, std::string hint = {}) {
+        ++faults_;
+        diagnostics_.error(table_.file, column > 0 ? Place{line_, column} : Place{}, std::move(message),
+                           std::move(hint));
+    }
+
+    std::string header_hint() const {
+        return required_.empty() ? std::string()
+                                 : fmt::format("the first line is to be {}", fmt::join(required_, ","));
+    }
+
+    void read_header(const std::vector<Cell>& cells) {
+        std::vector<std::string_view> known(required_.begin(), required_.end());
+        known.insert(known.end(), optional_.begin(), optional_.end());
+        for (const Cell& cell : cells) {
+            const bool is_known =
+                required_.empty() || std::find(known.begin(), known.end(), cell.text) != known.end();
+            if (!is_known)
+                fault(cell.column, fmt::format("unknown column \"{}\"", cell.text),
+                      suggest_name(cell.text, known));
+            else if (table_.has(cell.text))
+                fault(cell.column, fmt::format("a second column \"{}\"", cell.text));
+            table_.columns.emplace_back(cell.text);
+        }
+        for (const std::string_view name : required_) {
+            if (!table_.has(name))
+                fault(1, fmt::format("there is no column \"{}\"", name), header_hint());
+        }
+        // Without its columns the rest only repeats the fault.
+        if (faults_ > 0)
+            faults_ = most_faults;
+    }
+
+    void read_row(std::string_view line) {
+        const std::vector<Cell> cells = cells_of(line);
+        if (cells.size() != table_.columns.size()) {
+            fault(
+                1,
+                fmt::format("{} columns where the line of names has {}", cells.size(), table_.columns.size()),
+                line.find(';') != line.npos ? "write commas between columns, and points for decimals" : "");
+            return;
+        }
+        std::vector<double> values;
+        std::vector<Place> places;
+        for (const Cell& cell : cells) {
+            double value = 0.0;
+            const char* const end = cell.text.data() + cell.text.size();
+            const auto parsed = std::from_chars(cell.text.data(), end, value);
+            if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value)) {
+                fault(cell.column, fmt::format("\"{}\" is no number", cell.text));
+                return;
+            }
+            values.push_back(value);
+            places.push_back({line_, cell.column});
+        }
+        table_.rows.push_back(std::move(values));
+        table_.places.push_back(std::move(places));
+    }
+
+    NumberTable& table_;
+    std::span<const std::string_view> required_, optional_;
+    Diagnostics& diagnostics_;
+    int line_ = 0;
+    int faults_ = 0;
+};
+
+} // namespace
+
+bool NumberTable::has(std::string_view column) const {
+    return std::find(columns.begin(), columns.end(), column) != columns.end();
+}
+
+std::size_t NumberTable::index_of(std::string_view column) const {
+    const auto found = std::find(columns.begin(), columns.end(), column);
+    OVERT_EXPECTS(found != columns.end());
+    return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::vector<double> NumberTable::column(std::string_view name) const {
+    const std::size_t index = index_of(name);
+    std::vector<double> values;
+    for (const std::vector<double>& row : rows)
+        values.push_back(row[index]);
+    return values;
+}
+
+Place NumberTable::place(std::size_t row, std::string_view column) const {
+    return places.at(row).at(index_of(column));
+}
+
+std::optional<std::string> read_whole_file(const std::filesystem::path& file, const std::string& named_in,
+                                           Place place, Diagnostics& diagnostics) {
+    // Far more than any table of ours: somebody gave a picture.
+    constexpr std::size_t largest_bytes = 4 << 20;
+    const auto refuse = [&](std::string message, std::string hint = {}) {
+        diagnostics.error(named_in, place, std::move(message), std::move(hint));
+        return std::nullopt;
+    };
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        return refuse(fmt::format("there is no file {}", file.string()));
+    if (!std::filesystem::is_regular_file(file, ignored))
+        return refuse(fmt::format("{} is no file", file.string()));
+    errno = 0;
+    std::ifstream stream(file, std::ios::binary);
+    std::string text(largest_bytes + 1, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (!stream.eof() && stream.gcount() == 0)
+        return refuse(fmt::format("{} cannot be read: {}", file.string(), std::strerror(errno)));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > largest_bytes)
+        return refuse(fmt::format("{} is larger than 4 MiB: it is no table of numbers", file.string()));
+    return text;
+}
+
+std::optional<NumberTable> read_number_table(std::string text, const std::string& file,
+                                             std::span<const std::string_view> required,
+                                             std::span<const std::string_view> optional,
+                                             Diagnostics& diagnostics) {
+    const int errors_before = diagnostics.error_count();
+    NumberTable table;
+    table.file = file;
+    table.text = std::move(text);
+    diagnostics.quote_from(file, table.text);
+    TableWalk(table, required, optional, diagnostics).read();
+    if (diagnostics.error_count() > errors_before)
+        return std::nullopt;
+    return table;
+}
+
+} // namespace overt
