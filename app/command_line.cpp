@@ -45,6 +45,83 @@ CLI::App& add_command(CLI::App& app, const std::string& name, const std::string&
     return command;
 }
 
+void add_characterise_command(CLI::App& display, DisplayCharacteriseOptions& options,
+                              std::function<void()> chosen) {
+    CLI::App& command = add_command(
+        display, "characterise",
+        "Measures the display with a photometer, fits its light and curves, and proves them",
+        "overt display characterise protocols/overt_2019.toml --out lab3.toml --warm-up 30\n"
+        "  overt display characterise --readings lab3_readings.csv --out lab3.toml\n"
+        "  overt display characterise --simulated 1 --context osmesa --out simulated.toml");
+    command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML): its screen and output");
+    command.add_option("--out", options.out, "File to write; readings and report go beside it")
+        ->type_name("FILE.toml")
+        ->capture_default_str();
+    auto* readings = command
+                         .add_option("--readings", options.readings,
+                                     "Show nothing: take the readings of this table, with columns "
+                                     "level_r,level_g,level_b (0 to 1),X,Y,Z")
+                         ->type_name("FILE.csv");
+    auto* typed = command.add_flag("--typed", options.typed,
+                                   "Ask at the terminal for what an instrument shows, patch by patch");
+    auto* simulated =
+        command
+            .add_option("--simulated", options.simulated,
+                        "A simulated photometer before a simulated display: a rehearsal, in no time")
+            ->type_name("SEED");
+    readings->excludes(typed)->excludes(simulated);
+    typed->excludes(simulated);
+    command.add_option("--port", options.port, "Serial port of the ColorCAL (default: the only one)")
+        ->type_name("PORT")
+        ->excludes(readings)
+        ->excludes(typed)
+        ->excludes(simulated);
+    command.add_option("--name", options.name, "Which display it is, for the file")->capture_default_str();
+    command.add_option("--instrument", options.instrument, "What the readings were taken with, in words");
+    command.add_option("--mode", options.mode, "Output mode (default: the protocol's, else native-8bit)")
+        ->check(CLI::IsMember({"native-8bit", "native-10bit", "color++", "vpixx-c48"}))
+        ->type_name("MODE");
+    command
+        .add_option("--model", options.model,
+                    "Curves of the file: the measured table, or the power that was fitted to it")
+        ->check(CLI::IsMember({"table", "power"}))
+        ->capture_default_str();
+    command.add_option("--levels", options.levels, "Levels of each channel, black among them")
+        ->check(CLI::Range(6, 256))
+        ->capture_default_str();
+    command.add_option("--mixed", options.mixed, "Random patches for validation")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
+    command.add_option("--repeats", options.repeats, "Readings of each patch, each time in another order")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
+    command.add_option("--seed", options.seed, "Of the order and the random patches")->capture_default_str();
+    command.add_option("--settle", options.settle_s, "Time from a patch's onset to its reading")
+        ->type_name("S")
+        ->check(CLI::Range(0.0, 600.0))
+        ->capture_default_str();
+    command.add_option("--warm-up", options.warm_up_min, "White before the first reading")
+        ->type_name("MIN")
+        ->check(CLI::Range(0.0, 600.0))
+        ->capture_default_str();
+    command.add_option("--size", options.size_deg, "Side of the patch (default: the whole screen)")
+        ->type_name("DEG")
+        ->check(CLI::Range(0.1, 120.0));
+    command.add_option("--surround", options.surround, "Signal around the patch, 0 to 1")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    command
+        .add_option("--crosstalk", options.crosstalk,
+                    "By how much a channel of the simulated display sinks when the others are lit")
+        ->check(CLI::Range(0.0, 0.5))
+        ->needs(simulated);
+    command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
+    add_context_option(command, options.context);
+    command.add_flag("--force", options.force, "Replace files that are there");
+    command.add_flag("--json", options.json, "Print JSON");
+    command.callback(std::move(chosen));
+}
+
 } // namespace
 
 int run_command_line(int argc, char** argv) {
@@ -286,6 +363,10 @@ int run_command_line(int argc, char** argv) {
     add_context_option(verify_command, verify.context);
     verify_command.add_flag("--json", verify.json, "Print JSON");
     verify_command.callback([&] { command = [&] { return run_display_verify(verify); }; });
+
+    DisplayCharacteriseOptions characterise;
+    add_characterise_command(display_command, characterise,
+                             [&] { command = [&] { return run_display_characterise(characterise); }; });
 
     BenchOptions bench;
     auto& bench_command = add_command(app, "bench", "The program's own benchmarks",

@@ -113,6 +113,30 @@ struct DisplayVerifyOptions {
 };
 int run_display_verify(const DisplayVerifyOptions& options);
 
+struct DisplayCharacteriseOptions {
+    std::filesystem::path protocol; ///< its screen; empty: 1920 x 1080
+    std::filesystem::path out = "display.toml";
+    std::filesystem::path readings;         ///< from this table instead of a photometer
+    bool typed = false;                     ///< somebody types in what an instrument shows
+    std::optional<std::uint64_t> simulated; ///< a display and photometer that are not there, by seed
+    std::string port;                       ///< of the ColorCAL; empty: the only one there is
+    std::string name = "display";
+    std::string instrument; ///< in words, for readings that were typed or come from a table
+    std::string mode;       ///< as in a protocol; empty: the protocol's, or native-8bit
+    std::string model = "table";
+    int levels = 17, mixed = 24, repeats = 3;
+    std::uint64_t seed = 1; ///< of the order of patches
+    double settle_s = 0.5, warm_up_min = 0.0;
+    double size_deg = 0.0;  ///< of the patch; 0: the whole screen
+    double surround = 0.0;  ///< signal around the patch
+    double crosstalk = 0.0; ///< of the simulated display
+    ContextChoice context;
+    bool windowed = false;
+    bool force = false;
+    bool json = false;
+};
+int run_display_characterise(const DisplayCharacteriseOptions& options);
+
 struct BenchOptions {
     std::string what;           ///< which benchmark
     std::filesystem::path mesh; ///< measure on this one instead of the shipped sculptures

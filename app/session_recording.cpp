@@ -71,6 +71,17 @@ void describe_sculptures(SessionHeader& header, const Protocol& protocol,
     }
 }
 
+std::optional<RecordedCharacterisation> recorded(const std::optional<DisplayCharacterisation>& light) {
+    if (!light)
+        return std::nullopt;
+    RecordedCharacterisation recorded{
+        light->display,       light->date, light->instrument, light->sha256, light->black_xyz,
+        light->primaries_xyz, {}};
+    for (const CharacterisationFile& file : light->files)
+        recorded.files.push_back({file.name, file.text});
+    return recorded;
+}
+
 } // namespace
 
 SessionHeader make_session_header(const Protocol& protocol, const Schedule& schedule,
@@ -89,6 +100,7 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
     header.display = {screen_geometry_of(protocol), protocol.display.refresh_hz,
                       from_seconds(1e-3 * protocol.display.latency_ms),
                       std::string(name_of(protocol.display.output)), protocol.display.background};
+    header.characterisation = recorded(protocol.display.characterisation);
     header.animation = protocol.animation;
     header.poses = library.poses();
     for (const Task& task : protocol.tasks)

@@ -37,9 +37,18 @@ nlohmann::ordered_json to_json(const SessionRecord& record) {
                           {"missed_refreshes", trial.outcome.missed_refreshes},
                           {"answer", trial.outcome.answer}});
     }
-    return {{"session", record.directory().string()},      {"protocol", header.protocol.name},
-            {"observer", header.schedule.observer.label},  {"seed", header.schedule.seed},
-            {"closed_in_order", record.closed_in_order()}, {"trials", trials}};
+    nlohmann::ordered_json json{
+        {"session", record.directory().string()},      {"protocol", header.protocol.name},
+        {"observer", header.schedule.observer.label},  {"seed", header.schedule.seed},
+        {"closed_in_order", record.closed_in_order()}, {"trials", trials}};
+    if (const auto& light = header.characterisation) {
+        json["characterisation"] = {{"display", light->display},
+                                    {"date", light->date},
+                                    {"sha256", light->sha256},
+                                    {"white_cd_m2", light->white_cd_m2()},
+                                    {"black_cd_m2", light->black_xyz.y}};
+    }
+    return json;
 }
 
 void print_session(const SessionRecord& record) {

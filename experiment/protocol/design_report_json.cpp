@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "experiment/protocol/design_report.h"
@@ -47,6 +49,23 @@ Json to_json(const DesignReport& report) {
         {"screen_width_deg", angles.screen_width_deg}, {"screen_height_deg", angles.screen_height_deg},
         {"image_width_deg", angles.image_width_deg},   {"image_height_deg", angles.image_height_deg},
         {"camera_fov_deg", angles.camera_fov_deg},     {"px_per_deg", angles.px_per_deg}};
+    if (const auto& light = report.display.characterisation) {
+        const auto numbers = [](const glm::dvec3& xyz) { return Json{xyz.x, xyz.y, xyz.z}; };
+        const glm::dvec3 white = light->white_xyz();
+        json["light"] = {{"display", light->display},
+                         {"date", light->date},
+                         {"sha256", light->sha256},
+                         {"white_cd_m2", white.y},
+                         {"black_cd_m2", light->black_xyz.y},
+                         {"background_cd_m2", light->luminance_of(report.display.background)},
+                         {"white_xyz", numbers(white)},
+                         {"black_xyz", numbers(light->black_xyz)},
+                         {"red_xyz", numbers(light->primaries_xyz[0])},
+                         {"green_xyz", numbers(light->primaries_xyz[1])},
+                         {"blue_xyz", numbers(light->primaries_xyz[2])}};
+        if (std::isfinite(light->contrast()))
+            json["light"]["contrast"] = light->contrast();
+    }
     json["session"] = {{"calibration_s", session.calibration_s},   {"questions_s", session.questions_s},
                        {"drift_checks_s", session.drift_checks_s}, {"animations_s", session.animations_s},
                        {"answers_s", session.answers_s},           {"total_s", session.total_s()}};

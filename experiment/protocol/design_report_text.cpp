@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/colour/characterisation_text.h"
 #include "experiment/protocol/design_report.h"
 #include "experiment/protocol/protocol_keys.h"
 
@@ -65,6 +66,14 @@ void add_overview(std::string& text, const DesignReport& report) {
                      report.display.height_px, report.display.width_mm, report.display.height_mm,
                      report.display.viewing_distance_mm, angles.screen_width_deg, angles.screen_height_deg),
          fmt::format("light leaves as {}", name_of(report.display.output))});
+    if (const auto& light = report.display.characterisation) {
+        std::vector<std::string> lines = light_lines(*light);
+        lines.push_back(fmt::format("measured {} with {}; background {:.4g} cd/m2",
+                                    light->date.empty() ? "at no stated time" : light->date,
+                                    light->instrument.empty() ? "no stated instrument" : light->instrument,
+                                    light->luminance_of(report.display.background)));
+        add_facts(text, "Light", lines);
+    }
     add_facts(text, "Stimulus",
               {fmt::format("{} x {} px: {:.2f} x {:.2f} deg, {:.1f} px per degree", report.view.width_px,
                            report.view.height_px, angles.image_width_deg, angles.image_height_deg,

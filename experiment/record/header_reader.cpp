@@ -54,6 +54,30 @@ void read_session(Query& row, SessionHeader& header) {
     header.animation.duration_s = row.real();
 }
 
+void read_characterisation(const SQLite::Database& database, SessionHeader& header) {
+    // Sessions of earlier programs have no such table.
+    Query table(database, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'characterisation'");
+    if (!table.step())
+        return;
+    Query row(database, "SELECT display, date, instrument, sha256, black_x, black_y, black_z, red_x, red_y, "
+                        "red_z, green_x, green_y, green_z, blue_x, blue_y, blue_z FROM characterisation");
+    if (!row.step())
+        return;
+    RecordedCharacterisation light;
+    light.display = row.text();
+    light.date = row.text();
+    light.instrument = row.text();
+    light.sha256 = row.text();
+    light.black_xyz = read_vector(row);
+    for (glm::dvec3& primary : light.primaries_xyz)
+        primary = read_vector(row);
+    for (Query file(database, "SELECT name, text FROM characterisation_file ORDER BY n"); file.step();) {
+        std::string name = file.text();
+        light.files.push_back({std::move(name), file.text()});
+    }
+    header.characterisation = std::move(light);
+}
+
 void read_design(const SQLite::Database& database, SessionHeader& header) {
     for (Query row(database, "SELECT trial, task, sculpture, material FROM schedule ORDER BY trial");
          row.step();)
@@ -129,6 +153,7 @@ SessionHeader read_session_header(const SQLite::Database& database) {
     if (!row.step())
         throw RecordError("table session: the one row that describes the session is missing");
     read_session(row, header);
+    read_characterisation(database, header);
     read_design(database, header);
     read_sculptures(database, header);
     return header;

@@ -34,6 +34,17 @@ void insert_session(SQLite::Database& database, const SessionHeader& header) {
            header.animation.playback == Playback::cycle ? "cycle" : "ping-pong", header.animation.duration_s);
 }
 
+void insert_characterisation(SQLite::Database& database, const RecordedCharacterisation& light) {
+    const auto& [red, green, blue] = light.primaries_xyz;
+    const glm::dvec3& black = light.black_xyz;
+    insert(database, "INSERT INTO characterisation VALUES (1, ?,?,?,?, ?,?,?, ?,?,?, ?,?,?, ?,?,?)",
+           light.display, light.date, light.instrument, light.sha256, black.x, black.y, black.z, red.x, red.y,
+           red.z, green.x, green.y, green.z, blue.x, blue.y, blue.z);
+    int index = 0;
+    for (const RecordedCharacterisation::File& file : light.files)
+        insert(database, "INSERT INTO characterisation_file VALUES (?,?,?)", index++, file.name, file.text);
+}
+
 void insert_design(SQLite::Database& database, const SessionHeader& header) {
     for (const Trial& trial : header.schedule.trials)
         insert(database, "INSERT INTO schedule VALUES (?,?,?,?)", trial.index, trial.task,
@@ -92,6 +103,8 @@ void create_session_file(const std::filesystem::path& file, const SessionHeader&
         database.exec(session_schema_sql);
         database.exec(box_tables_sql);
         insert_session(database, header);
+        if (header.characterisation)
+            insert_characterisation(database, *header.characterisation);
         insert_design(database, header);
         insert_sculptures(database, header);
         transaction.commit();

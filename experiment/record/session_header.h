@@ -2,7 +2,9 @@
 /// analysis need to know of the protocol: the protocol file is not needed again.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +54,26 @@ struct RecordedDisplay {
     SessionDuration latency{}; ///< from the vertical blank to the first row's light
     std::string output_mode;   ///< by the protocol's word
     double background = 0.0;   ///< linear grey, 0 … 1 of the display's white
+};
+
+/// What was known of the display's light: the essentials, and the files that say it, as they were read.
+struct RecordedCharacterisation {
+    struct File {
+        std::string name;
+        std::string text;
+        bool operator==(const File&) const = default;
+    };
+    std::string display;
+    std::string date;
+    std::string instrument;
+    ContentHash sha256;                        ///< of all files
+    glm::dvec3 black_xyz{0.0};                 ///< CIE 1931, cd/m2
+    std::array<glm::dvec3, 3> primaries_xyz{}; ///< red, green and blue at full signal, without the black
+    std::vector<File> files;                   ///< the characterisation file first
+
+    double white_cd_m2() const {
+        return black_xyz.y + primaries_xyz[0].y + primaries_xyz[1].y + primaries_xyz[2].y;
+    }
 };
 
 struct RecordedTask {
@@ -104,6 +126,7 @@ struct SessionHeader {
     GraphicsSystem graphics;
     TrackerDescription tracker;
     RecordedDisplay display;
+    std::optional<RecordedCharacterisation> characterisation; ///< of the display, if the protocol names one
     Animation animation;
     PoseTable poses;
     std::vector<RecordedTask> tasks;

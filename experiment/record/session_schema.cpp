@@ -27,6 +27,15 @@ CREATE TABLE session (
     frame_count INTEGER NOT NULL, frame_rate_hz REAL NOT NULL, amplitude_deg REAL NOT NULL,
     playback TEXT NOT NULL CHECK (playback IN ('cycle', 'ping-pong')), duration_s REAL NOT NULL
 ) STRICT;
+CREATE TABLE characterisation (
+    id INTEGER PRIMARY KEY CHECK (id = 1),
+    display TEXT NOT NULL, date TEXT NOT NULL, instrument TEXT NOT NULL, sha256 TEXT NOT NULL,
+    black_x REAL NOT NULL, black_y REAL NOT NULL, black_z REAL NOT NULL,
+    red_x REAL NOT NULL, red_y REAL NOT NULL, red_z REAL NOT NULL,
+    green_x REAL NOT NULL, green_y REAL NOT NULL, green_z REAL NOT NULL,
+    blue_x REAL NOT NULL, blue_y REAL NOT NULL, blue_z REAL NOT NULL
+) STRICT;
+CREATE TABLE characterisation_file (n INTEGER PRIMARY KEY, name TEXT NOT NULL, text TEXT NOT NULL) STRICT;
 CREATE TABLE schedule (trial INTEGER PRIMARY KEY, task INTEGER NOT NULL, sculpture INTEGER NOT NULL,
                        material INTEGER NOT NULL) STRICT;
 CREATE TABLE task (task INTEGER PRIMARY KEY, id TEXT NOT NULL, question TEXT NOT NULL) STRICT;
