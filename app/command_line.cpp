@@ -67,7 +67,7 @@ void add_characterise_command(CLI::App& display, DisplayCharacteriseOptions& opt
     auto* simulated =
         command
             .add_option("--simulated", options.simulated,
-                        "A simulated photometer before a simulated display: a rehearsal, in no time")
+                        "A simulated photometer before a simulated display: a rehearsal")
             ->type_name("SEED");
     readings->excludes(typed)->excludes(simulated);
     typed->excludes(simulated);
@@ -118,6 +118,34 @@ void add_characterise_command(CLI::App& display, DisplayCharacteriseOptions& opt
     command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
     add_context_option(command, options.context);
     command.add_flag("--force", options.force, "Replace files that are there");
+    command.add_flag("--json", options.json, "Print JSON");
+    command.callback(std::move(chosen));
+}
+
+void add_colour_command(CLI::App& display, DisplayColourOptions& options, std::function<void()> chosen) {
+    CLI::App& command = add_command(
+        display, "colour", "Which signal makes a colour on a characterised display, and which colour a light is",
+        "overt display colour lab3.toml --xyz 41.2 43.5 46.1\n"
+        "  overt display colour lab3.toml --spectra patches.csv --json");
+    command.add_option("CHARACTERISATION", options.characterisation, "Characterisation file (TOML)")->required();
+    auto* colours = command.add_option_group("one colour, or a table of them");
+    colours->add_option("--xyz", options.xyz, "XYZ in cd/m2")->expected(3)->type_name("X Y Z");
+    colours->add_option("--cones", options.cones, "Cone excitations in W/(sr m2), CIE 2006, 2 degrees")
+        ->expected(3)
+        ->type_name("L M S");
+    colours->add_option("--rgb", options.rgb, "Linear light of the display, 0 to 1")
+        ->expected(3)
+        ->type_name("R G B");
+    colours
+        ->add_option("--spectra", options.spectra,
+                     "Radiances in W/(sr m2 nm): a column wavelength_nm, and one for each colour")
+        ->type_name("FILE.csv");
+    colours->require_option(1);
+    command
+        .add_option("--observer", options.observer,
+                    "For whom --xyz and --spectra are matched; all but cie1931 need the spectra of the display")
+        ->check(CLI::IsMember({"cie1931", "cie2006", "cie2006-cones"}))
+        ->capture_default_str();
     command.add_flag("--json", options.json, "Print JSON");
     command.callback(std::move(chosen));
 }
@@ -367,6 +395,9 @@ int run_command_line(int argc, char** argv) {
     DisplayCharacteriseOptions characterise;
     add_characterise_command(display_command, characterise,
                              [&] { command = [&] { return run_display_characterise(characterise); }; });
+
+    DisplayColourOptions colour;
+    add_colour_command(display_command, colour, [&] { command = [&] { return run_display_colour(colour); }; });
 
     BenchOptions bench;
     auto& bench_command = add_command(app, "bench", "The program's own benchmarks",

@@ -137,6 +137,16 @@ struct DisplayCharacteriseOptions {
 };
 int run_display_characterise(const DisplayCharacteriseOptions& options);
 
+/// From colours to a characterised display's light, and back. One of the four is given.
+struct DisplayColourOptions {
+    std::filesystem::path characterisation;
+    std::vector<double> xyz, cones, rgb; ///< three numbers each, or none
+    std::filesystem::path spectra;       ///< table of radiances
+    std::string observer = "cie1931";    ///< for whom xyz and spectra are matched
+    bool json = false;
+};
+int run_display_colour(const DisplayColourOptions& options);
+
 struct BenchOptions {
     std::string what;           ///< which benchmark
     std::filesystem::path mesh; ///< measure on this one instead of the shipped sculptures

@@ -150,6 +150,50 @@ TEST_CASE("readings that cannot be used are refused at their places, and nothing
     CHECK(typed.err.find("ended before any patch") != std::string::npos);
 }
 
+TEST_CASE("a colour goes to the display's light and codes, and back; what cannot be shown is counted",
+          "[session]") {
+    const SmallExperiment experiment;
+    const TemporaryFolder& folder = experiment.folder();
+    const std::string file = folder
+                                 .file("d.toml", R"([light]
+black = [0, 0, 0]
+red = [40, 20, 2]
+green = [35, 70, 12]
+blue = [20, 10, 100]
+[gamma]
+exponent = 2
+)")
+                                 .string();
+    const auto colours = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"display", "colour", file, "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramRun run = experiment.overt(arguments);
+        INFO(run.err);
+        REQUIRE(run.exit_code == 0);
+        return nlohmann::json::parse(run.out);
+    };
+    // Half of white.
+    const auto grey = colours({"--xyz", "47.5", "50", "57"});
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        CHECK(grey["colours"][0]["rgb"][channel].get<double>() == Approx(0.5));
+        CHECK(grey["colours"][0]["codes_16bit"][channel] == 46340); // 65535 * sqrt(0.5) = 46340.24
+    }
+    CHECK(grey["outside"] == 0);
+    const auto back = colours({"--rgb", "0.5", "0.5", "0.5"});
+    CHECK(back["colours"][0]["xyz_1931"][1].get<double>() == Approx(50.0));
+    std::string table = "wavelength_nm,dim,line\n";
+    for (int nm = 380; nm <= 780; nm += 10)
+        table += fmt::format("{},1e-4,{}\n", nm, nm == 520 ? 0.02 : 0.0);
+    const auto spectra = colours({"--spectra", folder.file("s.csv", table).string()});
+    CHECK(spectra["colours"].size() == 2);
+    CHECK(spectra["colours"][0]["is_shown"] == true);
+    CHECK(spectra["colours"][1]["is_shown"] == false);
+    CHECK(spectra["outside"] == 1);
+    CHECK(experiment.overt({"display", "colour", file, "--cones", "1", "1", "1"}).exit_code == 2);
+    CHECK(experiment.overt({"display", "colour", file}).exit_code == 2);
+    CHECK(experiment.overt({"display", "colour", "nowhere.toml", "--rgb", "1", "1", "1"}).exit_code == 2);
+}
+
 TEST_CASE("what is typed as XYZ is taken, and as xyY converted", "[unit]") {
     CHECK(typed_xyz("41.2 43.5 46.1") == glm::dvec3(41.2, 43.5, 46.1));
     CHECK(typed_xyz("41.2, 43.5, 46.1") == glm::dvec3(41.2, 43.5, 46.1));
