@@ -11,9 +11,6 @@
 namespace overt {
 namespace {
 
-/// Not re-read in a source, so a port can be named instead.
-constexpr std::uint16_t colorcal_product_id = 0x1001;
-
 /// Longer than any answer; what goes beyond is no answer.
 constexpr std::size_t longest_answer = 1024;
 

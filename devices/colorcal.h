@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,6 +19,9 @@
 #include "experiment/ports.h"
 
 namespace overt {
+
+/// USB product number, beside the vendor's (not re-read in a source, so a port can be named instead).
+inline constexpr std::uint16_t colorcal_product_id = 0x1001;
 
 /// What the photometer says of itself.
 struct ColorCalIdentity {

@@ -244,13 +244,29 @@ std::vector<BoxClockPair> DisplayPlusPlus::relate_clocks(const std::function<Sho
 
 void DisplayPlusPlus::restore_desktop() {
     tell_mode(BoxMode::bits_plus_plus);
-    // An answer shows that the command before it was read.
-    link_.ask("ProductType");
+    // An answer shows that the command before it was read. A box may be deaf while it changes its mode.
+    const SessionTime give_up = clock_.now() + settings_.settle;
+    while (!link_.try_ask("ProductType")) {
+        if (clock_.now() >= give_up)
+            throw DeviceError(fmt::format("{}: the box did not answer within {:.0f} s after it was switched "
+                                          "back to Bits++; switch it off and on.",
+                                          link_.port(), to_seconds(settings_.settle)));
+    }
     mode_ = BoxMode::bits_plus_plus;
     away_from_desktop_ = false;
     noted_.clear();
     if (!settings_.record_folder.empty())
         remove_switch_record(settings_.record_folder);
+}
+
+void DisplayPlusPlus::keep_mode() {
+    if (!away_from_desktop_ || !mode_)
+        return;
+    if (!settings_.record_folder.empty())
+        write_switch_record(settings_.record_folder,
+                            {identity_.port, identity_.serial_number, std::string(name_of(*mode_)), true});
+    away_from_desktop_ = false;
+    noted_.clear();
 }
 
 void DisplayPlusPlus::leave() {

@@ -122,6 +122,10 @@ class DisplayPlusPlus {
     /// Switches to Bits++, asks whether the box is still there, and removes the note. Needs no video signal.
     void restore_desktop();
 
+    /// Leaves the box in the mode it has now: neither leave() nor the destructor switches back, and the note
+    /// says that it is meant.
+    void keep_mode();
+
     /// Stops the stream and, if another mode or the status screen was called up, restores the desktop.
     void leave();
 

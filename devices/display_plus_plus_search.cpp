@@ -38,6 +38,19 @@ Boxes ask_all(std::span<const SerialPortInfo> ports, const TransportOpener& open
     return boxes;
 }
 
+AskedPort ask_at(const SerialPortInfo& port, const TransportOpener& open, Clock& clock,
+                 const DisplayPlusPlusSettings& settings) {
+    AskedPort asked{port, {}, 0.0, {}};
+    try {
+        DisplayPlusPlus box(open(port.path), clock, settings);
+        asked.box = box.identity();
+        asked.video_rate_hz = box.video_rate_hz();
+    } catch (const DeviceError& error) {
+        asked.otherwise = error.what();
+    }
+    return asked;
+}
+
 std::unique_ptr<DisplayPlusPlus> the_only_one(Boxes boxes) {
     if (boxes.size() == 1)
         return std::move(boxes.front());
@@ -81,11 +94,36 @@ std::unique_ptr<DisplayPlusPlus> find_display_plus_plus(std::span<const SerialPo
         refusals));
 }
 
+std::vector<AskedPort> ask_for_display_boxes(std::span<const SerialPortInfo> candidates,
+                                             const std::optional<std::string>& port,
+                                             const TransportOpener& open, Clock& clock,
+                                             const DisplayPlusPlusSettings& settings) {
+    if (port)
+        return {ask_at({*port, {}, {}, {}, {}, {}}, open, clock, settings)};
+    std::vector<AskedPort> all;
+    const auto ask_those = [&](auto&& belongs) {
+        for (const SerialPortInfo& candidate : candidates)
+            if (may_be_a_box(candidate) && belongs(candidate))
+                all.push_back(ask_at(candidate, open, clock, settings));
+    };
+    ask_those(is_from_crs);
+    const bool found = std::ranges::any_of(all, [](const AskedPort& asked) { return asked.box.has_value(); });
+    if (!found)
+        ask_those([](const SerialPortInfo& candidate) { return !is_from_crs(candidate); });
+    for (const SerialPortInfo& candidate : candidates) {
+        if (!may_be_a_box(candidate))
+            all.push_back({candidate, {}, 0.0, "another kind of instrument, not asked"});
+        else if (found && !is_from_crs(candidate))
+            all.push_back({candidate, {}, 0.0, "another maker's device, not asked: the box was found"});
+    }
+    return all;
+}
+
 std::optional<std::string> recover_display(std::span<const SerialPortInfo> candidates,
                                            const TransportOpener& open, Clock& clock,
                                            const DisplayPlusPlusSettings& settings) {
     const auto record = read_switch_record(settings.record_folder);
-    if (!record)
+    if (!record || record->kept)
         return std::nullopt;
     std::vector<SerialPortInfo> ports;
     for (const SerialPortInfo& candidate : candidates)
@@ -106,9 +144,9 @@ std::optional<std::string> recover_display(std::span<const SerialPortInfo> candi
                 box->identity().product, port.path, record->mode);
         }
     }
-    throw DeviceError(fmt::format("the display box {} was left in {} mode by a run that did not end well and "
-                                  "is not found to be switched "
-                                  "back; plug it in and try again. Asked were:{}",
+    throw DeviceError(fmt::format("the display box {} was left in {} mode by a run that did not end well, or "
+                                  "is still at it; it could not be switched back: plug it in, or wait until "
+                                  "that run has ended. Asked were:{}",
                                   record->serial_number, record->mode, refusals));
 }
 

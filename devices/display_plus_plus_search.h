@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "devices/display_plus_plus.h"
 #include "devices/serial_port_search.h"
@@ -21,10 +22,24 @@ std::unique_ptr<DisplayPlusPlus> find_display_plus_plus(std::span<const SerialPo
                                                         const TransportOpener& open, Clock& clock,
                                                         const DisplayPlusPlusSettings& settings = {});
 
+/// What came of asking at one port.
+struct AskedPort {
+    SerialPortInfo port;
+    std::optional<BoxIdentity> box;
+    double video_rate_hz = 0.0; ///< of a box: 0 if it sees no video
+    std::string otherwise;      ///< why there is no box, in a sentence
+};
+
+/// Asks as find_display_plus_plus() does, and says of each port what came of it. Throws nothing.
+std::vector<AskedPort> ask_for_display_boxes(std::span<const SerialPortInfo> candidates,
+                                             const std::optional<std::string>& port,
+                                             const TransportOpener& open, Clock& clock,
+                                             const DisplayPlusPlusSettings& settings = {});
+
 /// Switches a box back to Bits++ that an earlier run left switched, as the note in settings.record_folder
 /// says: at the noted port, else at any candidate with the noted serial number. Gives a sentence on what was
-/// done, nothing if no note was there. Throws DeviceError if the box is not found or its port is in use; the
-/// note then stays.
+/// done, nothing if no note was there or the mode was kept on purpose. Throws DeviceError if the box is not
+/// found or its port is in use; the note then stays.
 std::optional<std::string> recover_display(std::span<const SerialPortInfo> candidates,
                                            const TransportOpener& open, Clock& clock,
                                            const DisplayPlusPlusSettings& settings);

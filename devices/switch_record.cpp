@@ -51,8 +51,8 @@ void write_switch_record(const fs::path& folder, const SwitchRecord& record) {
     fs::create_directories(folder, error);
     const fs::path file = record_file(folder);
     const fs::path fresh = file.string() + ".new";
-    write_through(fresh, fmt::format("port={}\nserial_number={}\nmode={}\n", record.port,
-                                     record.serial_number, record.mode));
+    write_through(fresh, fmt::format("port={}\nserial_number={}\nmode={}\nkept={}\n", record.port,
+                                     record.serial_number, record.mode, record.kept ? "yes" : "no"));
     fs::rename(fresh, file, error);
     if (error)
         refuse(file, error.value());
@@ -75,6 +75,8 @@ std::optional<SwitchRecord> read_switch_record(const fs::path& folder) {
             record.serial_number = value;
         else if (key == "mode")
             record.mode = value;
+        else if (key == "kept")
+            record.kept = value == "yes";
     }
     if (record.port.empty())
         throw RecordError(fmt::format(

@@ -38,6 +38,8 @@ std::optional<int> shift_of(std::span<const RgbBytes> sent, std::span<const RgbB
 
 void compare_video_line(const DrawnLine& drawn, const std::vector<std::vector<RgbBytes>>& readings,
                         VideoLineReport& report) {
+    LineVerdict& verdict = report.lines.emplace_back();
+    verdict.line = drawn.line;
     for (const std::vector<RgbBytes>& received : readings) {
         OVERT_EXPECTS(received.size() == drawn.pixels.size());
         const bool first_of_all = report.readings++ == 0;
@@ -55,13 +57,27 @@ void compare_video_line(const DrawnLine& drawn, const std::vector<std::vector<Rg
         }
         const auto shift =
             report.changed > changed_before ? shift_of(drawn.pixels, received) : std::optional<int>();
+        if (verdict.readings++ == 0)
+            verdict.shift_px = shift;
+        else if (verdict.shift_px != shift)
+            verdict.shift_px.reset();
+        verdict.changed += report.changed - changed_before;
         if (first_of_all)
             report.shift_px = shift;
         else if (report.shift_px != shift)
             report.shift_px.reset();
     }
-    if (std::ranges::adjacent_find(readings, std::ranges::not_equal_to()) != readings.end())
-        ++report.unsteady_lines;
+    verdict.is_unsteady = std::ranges::adjacent_find(readings, std::ranges::not_equal_to()) != readings.end();
+    report.unsteady_lines += verdict.is_unsteady;
+}
+
+std::string LineVerdict::description() const {
+    if (changed == 0)
+        return "as drawn";
+    if (shift_px)
+        return fmt::format("moved {} px to the {}", std::abs(*shift_px), *shift_px > 0 ? "right" : "left");
+    return fmt::format("{} bytes {} in {} readings", changed,
+                       is_unsteady ? "changed, differently each time" : "changed for good", readings);
 }
 
 std::string VideoLineReport::description() const {

@@ -24,6 +24,18 @@ struct ChangedByte {
     int sent = 0, received = 0;
 };
 
+/// What became of one line.
+struct LineVerdict {
+    int line = 1;
+    int readings = 0;
+    long changed = 0;            ///< bytes, over all readings
+    bool is_unsteady = false;    ///< it came differently when read again
+    std::optional<int> shift_px; ///< by which every reading was moved to the right, otherwise whole
+
+    /// «as drawn», or what happened to it.
+    std::string description() const;
+};
+
 /// What became of all the lines.
 struct VideoLineReport {
     static constexpr std::size_t most_changes = 32;
@@ -36,6 +48,7 @@ struct VideoLineReport {
     int unsteady_lines = 0;
     /// All lines arrived moved to the right by so many pixels (negative: left), otherwise whole.
     std::optional<int> shift_px;
+    std::vector<LineVerdict> lines;
     std::vector<ChangedByte> changes; ///< the first of them, at most most_changes
 
     bool good() const { return readings > 0 && changed == 0 && unsteady_lines == 0; }
