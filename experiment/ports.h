@@ -60,6 +60,9 @@ class Presenter {
 
     /// The window was closed or the display went away. The session ends the trial and then itself.
     virtual bool closed() const noexcept = 0;
+
+    /// Why, once closed(): what follows «the session ended early: ».
+    virtual std::string why_closed() const { return "the display was closed"; }
 };
 
 /// Sees what the observer sees: a simulated observer, or the operator's view. Called at each flip, on the

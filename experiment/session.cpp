@@ -45,7 +45,7 @@ SessionResult Session::run(const TrialDone& trial_done) {
     // Closing the farewell's window ends nothing that was not already done.
     result.aborted = result.completed_trials < static_cast<int>(schedule_->trials.size());
     if (result.aborted) {
-        result.reason = ports_.presenter.closed() ? "the display was closed"
+        result.reason = ports_.presenter.closed() ? ports_.presenter.why_closed()
                         : ports_.tracker.lost()   ? "the eye tracker was lost"
                                                   : "aborted by a key";
     }

@@ -53,6 +53,20 @@ DisplayTiming WindowDisplay::timing() const {
             virtual_time_ ? VblankSource::virtual_display : VblankSource::swap_return};
 }
 
+std::string WindowDisplay::why_closed() const {
+    switch (window_->disturbance()) {
+    case WindowDisturbance::resized:
+        return "the window was resized, or the screen's mode changed";
+    case WindowDisturbance::moved:
+        return "the window was moved, to another screen or within a whole one";
+    case WindowDisturbance::screen_lost:
+        return "the screen that showed the window was unplugged";
+    case WindowDisturbance::none:
+        break;
+    }
+    return "the display was closed";
+}
+
 void WindowDisplay::draw_into_window(const Framebuffer& canvas) noexcept {
     const GladGLContext& gl = window_->gl();
     const glm::ivec2 size = canvas.size_px();

@@ -17,6 +17,9 @@ class DisplaySurface {
     virtual FlipReport present(const Framebuffer& canvas) noexcept = 0;
     virtual bool closed() const noexcept = 0;
 
+    /// Why, once closed().
+    virtual std::string why_closed() const { return "the display was closed"; }
+
     /// What a channel's byte, or ten bits, have in the framebuffer that is scanned out.
     virtual int bits_per_channel() const = 0;
 
@@ -68,7 +71,10 @@ class WindowDisplay final : public DisplaySurface {
     WindowDisplay(WindowContext& window, Clock& clock, double refresh_hz, bool virtual_time);
     DisplayTiming timing() const override;
     FlipReport present(const Framebuffer& canvas) noexcept override;
-    bool closed() const noexcept override { return window_->close_requested(); }
+    bool closed() const noexcept override {
+        return window_->close_requested() || window_->disturbance() != WindowDisturbance::none;
+    }
+    std::string why_closed() const override;
     int bits_per_channel() const override { return window_->bits_per_channel(); }
     /// From the window's back buffer, into which the canvas is drawn once more.
     void read(const Framebuffer& canvas, PixelFormat format, std::span<std::byte> into) override;

@@ -53,6 +53,8 @@ PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, 
       picture_(context, geometry.screen_px, encoder_.format()), picture_target_(context, {&picture_}, false),
       page_patch_(encoder_.patch_of(geometry.image_origin_px, geometry.image_px)), page_target_(context) {
     check_depth();
+    // Where a driver dithers at all, it must not when bytes are to arrive as they are.
+    context.gl().Disable(GL_DITHER);
     std::vector<std::byte> bytes(bytes_in(geometry.screen_px, encoder_.format()));
     encoder_.encode_background(geometry.screen_px, bytes);
     if (has_psync(display.output)) {
@@ -71,6 +73,10 @@ PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, 
         colour_table_row_ = t_lock::row_of(encoder_.colour_table());
     onset_packet_ = t_lock::pulse(static_cast<std::uint16_t>(display.onset_trigger), 0.0, onset_pulse_ms);
     clear_picture();
+}
+
+std::string PagePresenter::why_closed() const {
+    return is_interrupted() ? "interrupted by a signal" : surface_->why_closed();
 }
 
 void PagePresenter::check_depth() const {

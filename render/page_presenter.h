@@ -1,6 +1,7 @@
 /// The presenter: a frame store of ready-encoded pages, and a canvas that is what the display shows.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <optional>
 
@@ -37,7 +38,12 @@ class PagePresenter final : public Presenter {
     void load_frames(const Condition& condition) override;
     FlipReport show(const Screen& screen) override;
     FlipReport flip(AnimationFrameIndex frame) noexcept override;
-    bool closed() const noexcept override { return surface_->closed(); }
+    bool closed() const noexcept override { return surface_->closed() || is_interrupted(); }
+    std::string why_closed() const override;
+
+    /// Counts as closed once this is set, by whatever thread or signal handler. It must outlive the
+    /// presenter.
+    void close_on(const std::atomic<bool>& flag) noexcept { interrupted_ = &flag; }
 
     /// Sends a message to a Display++ in this row with the next refresh that flip() or show() lights, and
     /// with that one only; what the message asks for happens at the refresh after it. Only in the modes with
@@ -55,6 +61,7 @@ class PagePresenter final : public Presenter {
     int pages() const { return pages_; }
 
   private:
+    bool is_interrupted() const noexcept { return interrupted_ && interrupted_->load(); }
     const Texture2D& final_texture() const { return wire_ ? *wire_ : picture_; }
     const Framebuffer& canvas() const { return wire_ ? *wire_target_ : picture_target_; }
     void check_depth() const;
@@ -99,6 +106,7 @@ class PagePresenter final : public Presenter {
     t_lock::ColourTableRow colour_table_row_{};
     t_lock::Packet onset_packet_;
     std::int64_t refreshes_ = 0; ///< presented so far
+    const std::atomic<bool>* interrupted_ = nullptr;
 };
 
 } // namespace overt

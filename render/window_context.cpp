@@ -1,6 +1,8 @@
 #include "render/window_context.h"
 
+#include <algorithm>
 #include <array>
+#include <functional>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -32,17 +34,95 @@ struct GlfwLibrary {
     }
 };
 
-GLFWmonitor* monitor_of_size(glm::ivec2 size_px) {
+std::vector<GLFWmonitor*> all_monitors() {
     int count = 0;
     GLFWmonitor** monitors = glfwGetMonitors(&count);
-    for (int i = 0; i < count; ++i) {
-        const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
-        if (mode && mode->width == size_px.x && mode->height == size_px.y)
-            return monitors[i];
+    return {monitors, monitors + count};
+}
+
+MonitorInfo info_of(GLFWmonitor* monitor, int number) {
+    MonitorInfo info;
+    info.number = number;
+    if (const char* name = glfwGetMonitorName(monitor))
+        info.name = name;
+    if (const GLFWvidmode* mode = glfwGetVideoMode(monitor)) {
+        info.size_px = {mode->width, mode->height};
+        info.refresh_hz = std::max(0, mode->refreshRate);
     }
+    glfwGetMonitorPos(monitor, &info.position_px.x, &info.position_px.y);
+    glfwGetMonitorPhysicalSize(monitor, &info.size_mm.x, &info.size_mm.y);
+    glfwGetMonitorContentScale(monitor, &info.content_scale.x, &info.content_scale.y);
+    return info;
+}
+
+std::string listed(const std::vector<GLFWmonitor*>& monitors) {
+    std::string list;
+    for (std::size_t i = 0; i < monitors.size(); ++i)
+        list += "\n  " + describe(info_of(monitors[i], static_cast<int>(i) + 1));
+    return monitors.empty() ? "\n  none" : list;
+}
+
+GLFWmonitor* monitor_numbered(int number) {
+    const std::vector<GLFWmonitor*> monitors = all_monitors();
+    if (number < 1 || number > static_cast<int>(monitors.size()))
+        throw InputError(fmt::format("there is no monitor {}. There are:{}", number, listed(monitors)));
+    return monitors[static_cast<std::size_t>(number) - 1];
+}
+
+bool shows(GLFWmonitor* monitor, glm::ivec2 size_px) { return info_of(monitor, 1).size_px == size_px; }
+
+/// The monitor that is to be filled, which must have the resolution already: a change of mode of our own
+/// might scale, and would have to be undone.
+GLFWmonitor* monitor_to_fill(const WindowRequest& request) {
+    const int width = request.size_px.x, height = request.size_px.y;
+    if (request.monitor) {
+        GLFWmonitor* const monitor = monitor_numbered(*request.monitor);
+        if (shows(monitor, request.size_px))
+            return monitor;
+        throw GraphicsError(
+            fmt::format("{} does not show {} x {} pixels now: set its mode, correct [display] "
+                        "width_px and height_px, or take another. There are:{}",
+                        describe(info_of(monitor, *request.monitor)), width, height, listed(all_monitors())));
+    }
+    for (GLFWmonitor* monitor : all_monitors())
+        if (shows(monitor, request.size_px))
+            return monitor;
     throw GraphicsError(fmt::format("no monitor shows {} x {} pixels now: set its mode, or correct [display] "
-                                    "width_px and height_px",
-                                    size_px.x, size_px.y));
+                                    "width_px and height_px. There are:{}",
+                                    width, height, listed(all_monitors())));
+}
+
+/// The monitor under the middle of a window; the primary one if none is.
+GLFWmonitor* monitor_under(GLFWwindow* window) {
+    if (GLFWmonitor* const filled = glfwGetWindowMonitor(window))
+        return filled;
+    glm::ivec2 corner(0), size(0);
+    glfwGetWindowPos(window, &corner.x, &corner.y);
+    glfwGetWindowSize(window, &size.x, &size.y);
+    const glm::ivec2 middle = corner + size / 2;
+    for (GLFWmonitor* monitor : all_monitors()) {
+        const MonitorInfo info = info_of(monitor, 1);
+        const glm::ivec2 in = middle - info.position_px;
+        if (in.x >= 0 && in.y >= 0 && in.x < info.size_px.x && in.y < info.size_px.y)
+            return monitor;
+    }
+    return glfwGetPrimaryMonitor();
+}
+
+GammaRamp ramp_of(GLFWmonitor* monitor) {
+    const GLFWgammaramp* const ramp = monitor ? glfwGetGammaRamp(monitor) : nullptr;
+    if (!ramp || ramp->size == 0)
+        return {};
+    const auto channel = [&](const unsigned short* values) {
+        return std::vector<std::uint16_t>(values, values + ramp->size);
+    };
+    const GammaRamp read{channel(ramp->red), channel(ramp->green), channel(ramp->blue)};
+    // A server without a screen gives whatever stands in its memory: by no such table could one see anything.
+    const auto is_table = [](const std::vector<std::uint16_t>& values) {
+        return values.front() != values.back() &&
+               (std::ranges::is_sorted(values) || std::ranges::is_sorted(values, std::ranges::greater()));
+    };
+    return is_table(read.red) && is_table(read.green) && is_table(read.blue) ? read : GammaRamp{};
 }
 
 } // namespace
@@ -53,9 +133,46 @@ struct WindowContext::State {
     // A ring, so that a key pressed in the middle of a presentation allocates nothing.
     std::array<WindowKeyPress, 64> presses{};
     std::size_t first = 0, count = 0;
+    // What is held still, and what became of it.
+    bool held = false;
+    glm::ivec2 held_framebuffer_px{0};
+    GLFWmonitor* held_monitor = nullptr;
+    WindowDisturbance disturbance = WindowDisturbance::none;
     ~State() {
         if (window)
             glfwDestroyWindow(window);
+    }
+
+    void disturb(WindowDisturbance what) {
+        if (held && disturbance == WindowDisturbance::none)
+            disturbance = what;
+    }
+
+    static void on_size(GLFWwindow* window, int width, int height) {
+        auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+        if (glm::ivec2(width, height) != state.held_framebuffer_px)
+            state.disturb(WindowDisturbance::resized);
+    }
+
+    static void on_position(GLFWwindow* window, int x, int y) {
+        auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+        if (!state.held || state.disturbance != WindowDisturbance::none)
+            return;
+        if (all_monitors().empty() || !monitor_is_there(state.held_monitor)) {
+            state.disturb(WindowDisturbance::screen_lost);
+            return;
+        }
+        if (GLFWmonitor* const filled = glfwGetWindowMonitor(window)) {
+            if (info_of(filled, 1).position_px != glm::ivec2(x, y))
+                state.disturb(WindowDisturbance::moved);
+        } else if (monitor_under(window) != state.held_monitor) {
+            state.disturb(WindowDisturbance::moved);
+        }
+    }
+
+    static bool monitor_is_there(GLFWmonitor* monitor) {
+        const std::vector<GLFWmonitor*> monitors = all_monitors();
+        return std::find(monitors.begin(), monitors.end(), monitor) != monitors.end();
     }
 
     static void on_key(GLFWwindow* window, int key, int, int action, int) {
@@ -85,12 +202,26 @@ WindowContext::WindowContext(const WindowRequest& request) : state_(std::make_un
     glfwWindowHint(GLFW_ALPHA_BITS, request.bits_per_channel == 10 ? 2 : 8);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_FALSE);
-    GLFWmonitor* monitor = request.fullscreen ? monitor_of_size(request.size_px) : nullptr;
+    // An operator who clicks on another screen must not make the observer's vanish.
+    glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
+    GLFWmonitor* monitor = request.fullscreen ? monitor_to_fill(request) : nullptr;
+    GLFWmonitor* const corner = request.monitor ? monitor_numbered(*request.monitor) : nullptr;
+    // Put into its place before it is seen.
+    if (corner && !request.fullscreen)
+        glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     state_->window =
         glfwCreateWindow(request.size_px.x, request.size_px.y, request.title.c_str(), monitor, nullptr);
     if (!state_->window)
         throw GraphicsError(fmt::format("GLFW: {}", last_glfw_error()));
+    if (corner && !request.fullscreen) {
+        const glm::ivec2 place = info_of(corner, 1).position_px;
+        glfwSetWindowPos(state_->window, place.x, place.y);
+        if (request.visible)
+            glfwShowWindow(state_->window);
+    }
     glfwSetWindowUserPointer(state_->window, state_.get());
+    glfwSetFramebufferSizeCallback(state_->window, &State::on_size);
+    glfwSetWindowPosCallback(state_->window, &State::on_position);
     glfwSetKeyCallback(state_->window, &State::on_key);
     if (request.fullscreen)
         glfwSetInputMode(state_->window, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
@@ -139,12 +270,53 @@ bool WindowContext::next_key_press(WindowKeyPress& press) noexcept {
 
 bool WindowContext::close_requested() const noexcept { return glfwWindowShouldClose(state_->window) != 0; }
 
-double WindowContext::monitor_refresh_hz() const {
-    GLFWmonitor* monitor = glfwGetWindowMonitor(state_->window);
+glm::ivec2 WindowContext::window_size() const {
+    glm::ivec2 size(0);
+    glfwGetWindowSize(state_->window, &size.x, &size.y);
+    return size;
+}
+
+MonitorInfo WindowContext::monitor() const {
+    GLFWmonitor* const monitor = monitor_under(state_->window);
     if (!monitor)
-        monitor = glfwGetPrimaryMonitor();
-    const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
-    return mode && mode->refreshRate > 0 ? mode->refreshRate : 0.0;
+        throw GraphicsError("the window is on no monitor: the window system has none");
+    const std::vector<GLFWmonitor*> monitors = all_monitors();
+    const auto at = std::find(monitors.begin(), monitors.end(), monitor);
+    return info_of(monitor, 1 + static_cast<int>(at - monitors.begin()));
+}
+
+GammaRamp WindowContext::gamma_ramp() const { return ramp_of(monitor_under(state_->window)); }
+
+bool WindowContext::is_fullscreen() const noexcept { return glfwGetWindowMonitor(state_->window) != nullptr; }
+
+void WindowContext::hold_still() {
+    poll_events(); // what was under way
+    state_->held_framebuffer_px = framebuffer_px();
+    state_->held_monitor = monitor_under(state_->window);
+    state_->disturbance = WindowDisturbance::none;
+    state_->held = true;
+}
+
+WindowDisturbance WindowContext::disturbance() const noexcept { return state_->disturbance; }
+
+std::vector<MonitorInfo> list_monitors() {
+    const GlfwLibrary library;
+    std::vector<MonitorInfo> list;
+    for (GLFWmonitor* monitor : all_monitors())
+        list.push_back(info_of(monitor, static_cast<int>(list.size()) + 1));
+    return list;
+}
+
+GammaRamp gamma_ramp_of(int monitor) {
+    const GlfwLibrary library;
+    return ramp_of(monitor_numbered(monitor));
+}
+
+std::string describe(const MonitorInfo& monitor) {
+    return fmt::format("monitor {} ({}, {} x {} px at {})", monitor.number,
+                       monitor.name.empty() ? "no name" : monitor.name, monitor.size_px.x, monitor.size_px.y,
+                       monitor.refresh_hz > 0 ? fmt::format("{} Hz", monitor.refresh_hz)
+                                              : std::string("an unknown rate"));
 }
 
 } // namespace overt

@@ -2,8 +2,11 @@
 /// pixel.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "render/gl_context.h"
 
@@ -15,6 +18,9 @@ struct WindowRequest {
     bool fullscreen = false; ///< on the monitor whose resolution is size_px; throws if there is none
     bool visible = true;
     int bits_per_channel = 8; ///< of the framebuffer, 8 or 10; what came of it is bits_per_channel()
+    /// By its number in list_monitors(), from 1: a whole screen takes this one, a window stands in its top
+    /// left corner. Left out: the first of that resolution; wherever the desktop puts a window.
+    std::optional<int> monitor = {};
 };
 
 /// Keys that a window reports.
@@ -22,6 +28,34 @@ enum class WindowKey { space, enter, escape, other };
 struct WindowKeyPress {
     WindowKey key;
 };
+
+/// A screen as the window system knows it.
+struct MonitorInfo {
+    int number = 1; ///< the first is the primary one
+    std::string name;
+    glm::ivec2 size_px{0};         ///< of the mode it shows now
+    glm::ivec2 position_px{0};     ///< of its top left corner on the desktop
+    int refresh_hz = 0;            ///< nominal, whole; 0 if it does not say
+    glm::ivec2 size_mm{0};         ///< by its own word, often wrong; 0 if it does not say
+    glm::vec2 content_scale{1.0f}; ///< by which the desktop enlarges what it draws
+};
+
+/// All of them. Throws GraphicsError if there is no window system. Main thread only.
+std::vector<MonitorInfo> list_monitors();
+
+/// «monitor 2 (DP-1, 1920 x 1080 px at 120 Hz)».
+std::string describe(const MonitorInfo& monitor);
+
+/// The system's table from a channel's value to what is sent, in 16 bits; empty if it cannot be read.
+struct GammaRamp {
+    std::vector<std::uint16_t> red, green, blue;
+};
+
+/// Of a monitor by its number in list_monitors(). Main thread only.
+GammaRamp gamma_ramp_of(int monitor);
+
+/// What must not happen to a window while a session shows it.
+enum class WindowDisturbance : std::uint8_t { none, resized, moved, screen_lost };
 
 /// GLFW allows windows on the main thread only: construct, use and destroy this there.
 class WindowContext final : public GlContext {
@@ -47,8 +81,19 @@ class WindowContext final : public GlContext {
     bool next_key_press(WindowKeyPress& press) noexcept;
     bool close_requested() const noexcept;
 
-    /// The monitor's nominal refresh rate, 0 if it does not say.
-    double monitor_refresh_hz() const;
+    /// The window's own size, in the desktop's units.
+    glm::ivec2 window_size() const;
+
+    /// The monitor on which the middle of the window is.
+    MonitorInfo monitor() const;
+    GammaRamp gamma_ramp() const; ///< of that monitor
+
+    bool is_fullscreen() const noexcept;
+
+    /// From now on the window has to stay as and where it is: disturbance() says what happened first. A whole
+    /// screen must not move at all, a window must stay on its monitor.
+    void hold_still();
+    WindowDisturbance disturbance() const noexcept;
 
   private:
     struct State;
