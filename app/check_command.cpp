@@ -8,6 +8,7 @@
 #include "app/frame_light.h"
 #include "app/protocol_file.h"
 #include "app/protocol_inputs.h"
+#include "app/session_outlook.h"
 #include "experiment/protocol/design_report.h"
 #include "experiment/schedule.h"
 
@@ -52,13 +53,15 @@ int run_check(const CheckOptions& options) {
         nlohmann::ordered_json json = diagnostics.to_json();
         if (experiment)
             json["design"] = to_json(report_on(*experiment, options));
+        if (experiment)
+            json["on_this_machine"] = to_json(session_outlook(experiment->protocol));
         if (experiment && options.frames)
             json["light"] = to_json(measure_light(*experiment));
         text = json.dump(2) + "\n";
     } else {
         print_findings(diagnostics);
         if (experiment)
-            text = to_text(report_on(*experiment, options));
+            text = to_text(report_on(*experiment, options)) + to_text(session_outlook(experiment->protocol));
         if (experiment && options.frames)
             text += to_text(measure_light(*experiment));
     }

@@ -204,6 +204,12 @@ int run_command_line(int argc, char** argv) {
     run_command.add_flag("--virtual-time", run.virtual_time,
                          "Run as fast as the machine can, on a clock of its own");
     run_command.add_flag("--windowed", run.windowed, "A window instead of the whole screen");
+    run_command
+        .add_option("--monitor", run.monitor,
+                    "The screen to take, as `overt doctor` numbers them (default: the first that has the "
+                    "protocol's resolution)")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
     run_command.add_option("--sessions", run.sessions, "Folder for sessions")
         ->type_name("DIR")
         ->capture_default_str();
@@ -382,15 +388,61 @@ int run_command_line(int argc, char** argv) {
         "  overt display verify protocols/overt_2019.toml --stimulus muse/smooth --mode color++");
     verify_command.add_option("PROTOCOL", verify.protocol,
                               "Protocol file (TOML): its screen, and its stimuli as it sends them");
-    verify_command.add_option("--stimulus", verify.stimulus, "SCULPTURE/MATERIAL by their ids (default: all)")
+    verify_command
+        .add_option("--stimulus", verify.stimulus, "SCULPTURE/MATERIAL by their ids (default: all)")
         ->type_name("ID");
     verify_command.add_option("--mode", verify.modes, "Output mode, as in a protocol (default: all)")
-        ->check(CLI::IsMember({"native-8bit", "native-10bit", "mono++", "color++", "bits++", "vpixx-m16",
-                               "vpixx-c48"}))
+        ->check(CLI::IsMember(
+            {"native-8bit", "native-10bit", "mono++", "color++", "bits++", "vpixx-m16", "vpixx-c48"}))
         ->type_name("MODE");
     add_context_option(verify_command, verify.context);
     verify_command.add_flag("--json", verify.json, "Print JSON");
-    verify_command.callback([&] { command = [&] { return run_display_verify(verify); }; });
+    bool on_hardware = false;
+    DisplayHardwareOptions hardware;
+    auto& on_hardware_flag = *verify_command.add_flag(
+        "--hardware", on_hardware,
+        "Draw known lines on the display instead, have its box send back what it received, three times, and "
+        "say line by line what the way there changed");
+    verify_command.add_option("--port", hardware.port, "Serial port of the box (default: look for it)")
+        ->needs(&on_hardware_flag)
+        ->type_name("PORT");
+    verify_command
+        .add_option("--monitor", hardware.monitor,
+                    "The screen behind the box, as `overt doctor` numbers them (default: 1)")
+        ->needs(&on_hardware_flag)
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
+    for (const char* other : {"PROTOCOL", "--stimulus", "--mode", "--context"})
+        on_hardware_flag.excludes(verify_command.get_option(other));
+    verify_command.callback([&] {
+        hardware.json = verify.json;
+        command = [&] {
+            return on_hardware ? run_display_hardware_check(hardware) : run_display_verify(verify);
+        };
+    });
+
+    DisplayStatusOptions status;
+    auto& status_command = add_command(display_command, "status",
+                                       "Which display box there is, what it says of itself, and whether a "
+                                       "run that was killed left it switched",
+                                       "overt display status\n"
+                                       "  overt display status --port /dev/ttyACM0 --json");
+    status_command.add_option("--port", status.port, "Ask at this serial port only")->type_name("PORT");
+    status_command.add_flag("--json", status.json, "Print JSON");
+    status_command.callback([&] { command = [&] { return run_display_status(status); }; });
+
+    DisplayModeOptions mode;
+    auto& mode_command =
+        add_command(display_command, "mode", "Switches the display box, and says what of it is proved",
+                    "overt display mode bits++\n"
+                    "  overt display mode color++ --port /dev/ttyACM0");
+    mode_command.add_option("MODE", mode.mode, "bits++ (in which a desktop can be read), mono++ or color++")
+        ->required()
+        ->check(CLI::IsMember({"bits++", "mono++", "color++"}));
+    mode_command.add_option("--port", mode.port, "Serial port of the box (default: look for it)")
+        ->type_name("PORT");
+    mode_command.add_flag("--json", mode.json, "Print JSON");
+    mode_command.callback([&] { command = [&] { return run_display_mode(mode); }; });
 
     DisplayCharacteriseOptions characterise;
     add_characterise_command(display_command, characterise,

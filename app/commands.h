@@ -42,6 +42,7 @@ struct RunOptions {
     MapTime maps = MapTime::automatic;
     bool verify_output = false; ///< decode every page before the first trial
     std::filesystem::path print_session_to;
+    std::optional<int> monitor; ///< from 1
 };
 int run_session(const RunOptions& options);
 
@@ -146,6 +147,27 @@ struct DisplayColourOptions {
     bool json = false;
 };
 int run_display_colour(const DisplayColourOptions& options);
+
+struct DisplayHardwareOptions {
+    std::string port;           ///< of the box; empty: look for it
+    std::optional<int> monitor; ///< that is connected to the box, from 1; nothing: the primary one
+    bool json = false;
+};
+/// Draws known lines and has the display box send back what it received.
+int run_display_hardware_check(const DisplayHardwareOptions& options);
+
+struct DisplayStatusOptions {
+    std::string port; ///< empty: all
+    bool json = false;
+};
+int run_display_status(const DisplayStatusOptions& options);
+
+struct DisplayModeOptions {
+    std::string mode; ///< bits++, mono++ or color++
+    std::string port; ///< empty: look for it
+    bool json = false;
+};
+int run_display_mode(const DisplayModeOptions& options);
 
 struct BenchOptions {
     std::string what;           ///< which benchmark

@@ -7,6 +7,13 @@
 
 #include "app/cache_folder.h"
 #include "app/commands.h"
+#include "app/state_folder.h"
+#include "devices/clocks.h"
+#include "devices/colorcal.h"
+#include "devices/display_plus_plus_search.h"
+#include "devices/serial_port.h"
+#include "devices/switch_record.h"
+#include "render/screen_check.h"
 
 namespace overt {
 
@@ -34,6 +41,56 @@ std::string realtime_priority() {
                                            : fmt::format("allowed up to {}", limit.rlim_cur);
 }
 
+void add_screens(std::vector<Line>& lines) {
+    lines.push_back({"window system", examine_window_system().description()});
+    if (!display_is_available())
+        return;
+    try {
+        for (const MonitorInfo& monitor : list_monitors()) {
+            const ScreenFacts facts = facts_at(monitor);
+            std::string finding = fmt::format(
+                "{} x {} px at {}, from {}, {} on the desktop", monitor.size_px.x, monitor.size_px.y,
+                monitor.refresh_hz > 0 ? fmt::format("{} Hz", monitor.refresh_hz)
+                                       : std::string("an unknown rate"),
+                monitor.position_px.x, monitor.position_px.y);
+            lines.push_back({fmt::format("monitor {}, {}", monitor.number, monitor.name), finding});
+            lines.push_back({"  gamma table", describe(facts.gamma_ramp)});
+            if (monitor.content_scale != glm::vec2(1.0f))
+                lines.push_back({"  scaling", fmt::format("{:.0f} %", 100.0 * static_cast<double>(
+                                                                                  monitor.content_scale.x))});
+        }
+    } catch (const std::exception& error) {
+        lines.push_back({"monitors", error.what()});
+    }
+}
+
+/// Asks only ports of the box's vendor: another maker's device is no business of an overview.
+void add_instruments(std::vector<Line>& lines) {
+    const std::vector<SerialPortInfo> ports = serial_ports();
+    if (ports.empty())
+        lines.push_back({"display box, photometer", "no USB serial port (/dev/ttyACM*)"});
+    SteadyClock clock;
+    for (const SerialPortInfo& port : ports) {
+        std::string finding = "another maker's device, not asked; `overt display status` does";
+        if (port.vendor_id == crs_vendor_id) {
+            const AskedPort asked =
+                ask_for_display_boxes({&port, 1}, std::nullopt, serial_port_opener(clock), clock).front();
+            finding = asked.box ? fmt::format("display box: {}, serial number {}", asked.box->product,
+                                              asked.box->serial_number)
+                      : port.product_id == colorcal_product_id ? "photometer: ColorCAL"
+                                                               : asked.otherwise;
+        }
+        lines.push_back({describe(port), finding});
+    }
+    try {
+        if (const auto note = read_switch_record(state_folder()))
+            lines.push_back({"display box", fmt::format("{} is noted to be in {} mode{}", note->serial_number,
+                                                        note->mode, note->kept ? ", on purpose" : "")});
+    } catch (const std::exception& error) {
+        lines.push_back({"display box", error.what()});
+    }
+}
+
 std::vector<Line> examine() {
     std::vector<Line> lines;
     for (const ContextAttempt& attempt : survey_contexts())
@@ -45,6 +102,8 @@ std::vector<Line> examine() {
     } catch (const std::exception& error) {
         lines.push_back({"headless sessions", error.what()});
     }
+    add_screens(lines);
+    add_instruments(lines);
     lines.push_back({"processors", fmt::format("{}", std::thread::hardware_concurrency())});
     lines.push_back({"real-time priority", realtime_priority()});
     lines.push_back({"free disk, here", fmt::format("{:.1f} GB", free_gb(std::filesystem::current_path()))});

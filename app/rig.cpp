@@ -5,16 +5,14 @@
 
 namespace overt {
 
-namespace {
-
-bool wants_window(const RigRequest& request) {
-    if (request.context)
-        return request.context == ContextKind::window;
-    return display_is_available();
+bool wants_window(ContextChoice context) {
+    return context ? *context == ContextKind::window : display_is_available();
 }
 
+namespace {
+
 std::unique_ptr<GlContext> make_context(const Protocol& protocol, const RigRequest& request) {
-    const bool window = wants_window(request);
+    const bool window = wants_window(request.context);
     if (!window && !request.simulate_observer) {
         throw InputError("without a window nobody can answer: give --simulate-observer SEED, or a display");
     }
@@ -24,12 +22,18 @@ std::unique_ptr<GlContext> make_context(const Protocol& protocol, const RigReque
     // In virtual time nothing is lit for as long as it should be: a rehearsal, for which no screen is taken
     // over.
     const bool fullscreen = !request.windowed && !request.virtual_time;
-    return std::make_unique<WindowContext>(
-        WindowRequest{{display.width_px, display.height_px},
-                      "overt: " + protocol.name,
-                      fullscreen,
-                      true,
-                      display.output == OutputMode::native_10bit ? 10 : 8});
+    return std::make_unique<WindowContext>(WindowRequest{{display.width_px, display.height_px},
+                                                         "overt: " + protocol.name,
+                                                         fullscreen,
+                                                         true,
+                                                         display.output == OutputMode::native_10bit ? 10 : 8,
+                                                         request.monitor});
+}
+
+std::vector<ScreenFinding> examine_screen(const WindowContext& window, const Protocol& protocol) {
+    std::vector<ScreenFinding> findings = judge_screen(facts_of(window), protocol.display);
+    refuse_spoilt_screen(findings);
+    return findings;
 }
 
 } // namespace
@@ -38,6 +42,8 @@ Rig::Rig(const Protocol& protocol, std::span<const Sculpture> sculptures, const 
          const std::filesystem::path& cache)
     : protocol_(&protocol), sculptures_(sculptures), request_(request),
       context_(make_context(protocol, request)), window_(dynamic_cast<WindowContext*>(context_.get())),
+      screen_findings_(is_on_a_real_screen() ? examine_screen(*window_, protocol)
+                                             : std::vector<ScreenFinding>()),
       library_(*context_, protocol, sculptures, cache) {}
 
 bool Rig::maps_are_live() const {
@@ -82,6 +88,8 @@ void Rig::open() {
         window_panel_ = std::make_unique<WindowResponsePanel>(*window_, *clock_, panel_);
         panel_ = window_panel_.get();
     }
+    if (is_on_a_real_screen())
+        window_->hold_still();
 }
 
 } // namespace overt

@@ -12,6 +12,7 @@
 #include "render/display_surface.h"
 #include "render/live_maps.h"
 #include "render/page_presenter.h"
+#include "render/screen_check.h"
 #include "render/stimulus_library.h"
 #include "render/window_response_panel.h"
 
@@ -24,12 +25,17 @@ struct RigRequest {
     bool simulate_observer = false; ///< else somebody answers at the window's keyboard
     std::uint64_t seed = 0;         ///< of everything simulated
     MapTime maps = MapTime::automatic;
+    std::optional<int> monitor = {}; ///< from 1; see WindowRequest
 };
+
+/// Whether a session with these options opens a window on this machine.
+bool wants_window(ContextChoice context);
 
 class Rig {
   public:
     /// `protocol` and `sculptures` must outlive the rig. Opens the display and starts the clock. Throws
-    /// GraphicsError, or InputError for a request that makes no sense on this machine.
+    /// GraphicsError, also for a screen that would not show what the protocol says, or InputError for a
+    /// request that makes no sense on this machine.
     Rig(const Protocol& protocol, std::span<const Sculpture> sculptures, const RigRequest& request,
         const std::filesystem::path& cache);
 
@@ -39,6 +45,12 @@ class Rig {
     ClockKind clock_kind() const {
         return request_.virtual_time ? ClockKind::virtual_time : ClockKind::steady;
     }
+
+    /// A screen lights what is shown, for as long as it should be.
+    bool is_on_a_real_screen() const { return window_ != nullptr && !request_.virtual_time; }
+
+    /// What may spoil the signal on its way to the light; nothing unless is_on_a_real_screen().
+    const std::vector<ScreenFinding>& screen_findings() const { return screen_findings_; }
 
     /// Whether the hidden maps are drawn while their frames are shown; else they are to be prepared.
     bool maps_are_live() const;
@@ -61,6 +73,7 @@ class Rig {
     // Objects of OpenGL go before the context they live in.
     std::unique_ptr<GlContext> context_;
     WindowContext* window_ = nullptr; ///< the context, if it is a window
+    std::vector<ScreenFinding> screen_findings_;
     StimulusLibrary library_;
     std::unique_ptr<Clock> clock_;
     std::unique_ptr<DisplaySurface> surface_;

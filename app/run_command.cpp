@@ -5,6 +5,8 @@
 
 #include "app/cache_folder.h"
 #include "app/commands.h"
+#include "app/display_box_session.h"
+#include "app/interruption.h"
 #include "app/output_verification.h"
 #include "app/progress_bar.h"
 #include "app/protocol_file.h"
@@ -63,6 +65,12 @@ void say_before(const Protocol& protocol, const Schedule& schedule, const GlDesc
         fmt::print("tracker: simulated; the gaze in this session is nobody's\n");
 }
 
+void say_risks(const std::vector<ScreenFinding>& findings) {
+    for (const ScreenFinding& finding : findings)
+        if (finding.weight == ScreenFinding::Weight::risk)
+            fmt::print(stderr, "risk: {}: {}\n", finding.what, finding.finding);
+}
+
 } // namespace
 
 int run_session(const RunOptions& options) {
@@ -81,15 +89,23 @@ int run_session(const RunOptions& options) {
     if (options.trials && *options.trials < static_cast<int>(schedule.trials.size()))
         schedule.trials.resize(static_cast<std::size_t>(*options.trials));
 
+    switch_back_what_was_left();
+    const BoxPlan box_plan = plan_box(protocol.display, wants_window(options.context), options.virtual_time);
+    std::optional<BoxIdentity> box_identity;
+    if (box_plan.use == RecordedBox::Use::box)
+        box_identity = require_box(box_plan);
+
     // What is simulated has a seed of its own, so that one order can be rehearsed with several observers.
     RigRequest request{options.context,
                        options.virtual_time,
                        options.windowed,
                        options.simulate_observer.has_value(),
                        options.simulate_observer.value_or(seed),
-                       options.maps};
+                       options.maps,
+                       options.monitor};
     Rig rig(protocol, sculptures, request, cache_folder());
     say_before(protocol, schedule, rig.context().description(), options);
+    say_risks(rig.screen_findings());
     {
         ProgressBar bar;
         const Progress show = [&](std::string_view what, int done, int total) {
@@ -100,7 +116,19 @@ int run_session(const RunOptions& options) {
         rig.library().prepare_given_maps(show);
         rig.library().prepare_frames(show);
     }
+    const Interruption interruption;
     rig.open();
+    rig.presenter().close_on(Interruption::requested());
+    std::optional<DisplayBoxSession> box;
+    if (box_identity) {
+        fmt::print("display box: switching {} at {} …\n", box_identity->product, box_identity->port);
+        box.emplace(*box_identity, protocol.display, rig.clock(), rig.presenter());
+    }
+    RecordedBox recorded_box;
+    recorded_box.use = box_plan.use;
+    if (box)
+        recorded_box = box->recorded();
+    fmt::print("display box: {}\n", describe(recorded_box));
 
     SessionHeader header =
         make_session_header(protocol, schedule, sculptures, rig.library(), rig.context().description(),
@@ -113,6 +141,12 @@ int run_session(const RunOptions& options) {
     SessionStore store(
         directory.session_file(),
         {.wait_when_full = options.virtual_time, .ring_capacity = 65536, .started_utc = header.started_utc});
+    if (box)
+        box->write_beginning(store);
+    else
+        store.display_box(recorded_box);
+    for (const ScreenFinding& finding : rig.screen_findings())
+        store.event({rig.clock().now(), -1, "screen", fmt::format("{}: {}", finding.what, finding.finding)});
     if (options.verify_output) {
         ProgressBar bar;
         record_verification(rig.presenter(), rig.library(), protocol, schedule, rig.clock(), store,
@@ -125,8 +159,12 @@ int run_session(const RunOptions& options) {
         if (LiveMaps* live = rig.live_maps())
             record_live_maps(live->take_finished(), directory, header, store);
         progress(trial, outcome, done);
+        if (box)
+            box->check(store);
     });
     progress.finish();
+    if (box)
+        box->leave(store);
     store.close();
     const LostRows lost = store.lost();
     if (lost.flips + lost.samples > 0)

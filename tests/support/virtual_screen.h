@@ -17,7 +17,9 @@ namespace overt::test {
 class VirtualScreen {
   public:
     /// Starts a server and points DISPLAY to it; nothing if there is no Xvfb on this machine.
-    static std::unique_ptr<VirtualScreen> start(int width, int height, int depth) {
+    /// With a folder the server keeps its framebuffer there, for SeenScreen.
+    static std::unique_ptr<VirtualScreen> start(int width, int height, int depth,
+                                                const std::string& framebuffer_folder = {}) {
         int ends[2];
         if (pipe(ends) != 0)
             return nullptr;
@@ -30,8 +32,9 @@ class VirtualScreen {
             const int nowhere = open("/dev/null", O_WRONLY);
             dup2(nowhere, 1);
             dup2(nowhere, 2);
+            const char* const end = nullptr;
             execlp("Xvfb", "Xvfb", "-displayfd", fd.c_str(), "-screen", "0", screen.c_str(), "-nolisten",
-                   "tcp", static_cast<char*>(nullptr));
+                   "tcp", framebuffer_folder.empty() ? end : "-fbdir", framebuffer_folder.c_str(), end);
             _exit(127);
         }
         close(ends[1]);
