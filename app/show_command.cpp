@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/display_box_session.h"
 #include "app/recorded_surface.h"
 #include "app/session_recording.h"
 #include "experiment/error.h"
@@ -48,16 +49,29 @@ nlohmann::ordered_json to_json(const SessionRecord& record) {
                                     {"white_cd_m2", light->white_cd_m2()},
                                     {"black_cd_m2", light->black_xyz.y}};
     }
+    json["display_boxes"] = nlohmann::ordered_json::array();
+    for (const auto& [sitting, box] : record.display_boxes()) {
+        nlohmann::ordered_json item{{"sitting", sitting}, {"use", name_of(box.use)}};
+        if (box.use == RecordedBox::Use::box) {
+            item["product"] = box.product;
+            item["serial_number"] = box.serial_number;
+            item["mode"] = box.mode;
+            item["video_rate_hz"] = box.video_rate_hz;
+        }
+        json["display_boxes"].push_back(std::move(item));
+    }
     return json;
 }
 
 void print_session(const SessionRecord& record) {
     const nlohmann::ordered_json json = to_json(record);
     const SessionHeader& header = record.header();
-    fmt::print("{}: observer {}, session {}, seed {}, {} ({})\n\n", header.protocol.name,
+    fmt::print("{}: observer {}, session {}, seed {}, {} ({})\n", header.protocol.name,
                header.schedule.observer.label, header.session_number, header.schedule.seed,
                header.graphics.context, header.graphics.renderer);
-    fmt::print("{:>5}  {:<12} {:<12} {:<12} {:<10} {:>9} {:>7}  {}\n", "trial", "task", "sculpture",
+    for (const auto& [sitting, box] : record.display_boxes())
+        fmt::print("display box in sitting {}: {}\n", sitting, describe(box));
+    fmt::print("\n{:>5}  {:<12} {:<12} {:<12} {:<10} {:>9} {:>7}  {}\n", "trial", "task", "sculpture",
                "material", "status", "refreshes", "missed", "answer");
     for (const auto& trial : json["trials"]) {
         fmt::print("{:>5}  {:<12} {:<12} {:<12} {:<10} {:>9} {:>7}  {}\n", trial["trial"].get<int>(),

@@ -153,3 +153,61 @@ TEST_CASE("a note that cannot be written or read is an error that names the file
     folder.file("display-switched.txt", "gibberish\n\n=\n");
     CHECK_THROWS_AS(read_switch_record(folder.path()), RecordError);
 }
+
+TEST_CASE("a mode that is kept on purpose outlives its program, and only its user undoes it", "[unit]") {
+    const TemporaryFolder folder;
+    Desk desk;
+    desk.settings.record_folder = folder.path();
+    InMemoryBitsBox& box = desk.add_box("/dev/ttyACM0", "7");
+    {
+        auto display = desk.find();
+        display->set_mode(BoxMode::mono_plus_plus);
+        display->keep_mode();
+    }
+    CHECK(box.model.mode == "monoPlusPlus");
+    CHECK(read_switch_record(folder.path()) == SwitchRecord{"/dev/ttyACM0", "7", "Mono++", true});
+    CHECK_FALSE(recover_display(desk.ports, desk.opener(), desk.clock, desk.settings));
+    CHECK(box.model.mode == "monoPlusPlus");
+    desk.find()->restore_desktop();
+    CHECK(box.model.mode == "BitsPlusPlus");
+    CHECK_FALSE(read_switch_record(folder.path()));
+}
+
+TEST_CASE("the way back waits for a box that is deaf while it changes its mode", "[unit]") {
+    const TemporaryFolder folder;
+    Desk desk;
+    desk.settings.record_folder = folder.path();
+    InMemoryBitsBox& box = desk.add_box("/dev/ttyACM0", "7");
+    auto display = desk.find();
+    box.model.mode_change_s = 3.0;
+    display->set_mode(BoxMode::color_plus_plus);
+    display->leave();
+    CHECK(box.model.mode == "BitsPlusPlus");
+    CHECK_FALSE(read_switch_record(folder.path()));
+}
+
+TEST_CASE("asking at all ports says of each what came of it, and leaves a box as it was", "[unit]") {
+    Desk desk;
+    desk.add_mute("/dev/ttyACM0", 0x2341, 0x0043);
+    desk.add_mute("/dev/ttyACM1", 0x0861, 0x1001);
+    const auto ask = [&desk](const std::optional<std::string>& port = std::nullopt) {
+        return ask_for_display_boxes(desk.ports, port, desk.opener(), desk.clock, desk.settings);
+    };
+    auto asked = ask();
+    REQUIRE(asked.size() == 2);
+    CHECK_FALSE(asked[0].box);
+    CHECK_THAT(asked[0].otherwise, Contains("ttyACM0: no line beginning"));
+    CHECK_THAT(asked[1].otherwise, Contains("another kind of instrument"));
+
+    InMemoryBitsBox& box = desk.add_box("/dev/ttyACM2", "7", crs_vendor_id);
+    desk.opened.clear();
+    asked = ask();
+    REQUIRE(asked.size() == 3);
+    REQUIRE(asked[0].box);
+    CHECK(asked[0].box->serial_number == "7");
+    CHECK(asked[0].video_rate_hz == 120.0);
+    CHECK(desk.opened == std::vector<std::string>{"/dev/ttyACM2"});
+    for (const std::string& command : box.model.commands)
+        CHECK(command.find("PlusPlus") == std::string::npos);
+    CHECK_THAT(ask("/dev/ttyACM9").front().otherwise, Contains("cannot be opened"));
+}
