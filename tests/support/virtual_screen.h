@@ -33,8 +33,11 @@ class VirtualScreen {
             dup2(nowhere, 1);
             dup2(nowhere, 2);
             const char* const end = nullptr;
+            // Without -noreset it begins anew, and answers nobody for a moment, whenever its last client
+            // leaves.
             execlp("Xvfb", "Xvfb", "-displayfd", fd.c_str(), "-screen", "0", screen.c_str(), "-nolisten",
-                   "tcp", framebuffer_folder.empty() ? end : "-fbdir", framebuffer_folder.c_str(), end);
+                   "tcp", "-noreset", framebuffer_folder.empty() ? end : "-fbdir", framebuffer_folder.c_str(),
+                   end);
             _exit(127);
         }
         close(ends[1]);
