@@ -116,6 +116,9 @@ void add_characterise_command(CLI::App& display, DisplayCharacteriseOptions& opt
         ->check(CLI::Range(0.0, 0.5))
         ->needs(simulated);
     command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
+    command.add_option("--monitor", options.monitor, "The screen to take, as `overt doctor` numbers them")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
     add_context_option(command, options.context);
     command.add_flag("--force", options.force, "Replace files that are there");
     command.add_flag("--json", options.json, "Print JSON");

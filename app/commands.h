@@ -132,6 +132,7 @@ struct DisplayCharacteriseOptions {
     double surround = 0.0;  ///< signal around the patch
     double crosstalk = 0.0; ///< of the simulated display
     ContextChoice context;
+    std::optional<int> monitor; ///< from 1
     bool windowed = false;
     bool force = false;
     bool json = false;

@@ -92,7 +92,11 @@ std::unique_ptr<PatchPhotometer> make_photometer(const DisplayCharacteriseOption
 class ReadingsJournal {
   public:
     ReadingsJournal(std::filesystem::path file, bool force) : file_(std::move(file)) {
-        check_can_write({{file_, {}}}, force);
+        std::error_code ignored;
+        if (!force && std::filesystem::exists(file_, ignored))
+            throw InputError(fmt::format("{}: holds what was read before a measurement ended early: move it "
+                                         "away, or replace it with --force",
+                                         file_.string()));
     }
     void add(const PatchReading& reading) {
         if (!stream_.is_open()) {
@@ -131,8 +135,8 @@ Measured measure(const DisplayCharacteriseOptions& options, const DisplaySetting
     SteadyClock clock;
     const auto photometer = make_photometer(options, clock);
     const auto plan = plan_patches({options.levels, options.mixed, options.repeats, options.seed});
-    PatchStage stage(
-        {display, options.context, is_simulated, options.windowed, options.size_deg, options.surround});
+    PatchStage stage({display, options.context, is_simulated, options.windowed, options.monitor,
+                      options.size_deg, options.surround});
     ReadingsJournal journal(beside(options.out, "_readings_partial.csv"), options.force);
     const auto stop = [&] {
         throw DeviceError(journal.is_empty() ? "ended before any patch was measured"

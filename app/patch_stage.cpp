@@ -94,6 +94,7 @@ PatchStage::PatchStage(const PatchStageRequest& request)
         window.title = "overt display characterise";
         window.fullscreen = !request.windowed && !request.virtual_time;
         window.bits_per_channel = bits;
+        window.monitor = request.monitor;
         auto context = std::make_unique<WindowContext>(window);
         window_ = context.get();
         surface_ =

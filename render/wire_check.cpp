@@ -1,5 +1,6 @@
 #include "render/wire_check.h"
 
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -15,11 +16,17 @@ WireFindings check_row(const ReceivedLight& received, const WirePrediction& pred
                        int y) {
     WireFindings found;
     const std::size_t channels = received.is_grey ? 1 : 3;
+    // Neighbours are often alike, above all in the background: what was reckoned last is kept.
+    std::array<double, 3> last_light{-1.0, -1.0, -1.0}, last_signal{};
     for (int x = 0; x < received.size.x; ++x) {
         const auto light = prediction.shown_light_at(x, y);
         const auto& levels = received.at(x, y);
         for (std::size_t channel = 0; channel < channels; ++channel) {
-            const double signal = prediction.signal_of(channel, light[channel], received.highest);
+            if (light[channel] != last_light[channel]) {
+                last_light[channel] = light[channel];
+                last_signal[channel] = prediction.signal_of(channel, light[channel], received.highest);
+            }
+            const double signal = last_signal[channel];
             const int level = levels[channel];
             int difference = 0;
             if (dithered) {
