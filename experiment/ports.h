@@ -50,6 +50,11 @@ class Presenter {
     /// GraphicsError or InputError.
     virtual void load_frames(const Condition& condition) = 0;
 
+    /// The stimulus that will be loaded next: a presenter may begin with it now, in the background.
+    virtual void expect_frames(const Condition& /*condition*/) noexcept {}
+    /// The screen stands still and a few milliseconds matter to nobody. Called again and again.
+    virtual void use_spare_time() noexcept {}
+
     /// Draws a screen and shows it at the next refresh; it stays until the next call. Lays out text, so not
     /// for use between a presentation's first and last flip.
     virtual FlipReport show(const Screen& screen) = 0;

@@ -73,6 +73,8 @@ TrialOutcome Session::run_trial(const Trial& trial) {
     if (!aborted_) {
         outcome.response_screen_onset = show({Screen::Kind::text, screens.response_text});
         ports_.panel.await_response(trial, outcome.response_screen_onset);
+        if (const std::size_t next = static_cast<std::size_t>(trial.index) + 1; next < schedule_->trials.size())
+            ports_.presenter.expect_frames(schedule_->trials[next].condition);
         const Answer answer = wait_for_press(outcome.response_screen_onset, screens.response_min_s,
                                              screens.response_max_s, outcome.responded_at);
         if (answer == Answer::timed_out)
@@ -176,6 +178,7 @@ Session::Answer Session::wait_for_press(SessionTime since, double min_s, double 
             aborted_ = true;
             return Answer::aborted;
         }
+        ports_.presenter.use_spare_time();
         ports_.clock.wait_until(ports_.clock.now() + key_interval);
     }
     pressed_at = latest;

@@ -115,15 +115,24 @@ TextureArray::TextureArray(const GlContext& context, glm::ivec2 size_px, int lay
 }
 
 void TextureArray::upload(int layer, std::span<const std::byte> pixels) {
+    upload(layer, pixels.data(), pixels.size());
+}
+
+void TextureArray::upload_from_buffer(int layer, std::size_t bytes) {
+    upload(layer, nullptr, bytes);
+    name_.context().gl().BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+}
+
+void TextureArray::upload(int layer, const void* pixels_or_offset, std::size_t bytes) {
     const GlFormat pixel = gl_format(format_);
     OVERT_EXPECTS(layer >= 0 && layer < layers_ &&
-                  pixels.size() == pixel.bytes * static_cast<std::size_t>(size_px_.x) *
-                                       static_cast<std::size_t>(size_px_.y));
+                  bytes == pixel.bytes * static_cast<std::size_t>(size_px_.x) *
+                               static_cast<std::size_t>(size_px_.y));
     const GladGLContext& gl = name_.context().gl();
     gl.BindTexture(GL_TEXTURE_2D_ARRAY, *name_);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     gl.TexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, size_px_.x, size_px_.y, 1, pixel.format, pixel.type,
-                     pixels.data());
+                     pixels_or_offset);
     throw_on_gl_error(name_.context(), "uploading a page");
 }
 

@@ -71,11 +71,16 @@ class TextureArray {
 
     /// One page, row by row, in the format's own component type.
     void upload(int layer, std::span<const std::byte> pixels);
+    /// The same from the start of the buffer that is bound to GL_PIXEL_UNPACK_BUFFER and holds that many
+    /// bytes; unbinds it.
+    void upload_from_buffer(int layer, std::size_t bytes);
     GLuint name() const { return *name_; }
     glm::ivec2 size_px() const { return size_px_; }
     int layers() const { return layers_; }
 
   private:
+    void upload(int layer, const void* pixels_or_offset, std::size_t bytes);
+
     GlName name_;
     glm::ivec2 size_px_;
     int layers_;

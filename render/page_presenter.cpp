@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "experiment/error.h"
-#include "experiment/parallel.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "render/text_layout.h"
 
@@ -41,8 +40,8 @@ bool has_psync(OutputMode mode) { return mode == OutputMode::vpixx_m16 || mode =
 PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, const FrameSource& frames,
                              const ScreenGeometry& geometry, const DisplaySettings& display,
                              const ScreenSettings& screens)
-    : context_(&context), surface_(&surface), frames_(&frames), geometry_(geometry), display_(display),
-      screens_(screens), encoder_([&] {
+    : context_(&context), surface_(&surface), geometry_(geometry), display_(display), screens_(screens),
+      encoder_([&] {
           DisplaySettings here = display;
           here.width_px = geometry.screen_px.x;
           here.height_px = geometry.screen_px.y;
@@ -51,7 +50,9 @@ PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, 
       background_(context, geometry.screen_px, encoder_.format()),
       background_target_(context, {&background_}, false),
       picture_(context, geometry.screen_px, encoder_.format()), picture_target_(context, {&picture_}, false),
-      page_patch_(encoder_.patch_of(geometry.image_origin_px, geometry.image_px)), page_target_(context) {
+      store_(context, frames, encoder_, geometry.image_origin_px, geometry.image_px,
+             static_cast<std::size_t>(display.frame_store_mb * 1e6)),
+      page_target_(context) {
     check_depth();
     // Where a driver dithers at all, it must not when bytes are to arrive as they are.
     context.gl().Disable(GL_DITHER);
@@ -109,36 +110,11 @@ void PagePresenter::check_depth() const {
 }
 
 void PagePresenter::load_frames(const Condition& condition) {
-    if (loaded_ == condition)
+    if (loaded_ && loaded_->condition == condition)
         return;
-    loaded_.reset();
-    page_of_frame_ = frames_->page_of_frame(condition);
-    pages_ = 1 + *std::max_element(page_of_frame_.begin(), page_of_frame_.end());
-    if (!store_ || store_->layers() < pages_) {
-        store_.reset();
-        store_.emplace(*context_, page_patch_.size_px, pages_, encoder_.format());
-    }
-    // Decoded and encoded a few at a time on all processors, and handed over one by one: never more than a
-    // few pages are in memory twice.
-    constexpr int at_once = 4;
-    std::vector<std::vector<std::byte>> encoded(at_once);
-    for (std::vector<std::byte>& bytes : encoded)
-        bytes.resize(bytes_in(page_patch_.size_px, encoder_.format()));
-    for (int first = 0; first < pages_; first += at_once) {
-        const int count = std::min(at_once, pages_ - first);
-        parallel_for(count, [&](int i) {
-            const LinearImage picture = frames_->page(condition, first + i);
-            OVERT_EXPECTS(picture.size_px == geometry_.image_px);
-            encoder_.encode(picture, geometry_.image_origin_px, encoded[static_cast<std::size_t>(i)]);
-        });
-        for (int i = 0; i < count; ++i)
-            store_->upload(first + i, encoded[static_cast<std::size_t>(i)]);
-    }
-    context_->gl().Finish();
-    throw_on_gl_error(*context_, "filling the frame store");
-    page_on_canvas_ = -1;
+    loaded_ = nullptr;
+    loaded_ = &store_.load(condition);
     clear_picture();
-    loaded_ = condition;
 }
 
 void PagePresenter::clear_picture() noexcept {
@@ -152,8 +128,9 @@ void PagePresenter::put_page(int page) noexcept {
         return;
     if (page_on_canvas_ < 0)
         clear_picture();
-    page_target_.attach_layer(*store_, page);
-    blit(context_->gl(), page_target_, {0, 0}, picture_target_, page_patch_.origin_px, page_patch_.size_px);
+    page_target_.attach_layer(*loaded_->textures, page);
+    blit(context_->gl(), page_target_, {0, 0}, picture_target_, store_.patch().origin_px,
+         store_.patch().size_px);
     page_on_canvas_ = page;
 }
 
@@ -195,11 +172,11 @@ FlipReport PagePresenter::show(const Screen& screen) {
 }
 
 FlipReport PagePresenter::flip(AnimationFrameIndex frame) noexcept {
-    OVERT_EXPECTS(loaded_.has_value() && frame.value >= 0 &&
-                  static_cast<std::size_t>(frame.value) < page_of_frame_.size());
+    OVERT_EXPECTS(loaded_ && frame.value >= 0 &&
+                  static_cast<std::size_t>(frame.value) < loaded_->page_of_frame.size());
     if (page_on_canvas_ < 0 && display_.onset_trigger != 0)
         send_with_next_flip(t_lock::outputs_row, onset_packet_);
-    put_page(page_of_frame_[static_cast<std::size_t>(frame.value)]);
+    put_page(loaded_->page_of_frame[static_cast<std::size_t>(frame.value)]);
     return present();
 }
 
@@ -262,7 +239,7 @@ std::vector<std::byte> PagePresenter::read_canvas() const {
 }
 
 std::vector<std::byte> PagePresenter::read_page(int page) {
-    OVERT_EXPECTS(loaded_.has_value() && page >= 0 && page < pages_);
+    OVERT_EXPECTS(loaded_ && page >= 0 && page < loaded_->pages);
     put_page(page);
     compose();
     put_messages();

@@ -9,22 +9,12 @@
 #include "experiment/screen_geometry.h"
 #include "render/display_encoder.h"
 #include "render/display_surface.h"
+#include "render/frame_store.h"
 #include "render/linear_image.h"
 #include "render/t_lock.h"
 #include "render/wire_pass.h"
 
 namespace overt {
-
-/// Where the presenter takes a stimulus's frames from.
-class FrameSource {
-  public:
-    virtual ~FrameSource() = default;
-    /// Which page of the frame store shows each animation frame; frames that look alike share one. Pages
-    /// count from 0.
-    virtual std::vector<int> page_of_frame(const Condition& condition) const = 0;
-    /// The picture for one page. May be called from several threads at once. Throws InputError.
-    virtual LinearImage page(const Condition& condition, int page) const = 0;
-};
 
 class PagePresenter final : public Presenter {
   public:
@@ -36,6 +26,8 @@ class PagePresenter final : public Presenter {
 
     DisplayTiming timing() const override { return surface_->timing(); }
     void load_frames(const Condition& condition) override;
+    void expect_frames(const Condition& condition) noexcept override { store_.expect(condition); }
+    void use_spare_time() noexcept override { store_.use_spare_time(); }
     FlipReport show(const Screen& screen) override;
     FlipReport flip(AnimationFrameIndex frame) noexcept override;
     bool closed() const noexcept override { return surface_->closed() || is_interrupted(); }
@@ -58,7 +50,7 @@ class PagePresenter final : public Presenter {
     std::vector<std::byte> read_page(int page);
 
     /// Pages of the loaded stimulus.
-    int pages() const { return pages_; }
+    int pages() const { return loaded_ ? loaded_->pages : 0; }
 
   private:
     bool is_interrupted() const noexcept { return interrupted_ && interrupted_->load(); }
@@ -75,7 +67,6 @@ class PagePresenter final : public Presenter {
 
     const GlContext* context_;
     DisplaySurface* surface_;
-    const FrameSource* frames_;
     ScreenGeometry geometry_;
     DisplaySettings display_;
     ScreenSettings screens_;
@@ -88,14 +79,10 @@ class PagePresenter final : public Presenter {
     std::optional<WirePass> last_step_;
     std::optional<Texture2D> wire_;
     std::optional<Framebuffer> wire_target_;
-    // The frame store.
-    ScreenPatch page_patch_;
-    std::optional<TextureArray> store_;
+    FrameStore store_;
     Framebuffer page_target_;
-    std::vector<int> page_of_frame_;
-    int pages_ = 0;
-    std::optional<Condition> loaded_;
-    int page_on_canvas_ = -1; ///< -1: another screen
+    const StoredStimulus* loaded_ = nullptr; ///< null: nothing
+    int page_on_canvas_ = -1;                ///< -1: another screen
     // Messages to the display.
     struct Message {
         int row;
