@@ -224,12 +224,12 @@ int run_command_line(int argc, char** argv) {
                     "Write the session's path to this file, for scripts")
         ->type_name("FILE");
     run_command
-        .add_option(
-            "--maps", run.maps,
+        .add_option_function<std::string>(
+            "--maps", [&run](const std::string& time) { run.maps = map_times.at(time); },
             "Draw the hidden maps live while their frames are shown, or prepared before (auto: live on a "
             "graphics processor)")
-        ->transform(CLI::CheckedTransformer(map_times))
-        ->type_name("auto|live|prepared");
+        ->check(CLI::IsMember({"auto", "live", "prepared"}))
+        ->type_name("WHEN");
     run_command.add_flag("--verify-output", run.verify_output,
                          "Decode every page before the first trial, compare it with its prediction, and "
                          "record the result with the hash of what is sent");
