@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/colour/display_colour.h"
 #include "experiment/error.h"
 #include "experiment/parallel.h"
 #include "render/given_maps.h"
@@ -232,7 +233,13 @@ LinearImage StimulusLibrary::page(const Condition& condition, int page) const {
     if (const FrameSequenceSettings* sequence = sequence_of(condition)) {
         return read_linear_image(frame_file(*sequence, {page}), sequence->encoding);
     }
-    return read_linear_image(page_file(condition, page));
+    LinearImage image = read_linear_image(page_file(condition, page));
+    if (protocol_->display.characterisation) {
+        const glm::mat3 to_display(display_from_rec709(*protocol_->display.characterisation));
+        for (glm::vec4& pixel : image.pixels)
+            pixel = glm::vec4(to_display * glm::vec3(pixel), pixel.w);
+    }
+    return image;
 }
 
 std::string StimulusLibrary::source_of(const Condition& condition) const {
@@ -249,6 +256,14 @@ ContentHash StimulusLibrary::frames_hash(const Condition& condition) const {
         }
         return hasher.finish();
     }
+    hasher.add(std::string_view(drawn_hash(condition)));
+    if (protocol_->display.characterisation)
+        hasher.add(std::string_view(protocol_->display.characterisation->sha256));
+    return hasher.finish();
+}
+
+ContentHash StimulusLibrary::drawn_hash(const Condition& condition) const {
+    ContentHasher hasher;
     const Sculpture& sculpture = sculptures_[static_cast<std::size_t>(condition.sculpture)];
     hasher.add(std::string_view(sculpture.mesh_hash)).add(std::string_view(light_hash_));
     add_view(hasher, sculpture.scene);
@@ -263,7 +278,7 @@ std::filesystem::path StimulusLibrary::cached(std::string_view kind, const Conte
 }
 
 std::filesystem::path StimulusLibrary::page_file(const Condition& condition, int page) const {
-    return cached("frames", frames_hash(condition), page);
+    return cached("frames", drawn_hash(condition), page);
 }
 
 std::filesystem::path StimulusLibrary::map_file(int sculpture, PoseIndex pose) const {

@@ -48,7 +48,8 @@ class StimulusLibrary final : public FrameSource {
 
     /// Where the pictures of a stimulus come from, in words.
     std::string source_of(const Condition& condition) const;
-    /// Of everything that made its frames; for ready-made ones, of the files' bytes.
+    /// Of everything that made its frames, the display's characterisation included; for ready-made ones, of
+    /// the files' bytes.
     ContentHash frames_hash(const Condition& condition) const;
 
     /// The sculpture has no mesh, but ready-made maps.
@@ -68,6 +69,8 @@ class StimulusLibrary final : public FrameSource {
 
   private:
     const FrameSequenceSettings* sequence_of(const Condition& condition) const;
+    /// Of everything that made what was drawn, which is the same for all displays.
+    ContentHash drawn_hash(const Condition& condition) const;
     std::filesystem::path page_file(const Condition& condition, int page) const;
     std::filesystem::path cached(std::string_view kind, const ContentHash& hash, int pose) const;
     const MeshBuffers& buffers_of(int sculpture, bool for_light);

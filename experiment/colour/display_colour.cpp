@@ -28,6 +28,17 @@ DisplayColour::DisplayColour(const DisplayCharacterisation& display, ColourSpace
     from_ = glm::inverse(to_);
 }
 
+glm::dmat3 display_from_rec709(const DisplayCharacterisation& display) {
+    const auto of_chromaticity = [](double x, double y) { return glm::dvec3(x / y, 1.0, (1.0 - x - y) / y); };
+    const glm::dmat3 primaries(of_chromaticity(0.640, 0.330), of_chromaticity(0.300, 0.600),
+                               of_chromaticity(0.150, 0.060));
+    const glm::dvec3 luminances = glm::inverse(primaries) * of_chromaticity(0.3127, 0.3290);
+    const glm::dmat3 xyz_from_rec709(luminances.x * primaries[0], luminances.y * primaries[1],
+                                     luminances.z * primaries[2]);
+    const double white = display.luminance_of(1.0) - display.luminance_of(0.0);
+    return glm::inverse(primary_matrix(display.primaries_xyz)) * (white * xyz_from_rec709);
+}
+
 bool GamutCount::add(const glm::dvec3& rgb) {
     constexpr double slack = 1e-9;
     bool inside = true;

@@ -37,6 +37,11 @@ class DisplayColour {
     glm::dmat3 to_{1.0}, from_{1.0};
 };
 
+/// What turns linear Rec. 709 light (ITU-R BT.709-6: its primaries, white D65), of which 1 in all channels
+/// has the luminance that the display's white adds to its black, into the display's linear light of the same
+/// colour. The display's black is there in any case and is not taken off.
+glm::dmat3 display_from_rec709(const DisplayCharacterisation& display);
+
 /// How many colours a display cannot show, by channel. A billionth of white outside is inside.
 struct GamutCount {
     std::int64_t colours = 0, outside = 0;

@@ -223,3 +223,35 @@ TEST_CASE("a power with an offset begins at 0, ends at 1, and stays dark as long
     CHECK(ChannelCurve::power(2.2, -0.25).light_of(0.19) == 0.0);
     CHECK(ChannelCurve::power(2.2, -0.25).light_of(0.21) > 0.0);
 }
+
+TEST_CASE("a colour of Rec. 709 is the same colour on the display, white as bright as its white", "[unit]") {
+    const DisplayCharacterisation display = spectral_display();
+    const glm::dmat3 to_display = display_from_rec709(display);
+    const auto shown = [&](const glm::dvec3& rgb) {
+        return primary_matrix(display.primaries_xyz) * (to_display * rgb);
+    };
+    // ITU-R BT.709-6, table 1.
+    const glm::dvec3 white = shown(glm::dvec3(1.0));
+    CHECK(distance({chromaticity_of(white), 0.0}, {0.3127, 0.3290, 0.0}) < 1e-12);
+    CHECK(white.y == Approx(display.luminance_of(1.0) - display.luminance_of(0.0)));
+    const glm::dvec2 chromaticities[] = {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}};
+    const double luminances[] = {0.2126, 0.7152, 0.0722};
+    for (int channel = 0; channel < 3; ++channel) {
+        glm::dvec3 rgb(0.0);
+        rgb[channel] = 1.0;
+        CHECK(distance({chromaticity_of(shown(rgb)), 0.0}, {chromaticities[channel], 0.0}) < 1e-12);
+        CHECK(shown(rgb).y / white.y == Approx(luminances[channel]).margin(1e-4));
+    }
+    // A display with those primaries and that white takes the light as it is.
+    DisplayCharacterisation rec709;
+    for (int channel = 0; channel < 3; ++channel) {
+        glm::dvec3 rgb(0.0);
+        rgb[channel] = 1.0;
+        rec709.primaries_xyz[static_cast<std::size_t>(channel)] = shown(rgb);
+    }
+    const glm::dmat3 same = display_from_rec709(rec709);
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row)
+            CHECK(same[column][row] == Approx(column == row ? 1.0 : 0.0).margin(1e-9));
+    }
+}
