@@ -19,7 +19,7 @@ std::vector<FlipRecord> presented(const PageCycle& plan, double refresh_hz, Rand
         const PageCycleEntry& entry = plan.entry_at(refresh);
         if (refresh > 0 && random.below(300) == 0)
             ++refresh;
-        FlipRecord flip{0, refresh, entry.frame, entry.frame, entry.page, {}};
+        FlipRecord flip{0, refresh, entry.frame, entry.frame, entry.pose, {}};
         flip.report.refresh = {refresh};
         flip.report.vertical_blank = SessionTime(from_seconds(1.0 + refresh / refresh_hz));
         flips.push_back(flip);

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include "app/bench_command.h"
+#include "app/bench_timing.h"
 #include "app/resident_memory.h"
 #include "devices/clocks.h"
 #include "experiment/random.h"
@@ -142,6 +143,7 @@ BenchFigures bench_present(const BenchOptions& options) {
             context = make_headless_context(kind);
         measure_flips(*context, pages, geometry, figures);
     }
+    measure_timing(figures);
     return figures;
 }
 

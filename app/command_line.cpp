@@ -233,6 +233,16 @@ int run_command_line(int argc, char** argv) {
     run_command.add_flag("--verify-output", run.verify_output,
                          "Decode every page before the first trial, compare it with its prediction, and "
                          "record the result with the hash of what is sent");
+    run_command
+        .add_option("--faults", run.faults,
+                    "Rehearse on a display that does wrong what this file (TOML) says: late pictures, skipped "
+                    "refreshes, stalls, jitter and drift of time stamps")
+        ->type_name("FILE");
+    run_command.add_flag("--realtime", run.realtime,
+                         "Ask for real-time priority and locked memory; goes on if they are refused");
+    run_command.add_option("--pin", run.processor, "Run the session's thread on this processor only")
+        ->type_name("CPU")
+        ->check(CLI::NonNegativeNumber);
     add_context_option(run_command, run.context);
     run_command.callback([&] { command = [&] { return run_session(run); }; });
 
@@ -288,6 +298,10 @@ int run_command_line(int argc, char** argv) {
         ->check(CLI::PositiveNumber);
     show_command
         .add_option("--picture", show.picture, "Write a PNG: a frame, its map, and the gaze on the surface")
+        ->type_name("FILE");
+    show_command
+        .add_option("--plot", show.plot,
+                    "Write an SVG of the presentations' timing: intervals of refreshes, trial by trial")
         ->type_name("FILE");
     show_command.add_flag("--json", show.json, "Print JSON");
     show_command.callback([&] { command = [&] { return run_show(show); }; });
@@ -463,7 +477,7 @@ int run_command_line(int argc, char** argv) {
             "WHICH", bench.what,
             "lut: the hidden pass, its exactness, time and memory; reproject: gaze to "
             "surface, its exactness, speed and memory; present: a flip of a page, its time, processor "
-            "time, packing and memory")
+            "time, packing and memory, and the timing of presentations on displays whose faults are known")
         ->required()
         ->check(CLI::IsMember({"lut", "reproject", "present"}));
     bench_command

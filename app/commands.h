@@ -40,7 +40,10 @@ struct RunOptions {
     std::filesystem::path sessions = "sessions";
     std::optional<int> trials; ///< only the first so many
     MapTime maps = MapTime::automatic;
-    bool verify_output = false; ///< decode every page before the first trial
+    bool verify_output = false;   ///< decode every page before the first trial
+    std::filesystem::path faults; ///< of a display that only keeps time; empty: none
+    bool realtime = false;        ///< ask for priority and locked memory
+    std::optional<int> processor; ///< the only one for the session's thread
     std::filesystem::path print_session_to;
     std::optional<int> monitor; ///< from 1
 };
@@ -69,6 +72,7 @@ struct ShowOptions {
     std::filesystem::path session;
     std::optional<int> trial;
     std::filesystem::path picture;
+    std::filesystem::path plot; ///< of the presentation's timing, SVG
     bool json = false;
 };
 int run_show(const ShowOptions& options);

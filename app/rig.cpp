@@ -56,10 +56,14 @@ std::vector<DisplayWitness*> Rig::witnesses() {
     std::vector<DisplayWitness*> all{observer_.get()};
     if (live_maps_)
         all.push_back(live_maps_.get());
+    if (virtual_refresh_)
+        all.push_back(virtual_refresh_);
     return all;
 }
 
-void Rig::open() {
+void Rig::open(DisplayFaults faults) {
+    if (window_ && !request_.virtual_time && !faults.is_clean())
+        throw InputError("faults are simulated where time is: give --virtual-time, or --context osmesa");
     if (request_.virtual_time) {
         clock_ = std::make_unique<VirtualClock>();
     } else {
@@ -68,10 +72,16 @@ void Rig::open() {
     const ScreenGeometry geometry = screen_geometry_of(*protocol_);
     const double refresh_hz = protocol_->display.refresh_hz;
     if (window_) {
-        surface_ = std::make_unique<WindowDisplay>(*window_, *clock_, refresh_hz, request_.virtual_time);
+        auto display = std::make_unique<WindowDisplay>(*window_, *clock_, refresh_hz, request_.virtual_time,
+                                                       std::move(faults));
+        virtual_refresh_ = request_.virtual_time ? &display->refresh() : nullptr;
+        surface_ = std::move(display);
     } else {
-        surface_ = std::make_unique<VirtualDisplay>(
-            *context_, *clock_, refresh_hz, protocol_->display.output == OutputMode::native_10bit ? 10 : 8);
+        auto display = std::make_unique<VirtualDisplay>(
+            *context_, *clock_, refresh_hz, protocol_->display.output == OutputMode::native_10bit ? 10 : 8,
+            std::move(faults));
+        virtual_refresh_ = &display->refresh();
+        surface_ = std::move(display);
     }
     presenter_ = std::make_unique<PagePresenter>(*context_, *surface_, library_, geometry, protocol_->display,
                                                  protocol_->screens);

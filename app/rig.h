@@ -56,13 +56,17 @@ class Rig {
     bool maps_are_live() const;
 
     /// Makes presenter, tracker and panel. To be called once, when all stimuli are prepared: the session
-    /// clock starts here.
-    void open();
+    /// clock starts here. `faults`: what goes wrong with a display that only keeps time. Throws InputError
+    /// for faults of a real screen in real time.
+    void open(DisplayFaults faults = {});
 
     PagePresenter& presenter() { return *presenter_; }
     EyeTracker& tracker() { return *tracker_; }
     ResponsePanel& panel() { return *panel_; }
-    /// Those who see what is shown: the simulated observer, and the hidden pass if it is live.
+    /// What keeps the time of a display that is not there, or null.
+    const VirtualRefresh* virtual_refresh() const { return virtual_refresh_; }
+    /// Those who see what is shown: the simulated observer, the hidden pass if it is live, and the display's
+    /// faults.
     std::vector<DisplayWitness*> witnesses();
     LiveMaps* live_maps() { return live_maps_.get(); } ///< null unless maps_are_live()
 
@@ -77,6 +81,7 @@ class Rig {
     StimulusLibrary library_;
     std::unique_ptr<Clock> clock_;
     std::unique_ptr<DisplaySurface> surface_;
+    VirtualRefresh* virtual_refresh_ = nullptr; ///< the surface's
     std::unique_ptr<PagePresenter> presenter_;
     std::unique_ptr<LiveMaps> live_maps_;
     std::unique_ptr<SimulatedObserver> observer_;

@@ -13,7 +13,11 @@
 #include "app/protocol_inputs.h"
 #include "app/rig.h"
 #include "app/session_recording.h"
+#include "devices/thread_priority.h"
+#include "experiment/error.h"
+#include "experiment/protocol/fault_file.h"
 #include "experiment/record/session_store.h"
+#include "experiment/record/timing_report.h"
 #include "experiment/schedule.h"
 #include "experiment/session.h"
 
@@ -71,6 +75,47 @@ void say_risks(const std::vector<ScreenFinding>& findings) {
             fmt::print(stderr, "risk: {}: {}\n", finding.what, finding.finding);
 }
 
+/// The faults of --faults, or none. What is wrong with the file is printed, with its places.
+DisplayFaults read_faults_or_report(const std::filesystem::path& file) {
+    if (file.empty())
+        return {};
+    Diagnostics diagnostics;
+    const std::optional<DisplayFaults> faults = read_fault_file(file, diagnostics);
+    print_findings(diagnostics);
+    if (!faults)
+        throw FindingsPrinted(fmt::format("{}: no session was begun", file.string()));
+    return *faults;
+}
+
+/// So that nobody takes the session for one on a real display.
+void note_faults(const std::filesystem::path& file, const Clock& clock, SessionStore& store) {
+    if (file.empty())
+        return;
+    std::ifstream stream(file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    store.event({clock.now(), -1, simulated_faults_event, text});
+    fmt::print("display: with the simulated faults of {}\n", file.string());
+}
+
+void note_struck(const VirtualRefresh& display, const Trial& trial, const Clock& clock, SessionStore& store) {
+    for (const DisplayFault& fault : display.struck()) {
+        const bool skips = fault.kind == DisplayFault::Kind::skip;
+        store.event({clock.now(), trial.index, "display fault",
+                     skips ? fmt::format("skip of {} at refresh {}", fault.refreshes, fault.refresh)
+                           : fmt::format("{} by {:.3f} ms at refresh {}", name_of(fault.kind),
+                                         fault.amount_ms, fault.refresh)});
+    }
+}
+
+void note_thread(const std::vector<ThreadWish>& wishes, const Clock& clock, SessionStore& store) {
+    for (const ThreadWish& wish : wishes) {
+        const std::string answer =
+            fmt::format("{}: {}{}", wish.what, wish.granted ? "" : "refused: ", wish.detail);
+        store.event({clock.now(), -1, "thread", answer});
+        fmt::print(wish.granted ? stdout : stderr, "{}\n", answer);
+    }
+}
+
 } // namespace
 
 int run_session(const RunOptions& options) {
@@ -82,6 +127,7 @@ int run_session(const RunOptions& options) {
     // What would refuse the session at its end is said before anything is drawn.
     const SessionPlace place{options.sessions, protocol.name, observer.label};
     check_session_place(place, options.session_number);
+    const DisplayFaults faults = read_faults_or_report(options.faults);
     const std::uint64_t seed = options.seed             ? *options.seed
                                : protocol.schedule.seed ? *protocol.schedule.seed
                                                         : fresh_seed();
@@ -117,7 +163,7 @@ int run_session(const RunOptions& options) {
         rig.library().prepare_frames(show);
     }
     const Interruption interruption;
-    rig.open();
+    rig.open(faults);
     rig.presenter().close_on(Interruption::requested());
     std::optional<DisplayBoxSession> box;
     if (box_identity) {
@@ -155,10 +201,14 @@ int run_session(const RunOptions& options) {
     Session session(protocol, schedule, screen_geometry_of(protocol).centre(),
                     {rig.clock(), rig.presenter(), rig.tracker(), rig.panel(), store, rig.witnesses()});
     TrialProgress progress(protocol, static_cast<int>(schedule.trials.size()));
+    note_faults(options.faults, rig.clock(), store);
+    note_thread(prepare_thread({options.realtime, options.processor}), rig.clock(), store);
     const SessionResult result = session.run([&](const Trial& trial, const TrialOutcome& outcome, int done) {
         if (LiveMaps* live = rig.live_maps())
             record_live_maps(live->take_finished(), directory, header, store);
         progress(trial, outcome, done);
+        if (const VirtualRefresh* display = rig.virtual_refresh())
+            note_struck(*display, trial, rig.clock(), store);
         if (box)
             box->check(store);
     });

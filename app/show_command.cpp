@@ -1,4 +1,5 @@
 #include <cmath>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -7,6 +8,8 @@
 #include "app/display_box_session.h"
 #include "app/recorded_surface.h"
 #include "app/session_recording.h"
+#include "app/timing_plot.h"
+#include "app/timing_text.h"
 #include "experiment/error.h"
 #include "experiment/record/sample_join.h"
 #include "render/trial_picture.h"
@@ -23,7 +26,7 @@ const TrialRecord& trial_numbered(const SessionRecord& record, int number) {
     throw InputError(fmt::format("{}: has no completed trial {}", record.directory().string(), number));
 }
 
-nlohmann::ordered_json to_json(const SessionRecord& record) {
+nlohmann::ordered_json session_json(const SessionRecord& record) {
     const SessionHeader& header = record.header();
     auto trials = nlohmann::ordered_json::array();
     for (const TrialRecord& trial : record.trials()) {
@@ -64,7 +67,7 @@ nlohmann::ordered_json to_json(const SessionRecord& record) {
 }
 
 void print_session(const SessionRecord& record) {
-    const nlohmann::ordered_json json = to_json(record);
+    const nlohmann::ordered_json json = session_json(record);
     const SessionHeader& header = record.header();
     fmt::print("{}: observer {}, session {}, seed {}, {} ({})\n", header.protocol.name,
                header.schedule.observer.label, header.session_number, header.schedule.seed,
@@ -82,6 +85,18 @@ void print_session(const SessionRecord& record) {
     }
     if (!record.closed_in_order())
         fmt::print("\nThe session was not closed in order: it is running, or was killed.\n");
+    print_timing(timing_report(record));
+}
+
+void write_plot(const SessionRecord& record, const std::filesystem::path& file) {
+    const SessionHeader& header = record.header();
+    std::ofstream stream(file, std::ios::binary);
+    stream << timing_plot(timing_report(record),
+                          fmt::format("Timing of {}, observer {}, session {}", header.protocol.name,
+                                      header.schedule.observer.label, header.session_number));
+    if (!stream.flush())
+        throw RecordError(fmt::format("{}: cannot be written", file.string()));
+    fmt::print("plot: {}\n", file.string());
 }
 
 /// Half a degree of visual angle, about the accuracy of a good calibration, in the unit of the mesh.
@@ -135,8 +150,14 @@ int run_show(const ShowOptions& options) {
         write_picture(record, trial_numbered(record, options.trial.value_or(1)), options.picture);
         return 0;
     }
+    if (!options.plot.empty()) {
+        write_plot(record, options.plot);
+        return 0;
+    }
     if (options.json) {
-        fmt::print("{}\n", to_json(record).dump(2));
+        nlohmann::ordered_json json = session_json(record);
+        json["timing"] = to_json(timing_report(record));
+        fmt::print("{}\n", json.dump(2));
     } else {
         print_session(record);
     }

@@ -20,7 +20,30 @@ void sleep_until(std::chrono::steady_clock::time_point time) noexcept {
     }
 }
 
+SessionDuration reading_of(clockid_t clock) noexcept {
+    timespec now{};
+    clock_gettime(clock, &now);
+    return std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec);
+}
+
+/// By how much the boot clock is ahead of the monotonic one, and the wall clock of the boot clock. The middle
+/// of two readings, so that reading one after the other makes no difference.
+Clock::Disturbance others_ahead() noexcept {
+    const SessionDuration monotonic = reading_of(CLOCK_MONOTONIC), boot = reading_of(CLOCK_BOOTTIME),
+                          wall = reading_of(CLOCK_REALTIME), boot_again = reading_of(CLOCK_BOOTTIME),
+                          monotonic_again = reading_of(CLOCK_MONOTONIC);
+    const SessionDuration boot_mean = boot + (boot_again - boot) / 2;
+    return {boot_mean - (monotonic + (monotonic_again - monotonic) / 2), wall - boot_mean};
+}
+
 } // namespace
+
+SteadyClock::SteadyClock() : origin_(std::chrono::steady_clock::now()), at_start_(others_ahead()) {}
+
+Clock::Disturbance SteadyClock::disturbance() const noexcept {
+    const Disturbance now = others_ahead();
+    return {now.slept - at_start_.slept, now.wall_moved - at_start_.wall_moved};
+}
 
 SessionTime SteadyClock::now() const noexcept {
     return SessionTime(

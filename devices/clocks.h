@@ -11,7 +11,7 @@ namespace overt {
 /// Time since this was made, by CLOCK_MONOTONIC. Any thread may read it and wait on it.
 class SteadyClock final : public Clock {
   public:
-    SteadyClock() : origin_(std::chrono::steady_clock::now()) {}
+    SteadyClock();
 
     SessionTime now() const noexcept override;
 
@@ -20,8 +20,12 @@ class SteadyClock final : public Clock {
     /// calling thread.
     void wait_until(SessionTime time) noexcept override;
 
+    /// By CLOCK_BOOTTIME, which goes on while the machine is suspended, and CLOCK_REALTIME, which can be set.
+    Disturbance disturbance() const noexcept override;
+
   private:
     std::chrono::steady_clock::time_point origin_;
+    Disturbance at_start_;
 };
 
 /// Moves only when it is waited on, and then jumps. Any thread may read it and wait on it.

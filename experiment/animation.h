@@ -24,6 +24,11 @@ struct PoseIndex {
 /// the loop. `ping_pong`: they hold one sweep from one end to the other, played forth and back.
 enum class Playback { cycle, ping_pong };
 
+/// What becomes of the plan when a picture comes late. `drop`: the animation keeps time, and frames whose
+/// time has passed are left out. `stretch`: every frame is lit for its refreshes, and the presentation ends
+/// later.
+enum class WhenLate { drop, stretch };
+
 /// The motion that all stimuli share. Source of the defaults: Sidorov, Harvey, Smithson and Hardeberg 2019,
 /// section 4.1.
 struct Animation {
@@ -32,6 +37,7 @@ struct Animation {
     Degrees amplitude{25.0}; ///< to each side of the front view
     Playback playback = Playback::cycle;
     double duration_s = 8.0; ///< of one presentation
+    WhenLate when_late = WhenLate::drop;
 
     /// Angle of a frame, counter-clockwise seen from above. cycle: a sin(2 pi k / (n-1)); ping_pong: -a
     /// cos(pi k / (n-1)). Frames that share a pose get bit-identical angles.
@@ -61,7 +67,7 @@ PoseTable distinct_poses(const Animation& animation);
 /// One record of the page-cycle table: a page of the frame store, lit for a number of refreshes.
 struct PageCycleEntry {
     AnimationFrameIndex frame;
-    PoseIndex page; ///< the frame store holds one page per distinct pose
+    PoseIndex pose; ///< that the frame has
     int refreshes = 1;
 };
 

@@ -22,6 +22,9 @@ enum class VblankSource : std::uint8_t {
 };
 std::string_view name_of(VblankSource source);
 
+/// Whether it counts refreshes, too; else the count is inferred from the times.
+constexpr bool counts_refreshes(VblankSource source) { return source != VblankSource::swap_return; }
+
 /// The refresh at which a picture became visible, in session time.
 struct FlipReport {
     RefreshIndex refresh;
@@ -30,16 +33,35 @@ struct FlipReport {
     SessionTime vertical_blank; ///< when scan-out of this refresh began
     VblankSource source = VblankSource::virtual_display;
     int missed_refreshes = 0; ///< refreshes that went by with the old picture since the one asked for
+    /// How far vertical_blank may be off, as its source has it; 0 where it is exact by construction.
+    SessionDuration uncertainty{};
 };
+
+/// What a plan has for a refresh after its end.
+inline constexpr AnimationFrameIndex no_frame{-1};
 
 /// A row of the ledger: what was planned for a refresh of a presentation, and what was shown.
 struct FlipRecord {
     int trial = 0;
-    int refresh_in_trial = 0; ///< since the presentation's onset, by the display's count
-    AnimationFrameIndex planned;
+    int refresh_in_trial = 0;    ///< since the presentation's onset, by the display's count
+    AnimationFrameIndex planned; ///< for this refresh; no_frame where the plan had ended
     AnimationFrameIndex shown;
-    PoseIndex page;
+    PoseIndex pose;
     FlipReport report;
+};
+
+/// The other kind of row: a refresh within the time of the plan that went by with the picture before it.
+/// Together with the flips, each refresh from the onset to the plan's end has one row.
+struct MissedRefresh {
+    int trial = 0;
+    int refresh_in_trial = 0;
+    RefreshIndex refresh;
+    AnimationFrameIndex planned; ///< not seen at this refresh
+    AnimationFrameIndex shown;   ///< that stayed
+    PoseIndex pose;              ///< of the frame that stayed
+    SessionTime vertical_blank;  ///< on the straight line between the flips before and after
+    SessionDuration uncertainty{};
+    friend constexpr bool operator==(const MissedRefresh&, const MissedRefresh&) = default;
 };
 
 } // namespace overt

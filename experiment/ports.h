@@ -24,6 +24,14 @@ class Clock {
     virtual SessionTime now() const noexcept = 0;
     /// Returns at `time` or, if that is past, at once.
     virtual void wait_until(SessionTime time) noexcept = 0;
+
+    /// What other clocks of the machine say of this one's past.
+    struct Disturbance {
+        SessionDuration slept{};      ///< the machine was suspended so long; session time stood still then
+        SessionDuration wall_moved{}; ///< the wall clock was set forward by this much, sleep not counted
+    };
+    /// Since the session began. Any thread; nothing is allocated.
+    virtual Disturbance disturbance() const noexcept { return {}; }
 };
 
 /// A screen that is not a stimulus.
@@ -157,12 +165,14 @@ struct TrialOutcome {
     std::string answer;
 };
 
-/// Where a session writes itself down. flip() and sample() allocate, open and throw nothing and may wait for
-/// the disk only where time is virtual; the others may throw RecordError.
+/// Where a session writes itself down. flip(), missed() and sample() allocate, open and throw nothing and may
+/// wait for the disk only where time is virtual; the others may throw RecordError.
 class SessionLog {
   public:
     virtual ~SessionLog() = default;
     virtual void flip(const FlipRecord& flip) noexcept = 0;
+    /// Comes before the flip that ended it.
+    virtual void missed(const MissedRefresh& refresh) noexcept = 0;
     virtual void sample(int trial, const GazeSample& sample) noexcept = 0;
     virtual void clock_pair(const ClockPair& pair) noexcept = 0;
     virtual void event(const SessionEvent& event) = 0;

@@ -1,5 +1,7 @@
 #include "experiment/session.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace overt {
@@ -12,12 +14,20 @@ constexpr SessionDuration key_interval = std::chrono::milliseconds(4);
 /// Readings of both clocks at each end of a presentation.
 constexpr int clock_readings = 8;
 
+/// The two clocks that tell of a sleep are read one after the other: less than this may be that.
+constexpr double shortest_sleep_s = 0.005;
+
+/// A wall clock that is kept right over a network is slewed by up to 0.5 ms a second: 40 ms in a minute and a
+/// half is that, more is a step.
+constexpr double smallest_wall_step_s = 0.1;
+
 } // namespace
 
 Session::Session(const Protocol& protocol, const Schedule& schedule, const ScreenPoint& screen_centre,
                  SessionPorts ports)
     : protocol_(&protocol), schedule_(&schedule), screen_centre_(screen_centre), ports_(std::move(ports)),
-      cycle_(make_page_cycle(protocol.animation, protocol.display.refresh_hz)), samples_(4096) {}
+      cycle_(make_page_cycle(protocol.animation, protocol.display.refresh_hz)),
+      ledger_(cycle_, protocol.animation.when_late), samples_(4096) {}
 
 SessionResult Session::run(const TrialDone& trial_done) {
     SessionResult result;
@@ -60,6 +70,7 @@ TrialOutcome Session::run_trial(const Trial& trial) {
     const Task& task = protocol_->tasks[static_cast<std::size_t>(trial.task)];
     ports_.presenter.load_frames(trial.condition);
     ports_.log.trial_started(trial, ports_.clock.now());
+    const Clock::Disturbance before = ports_.clock.disturbance();
     outcome.status = TrialOutcome::Status::aborted;
 
     outcome.task_screen_onset = show({Screen::Kind::text, task.question});
@@ -84,8 +95,23 @@ TrialOutcome Session::run_trial(const Trial& trial) {
         if (answer != Answer::aborted)
             outcome.status = TrialOutcome::Status::completed;
     }
+    note_disturbance(trial, before);
     ports_.log.trial_finished(trial, outcome);
     return outcome;
+}
+
+/// A machine that slept in a trial lit nothing meanwhile, whatever the ledger says; a wall clock that was set
+/// does no harm to session time, but shifts what other programs wrote down.
+void Session::note_disturbance(const Trial& trial, const Clock::Disturbance& before) {
+    const Clock::Disturbance now = ports_.clock.disturbance();
+    const double slept_s = to_seconds(now.slept - before.slept);
+    const double moved_s = to_seconds(now.wall_moved - before.wall_moved);
+    if (slept_s > shortest_sleep_s)
+        ports_.log.event({ports_.clock.now(), trial.index, "machine slept",
+                          fmt::format("{:.3f} s, in which nothing was shown or recorded", slept_s)});
+    if (std::abs(moved_s) > smallest_wall_step_s)
+        ports_.log.event({ports_.clock.now(), trial.index, "wall clock was set",
+                          fmt::format("by {:+.3f} s; session time went on as before", moved_s)});
 }
 
 void Session::check_drift(const Trial& trial, TrialOutcome& outcome) {
@@ -111,32 +137,22 @@ void Session::present(const Trial& trial, TrialOutcome& outcome) {
         witness->presentation_begins(trial);
 
     // From here to the last flip nothing allocates, opens, throws or formats.
-    RefreshIndex onset;
-    int refresh = 0; // since onset, by the display's count
-    while (refresh < cycle_.total_refreshes && !went_away()) {
+    ledger_.begin(trial.index);
+    while (!ledger_.is_complete() && !went_away()) {
         // Take what the tracker has seen so far.
         take_samples(trial.index);
-        // Choose the frame by the refresh it is meant for: after a miss the animation keeps time and drops
-        // frames.
-        const PageCycleEntry& entry = cycle_.entry_at(refresh);
-        // Show it, and learn when it was lit.
-        FlipRecord flip{trial.index, refresh,    entry.frame,
-                        entry.frame, entry.page, ports_.presenter.flip(entry.frame)};
-        if (outcome.shown_refreshes == 0) {
-            onset = flip.report.refresh;
-            flip.report.missed_refreshes = 0; // what went by before the onset was no part of the presentation
-            outcome.presentation_onset = flip.report.vertical_blank;
-        }
-        flip.refresh_in_trial = static_cast<int>(flip.report.refresh.value - onset.value);
-        // Write it down, and let those see it who watch.
-        flip.planned = cycle_.entry_at(std::min(flip.refresh_in_trial, cycle_.total_refreshes - 1)).frame;
+        // Show the frame that the plan has next, and learn when it was lit.
+        const FlipRecord& flip = ledger_.enter(ports_.presenter.flip(ledger_.next().frame));
+        // Write down what became of each refresh, and let those see it who watch.
+        for (int i = 0; i < ledger_.missed_count(); ++i)
+            ports_.log.missed(ledger_.missed(i));
         ports_.log.flip(flip);
         for (DisplayWitness* witness : ports_.witnesses)
             witness->saw(flip);
-        ++outcome.shown_refreshes;
-        outcome.missed_refreshes += flip.report.missed_refreshes;
-        refresh = flip.refresh_in_trial + 1;
     }
+    outcome.presentation_onset = ledger_.onset();
+    outcome.shown_refreshes = ledger_.shown_refreshes();
+    outcome.missed_refreshes = ledger_.missed_refreshes();
 
     outcome.presentation_end = show({});
     aborted_ = went_away();

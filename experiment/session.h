@@ -7,6 +7,7 @@
 
 #include "experiment/ports.h"
 #include "experiment/protocol/protocol.h"
+#include "experiment/timing/refresh_ledger.h"
 #include "experiment/trial.h"
 
 namespace overt {
@@ -54,6 +55,7 @@ class Session {
     void take_samples(int trial) noexcept;
     void wait_and_take_samples(int trial, SessionTime until) noexcept;
     void read_clocks() noexcept;
+    void note_disturbance(const Trial& trial, const Clock::Disturbance& before);
     bool went_away() const noexcept { return ports_.presenter.closed() || ports_.tracker.lost(); }
 
     const Protocol* protocol_;
@@ -61,6 +63,7 @@ class Session {
     ScreenPoint screen_centre_;
     SessionPorts ports_;
     PageCycle cycle_;
+    RefreshLedger ledger_;
     std::vector<GazeSample> samples_; ///< room for one poll
     bool aborted_ = false;
 };

@@ -7,30 +7,6 @@
 
 namespace overt {
 
-SessionTime VirtualRefresh::time_of(std::int64_t refresh) const noexcept {
-    return SessionTime(SessionDuration(std::llround(static_cast<double>(refresh) * 1e9 / refresh_hz_)));
-}
-
-FlipReport VirtualRefresh::next(SessionTime requested) noexcept {
-    const SessionTime now = clock_->now();
-    auto refresh = static_cast<std::int64_t>(std::floor(to_seconds(now) * refresh_hz_)) + 1;
-    // Rounded to nanoseconds, a refresh may lie a hair to either side of the quotient.
-    while (time_of(refresh - 1) > now)
-        --refresh;
-    while (time_of(refresh) <= now)
-        ++refresh;
-    FlipReport report;
-    report.requested = requested;
-    report.swapped = now;
-    report.refresh = {refresh};
-    report.vertical_blank = time_of(refresh);
-    report.source = VblankSource::virtual_display;
-    report.missed_refreshes = static_cast<int>(std::min<std::int64_t>(refresh - last_ - 1, 1 << 30));
-    clock_->wait_until(report.vertical_blank);
-    last_ = refresh;
-    return report;
-}
-
 FlipReport VirtualDisplay::present(const Framebuffer&) noexcept {
     const SessionTime requested = clock_->now();
     // What a display would show must have been drawn by the time it is lit.
@@ -43,14 +19,16 @@ void VirtualDisplay::read(const Framebuffer& canvas, PixelFormat format, std::sp
     read_pixels(*context_, 0, {0, 0}, canvas.size_px(), format, into);
 }
 
-WindowDisplay::WindowDisplay(WindowContext& window, Clock& clock, double refresh_hz, bool virtual_time)
-    : window_(&window), clock_(&clock), virtual_time_(virtual_time), virtual_refresh_(clock, refresh_hz) {
+WindowDisplay::WindowDisplay(WindowContext& window, Clock& clock, double refresh_hz, bool virtual_time,
+                             DisplayFaults faults)
+    : window_(&window), clock_(&clock), virtual_time_(virtual_time),
+      virtual_refresh_(clock, refresh_hz, std::move(faults)) {
     window.set_swap_interval(virtual_time ? 0 : 1);
 }
 
 DisplayTiming WindowDisplay::timing() const {
-    return {virtual_refresh_.refresh_hz(),
-            virtual_time_ ? VblankSource::virtual_display : VblankSource::swap_return};
+    return virtual_time_ ? virtual_refresh_.timing()
+                         : DisplayTiming{virtual_refresh_.refresh_hz(), VblankSource::swap_return};
 }
 
 std::string WindowDisplay::why_closed() const {
@@ -114,6 +92,8 @@ FlipReport WindowDisplay::present(const Framebuffer& canvas) noexcept {
     gl.Finish();
     report.vertical_blank = clock_->now();
     report.source = VblankSource::swap_return;
+    // The blank lies between the two.
+    report.uncertainty = report.vertical_blank - report.swapped;
     const double elapsed = to_seconds(report.vertical_blank - last_blank_) * virtual_refresh_.refresh_hz();
     const std::int64_t refreshes = std::max<std::int64_t>(1, std::llround(elapsed));
     report.missed_refreshes = static_cast<int>(std::min<std::int64_t>(refreshes - 1, 1 << 30));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiment/ports.h"
+#include "experiment/timing/virtual_refresh.h"
 #include "render/gl_objects.h"
 #include "render/window_context.h"
 
@@ -28,34 +29,19 @@ class DisplaySurface {
     virtual void read(const Framebuffer& canvas, PixelFormat format, std::span<std::byte> into) = 0;
 };
 
-/// The refreshes of a display that is not there: the n-th begins at n / refresh_hz of the session clock. On a
-/// virtual clock none is ever missed; on a real one a late caller finds that refreshes went by.
-class VirtualRefresh {
-  public:
-    VirtualRefresh(Clock& clock, double refresh_hz) : clock_(&clock), refresh_hz_(refresh_hz) {}
-
-    /// Waits for the first refresh after now and reports it.
-    FlipReport next(SessionTime requested) noexcept;
-    double refresh_hz() const { return refresh_hz_; }
-
-  private:
-    SessionTime time_of(std::int64_t refresh) const noexcept;
-    Clock* clock_;
-    double refresh_hz_;
-    std::int64_t last_ = 0;
-};
-
 /// Headless: the canvas stays in memory, in whatever depth it has.
 class VirtualDisplay final : public DisplaySurface {
   public:
-    VirtualDisplay(const GlContext& context, Clock& clock, double refresh_hz, int bits_per_channel = 8)
-        : context_(&context), clock_(&clock), refresh_(clock, refresh_hz),
+    VirtualDisplay(const GlContext& context, Clock& clock, double refresh_hz, int bits_per_channel = 8,
+                   DisplayFaults faults = {})
+        : context_(&context), clock_(&clock), refresh_(clock, refresh_hz, std::move(faults)),
           bits_per_channel_(bits_per_channel) {}
-    DisplayTiming timing() const override { return {refresh_.refresh_hz(), VblankSource::virtual_display}; }
+    DisplayTiming timing() const override { return refresh_.timing(); }
     FlipReport present(const Framebuffer& canvas) noexcept override;
     bool closed() const noexcept override { return false; }
     int bits_per_channel() const override { return bits_per_channel_; }
     void read(const Framebuffer& canvas, PixelFormat format, std::span<std::byte> into) override;
+    VirtualRefresh& refresh() { return refresh_; }
 
   private:
     const GlContext* context_;
@@ -68,7 +54,8 @@ class VirtualDisplay final : public DisplaySurface {
 /// clock.
 class WindowDisplay final : public DisplaySurface {
   public:
-    WindowDisplay(WindowContext& window, Clock& clock, double refresh_hz, bool virtual_time);
+    WindowDisplay(WindowContext& window, Clock& clock, double refresh_hz, bool virtual_time,
+                  DisplayFaults faults = {});
     DisplayTiming timing() const override;
     FlipReport present(const Framebuffer& canvas) noexcept override;
     bool closed() const noexcept override {
@@ -76,6 +63,8 @@ class WindowDisplay final : public DisplaySurface {
     }
     std::string why_closed() const override;
     int bits_per_channel() const override { return window_->bits_per_channel(); }
+    /// What keeps its time in virtual time.
+    VirtualRefresh& refresh() { return virtual_refresh_; }
     /// From the window's back buffer, into which the canvas is drawn once more.
     void read(const Framebuffer& canvas, PixelFormat format, std::span<std::byte> into) override;
 

@@ -43,7 +43,7 @@ void LiveMaps::presentation_begins(const Trial& trial) noexcept {
 void LiveMaps::saw(const FlipRecord& flip) noexcept {
     collect(false);
     Figure& figure = figures_[static_cast<std::size_t>(current_)];
-    const auto pose = static_cast<std::size_t>(flip.page.value);
+    const auto pose = static_cast<std::size_t>(flip.pose.value);
     if (!figure.buffers || figure.states[pose] != State::missing)
         return;
     for (Read& read : reads_) {
@@ -51,7 +51,7 @@ void LiveMaps::saw(const FlipRecord& flip) noexcept {
             continue;
         pass_.render(*figure.buffers, figure.clip_from_object[pose]);
         read.pixels->start(pass_.target());
-        read.pose = flip.page.value;
+        read.pose = flip.pose.value;
         figure.states[pose] = State::under_way;
         return;
     }

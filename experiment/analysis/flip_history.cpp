@@ -17,7 +17,7 @@ FlipHistory::FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_
     pictures_.reserve(ordered.size());
     for (const FlipRecord& flip : ordered) {
         blanks_.push_back(flip.report.vertical_blank);
-        pictures_.push_back({flip.shown, flip.page, flip.report.refresh});
+        pictures_.push_back({flip.shown, flip.pose, flip.report.refresh});
     }
     if (blanks_.empty())
         return;

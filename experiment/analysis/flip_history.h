@@ -23,7 +23,7 @@ struct ScanOut {
 
 struct LitFrame {
     AnimationFrameIndex frame;
-    PoseIndex pose;       ///< the page that was lit
+    PoseIndex pose;       ///< of that frame
     RefreshIndex refresh; ///< at which this row of the picture came up
 };
 

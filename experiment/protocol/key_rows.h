@@ -30,6 +30,7 @@ inline constexpr std::string_view ditherings[] = {"none", "ordered", "blue-noise
 inline constexpr std::string_view pair_filters[] = {"box", "lanczos"};
 inline constexpr std::string_view tracker_kinds[] = {"simulated"};
 inline constexpr std::string_view playbacks[] = {"cycle", "ping-pong"};
+inline constexpr std::string_view when_lates[] = {"drop", "stretch"};
 inline constexpr std::string_view task_coverages[] = {"every-stimulus", "once-per-sculpture"};
 inline constexpr std::string_view material_kinds[] = {"smooth-conductor", "rough-conductor",
                                                       "coated-conductor", "diffuse"};

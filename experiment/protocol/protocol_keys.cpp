@@ -22,6 +22,7 @@ std::string_view name_of(Dithering dithering) { return key_rows::ditherings[stat
 std::string_view name_of(PairFilter filter) { return key_rows::pair_filters[static_cast<int>(filter)]; }
 std::string_view name_of(TrackerKind kind) { return key_rows::tracker_kinds[static_cast<int>(kind)]; }
 std::string_view name_of(Playback playback) { return key_rows::playbacks[static_cast<int>(playback)]; }
+std::string_view name_of(WhenLate when_late) { return key_rows::when_lates[static_cast<int>(when_late)]; }
 std::string_view name_of(TaskCoverage coverage) {
     return key_rows::task_coverages[static_cast<int>(coverage)];
 }

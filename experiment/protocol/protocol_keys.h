@@ -37,7 +37,8 @@ using KeyMember =
                  std::optional<glm::dvec3> Struct::*, std::array<double, 3> Struct::*,
                  std::vector<std::array<double, 4>> Struct::*, std::vector<std::array<double, 6>> Struct::*,
                  OutputMode Struct::*, Dithering Struct::*, PairFilter Struct::*, TrackerKind Struct::*,
-                 Playback Struct::*, TaskCoverage Struct::*, MaterialKind Struct::*, FrameEncoding Struct::*>;
+                 Playback Struct::*, WhenLate Struct::*, TaskCoverage Struct::*, MaterialKind Struct::*,
+                 FrameEncoding Struct::*>;
 
 template <class Struct> struct Key {
     KeyRule rule;
@@ -75,6 +76,7 @@ std::string_view name_of(Dithering dithering);
 std::string_view name_of(PairFilter filter);
 std::string_view name_of(TrackerKind kind);
 std::string_view name_of(Playback playback);
+std::string_view name_of(WhenLate when_late);
 std::string_view name_of(TaskCoverage coverage);
 std::string_view name_of(MaterialKind kind);
 std::string_view name_of(FrameEncoding encoding);

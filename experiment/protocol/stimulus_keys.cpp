@@ -162,6 +162,12 @@ Section<Animation> animation() {
                   .high = 3600,
                   .explanation = "Length of one presentation, a whole number of frames."},
                  &A::duration_s},
+                {{.name = "when_late",
+                  .choices = when_lates,
+                  .explanation = "What becomes of the animation when a picture comes late: it keeps time and "
+                                 "drops the frames whose time has passed, or it keeps all frames and ends "
+                                 "later. Either way the record names each refresh that was missed."},
+                 &A::when_late},
             },
         .one = &Protocol::animation};
 }

@@ -52,6 +52,7 @@ void read_session(Query& row, SessionHeader& header) {
     header.animation.amplitude.value = row.real();
     header.animation.playback = row.text() == "cycle" ? Playback::cycle : Playback::ping_pong;
     header.animation.duration_s = row.real();
+    header.animation.when_late = row.text() == "stretch" ? WhenLate::stretch : WhenLate::drop;
 }
 
 void read_characterisation(const SQLite::Database& database, SessionHeader& header) {
@@ -142,14 +143,17 @@ void read_sculptures(const SQLite::Database& database, SessionHeader& header) {
 SessionHeader read_session_header(const SQLite::Database& database) {
     SessionHeader header;
     // By name, so that columns added by a later version of the program change nothing here.
-    Query row(database,
-              "SELECT protocol_name, protocol_title, protocol_text, protocol_sha256, observer_label, "
-              "observer_number, session_number, seed, started_utc, clock, program_version, compiler, "
-              "compiler_flags, commit_id, gl_context, gl_vendor, gl_renderer, gl_version, tracker_name, "
-              "tracker_rate_hz, tracker_eye, screen_width_px, screen_height_px, screen_width_mm, "
-              "screen_height_mm, viewing_distance_mm, image_left_px, image_top_px, image_width_px, "
-              "image_height_px, refresh_hz, display_latency_ns, output_mode, background, frame_count, "
-              "frame_rate_hz, amplitude_deg, playback, duration_s FROM session");
+    const char* const when_late = has_column(database, "session", "when_late") ? "when_late" : "'drop'";
+    const std::string sql = fmt::format(
+        "SELECT protocol_name, protocol_title, protocol_text, protocol_sha256, observer_label, "
+        "observer_number, session_number, seed, started_utc, clock, program_version, compiler, "
+        "compiler_flags, commit_id, gl_context, gl_vendor, gl_renderer, gl_version, tracker_name, "
+        "tracker_rate_hz, tracker_eye, screen_width_px, screen_height_px, screen_width_mm, "
+        "screen_height_mm, viewing_distance_mm, image_left_px, image_top_px, image_width_px, "
+        "image_height_px, refresh_hz, display_latency_ns, output_mode, background, frame_count, "
+        "frame_rate_hz, amplitude_deg, playback, duration_s, {} FROM session",
+        when_late);
+    Query row(database, sql.c_str());
     if (!row.step())
         throw RecordError("table session: the one row that describes the session is missing");
     read_session(row, header);

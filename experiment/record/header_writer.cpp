@@ -17,7 +17,7 @@ void insert_session(SQLite::Database& database, const SessionHeader& header) {
     const ScreenGeometry& screen = header.display.screen;
     insert(database,
            "INSERT INTO session VALUES (1, ?,?,?,?, ?,?,?,?,?, ?, ?,?,?,?, ?,?,?,?, ?,?,?, "
-           "?,?,?,?,?, ?,?,?,?, ?,?,?,?, ?,?,?,?,?)",
+           "?,?,?,?,?, ?,?,?,?, ?,?,?,?, ?,?,?,?,?,?)",
            header.protocol.name, header.protocol.title, header.protocol.text, header.protocol.sha256,
            header.schedule.observer.label, header.schedule.observer.number, header.session_number,
            std::to_string(header.schedule.seed), header.started_utc,
@@ -31,7 +31,8 @@ void insert_session(SQLite::Database& database, const SessionHeader& header) {
            static_cast<std::int64_t>(header.display.latency.count()), header.display.output_mode,
            header.display.background, header.animation.frame_count, header.animation.frame_rate_hz,
            header.animation.amplitude.value,
-           header.animation.playback == Playback::cycle ? "cycle" : "ping-pong", header.animation.duration_s);
+           header.animation.playback == Playback::cycle ? "cycle" : "ping-pong", header.animation.duration_s,
+           header.animation.when_late == WhenLate::drop ? "drop" : "stretch");
 }
 
 void insert_characterisation(SQLite::Database& database, const RecordedCharacterisation& light) {
@@ -102,6 +103,7 @@ void create_session_file(const std::filesystem::path& file, const SessionHeader&
         SQLite::Transaction transaction(database);
         database.exec(session_schema_sql);
         database.exec(box_tables_sql);
+        database.exec(ledger_tables_sql);
         insert_session(database, header);
         if (header.characterisation)
             insert_characterisation(database, *header.characterisation);

@@ -23,6 +23,10 @@ SQLite::Database open_for_rows(const std::filesystem::path& file) {
     try {
         database.exec(
             "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 0");
+        // A session that an earlier program began goes on as one of this.
+        database.exec(ledger_tables_sql);
+        if (!has_column(database, "flip", "uncertainty_ns"))
+            database.exec("ALTER TABLE flip ADD COLUMN uncertainty_ns INTEGER NOT NULL DEFAULT 0");
     } catch (const SQLite::Exception& reason) {
         throw_record_error(file, "opening the session for writing", reason);
     }
@@ -53,7 +57,13 @@ SessionLock::~SessionLock() { ::close(descriptor_); }
 
 RowWriter::RowWriter(const std::filesystem::path& session_file, const std::string& started_utc) try
     : lock_(session_file.parent_path()), database_(open_for_rows(session_file)),
-      insert_flip_(database_, "INSERT INTO flip VALUES (?,?,?,?,?,?,?,?,?,?,?,?)"),
+      insert_flip_(database_,
+                   "INSERT INTO flip (trial_id, n, refresh_in_trial, refresh, planned, shown, pose, "
+                   "requested_ns, swapped_ns, vertical_blank_ns, source, missed, uncertainty_ns) "
+                   "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?)"),
+      insert_missed_(database_,
+                     "INSERT OR REPLACE INTO missed_refresh (trial_id, refresh_in_trial, refresh, planned, "
+                     "shown, pose, vertical_blank_ns, uncertainty_ns) VALUES (?,?,?,?,?,?,?,?)"),
       insert_sample_(database_, "INSERT INTO sample VALUES (?,?,?,?,?,?,?)"),
       insert_clock_pair_(database_, "INSERT INTO clock_pair VALUES (NULL,?,?,?,?)"),
       insert_event_(database_, "INSERT INTO event VALUES (NULL,?,?,?,?,?)"),
@@ -111,8 +121,16 @@ void RowWriter::flip(const FlipRecord& flip) {
     Counts& counts = counts_of(flip.trial);
     const FlipReport& report = flip.report;
     run_statement(insert_flip_, counts.trial_id, counts.flips++, flip.refresh_in_trial, report.refresh.value,
-                  flip.planned.value, flip.shown.value, flip.page.value, report.requested, report.swapped,
-                  report.vertical_blank, static_cast<int>(report.source), report.missed_refreshes);
+                  flip.planned.value, flip.shown.value, flip.pose.value, report.requested, report.swapped,
+                  report.vertical_blank, static_cast<int>(report.source), report.missed_refreshes,
+                  static_cast<std::int64_t>(report.uncertainty.count()));
+}
+
+void RowWriter::missed(const MissedRefresh& refresh) {
+    begin();
+    run_statement(insert_missed_, counts_of(refresh.trial).trial_id, refresh.refresh_in_trial,
+                  refresh.refresh.value, refresh.planned.value, refresh.shown.value, refresh.pose.value,
+                  refresh.vertical_blank, static_cast<std::int64_t>(refresh.uncertainty.count()));
 }
 
 void RowWriter::sample(int trial, const GazeSample& sample) {

@@ -34,6 +34,7 @@ class RowWriter {
 
     // The transaction begins by itself with the first row.
     void flip(const FlipRecord& flip);
+    void missed(const MissedRefresh& refresh);
     void sample(int trial, const GazeSample& sample);
     void clock_pair(const ClockPair& pair);
     void event(SessionTime at, int trial, const std::string& kind, const std::string& detail);
@@ -72,8 +73,8 @@ class RowWriter {
 
     SessionLock lock_;
     SQLite::Database database_;
-    SQLite::Statement insert_flip_, insert_sample_, insert_clock_pair_, insert_event_, insert_map_,
-        insert_trial_, finish_trial_;
+    SQLite::Statement insert_flip_, insert_missed_, insert_sample_, insert_clock_pair_, insert_event_,
+        insert_map_, insert_trial_, finish_trial_;
     int sitting_ = 0;
     int open_trial_ = -1; ///< index of the trial whose rows come in
     Counts trial_counts_;

@@ -77,12 +77,13 @@ FlipRecord read_flip(Query& row, int trial) {
     flip.report.refresh.value = row.integer();
     flip.planned.value = row.small();
     flip.shown.value = row.small();
-    flip.page.value = row.small();
+    flip.pose.value = row.small();
     flip.report.requested = row.session_time();
     flip.report.swapped = row.session_time();
     flip.report.vertical_blank = row.session_time();
     flip.report.source = static_cast<VblankSource>(row.small());
     flip.report.missed_refreshes = row.small();
+    flip.report.uncertainty = SessionDuration(row.integer());
     return flip;
 }
 
@@ -160,13 +161,37 @@ SessionRecord& SessionRecord::operator=(SessionRecord&&) noexcept = default;
 std::vector<FlipRecord> SessionRecord::flips(const TrialRecord& trial) const {
     return reading(file_, [&] {
         std::vector<FlipRecord> flips;
-        Query row(*database_,
-                  "SELECT refresh_in_trial, refresh, planned, shown, pose, requested_ns, swapped_ns, "
-                  "vertical_blank_ns, source, missed FROM flip WHERE trial_id = ? ORDER BY n");
+        const std::string sql =
+            fmt::format("SELECT refresh_in_trial, refresh, planned, shown, pose, requested_ns, swapped_ns, "
+                        "vertical_blank_ns, source, missed, {} FROM flip WHERE trial_id = ? ORDER BY n",
+                        has_column(*database_, "flip", "uncertainty_ns") ? "uncertainty_ns" : "0");
+        Query row(*database_, sql.c_str());
         row.bind(1, trial.id);
         while (row.step())
             flips.push_back(read_flip(row, trial.trial.index));
         return flips;
+    });
+}
+
+std::vector<MissedRefresh> SessionRecord::missed_refreshes(const TrialRecord& trial) const {
+    return reading(file_, [&] {
+        std::vector<MissedRefresh> missed;
+        if (!has_table(*database_, "missed_refresh"))
+            return missed;
+        Query row(*database_,
+                  "SELECT refresh_in_trial, refresh, planned, shown, pose, vertical_blank_ns, "
+                  "uncertainty_ns FROM missed_refresh WHERE trial_id = ? ORDER BY refresh_in_trial");
+        row.bind(1, trial.id);
+        while (row.step())
+            missed.push_back({trial.trial.index,
+                              row.small(),
+                              {row.integer()},
+                              {row.small()},
+                              {row.small()},
+                              {row.small()},
+                              row.session_time(),
+                              SessionDuration(row.integer())});
+        return missed;
     });
 }
 
@@ -243,9 +268,31 @@ std::vector<BoxClockReading> SessionRecord::box_clock_readings(int sitting) cons
     });
 }
 
+std::optional<KnownInterval> SessionRecord::refresh_interval(int sitting) const {
+    const auto known = intervals_.find(sitting);
+    if (known != intervals_.end())
+        return known->second;
+    std::vector<RefreshFit> lines;
+    for (const TrialRecord& trial : trials_) {
+        if (trial.sitting != sitting)
+            continue;
+        if (const std::vector<FlipRecord> rows = flips(trial); rows.size() >= 3)
+            lines.push_back(LedgerFit(rows, header_.display.refresh_hz).line());
+    }
+    return intervals_[sitting] = common_interval(lines);
+}
+
+std::optional<LedgerFit> SessionRecord::ledger_fit(const TrialRecord& trial) const {
+    const std::vector<FlipRecord> rows = flips(trial);
+    if (rows.empty())
+        return std::nullopt;
+    return LedgerFit(rows, header_.display.refresh_hz, refresh_interval(trial.sitting));
+}
+
 FlipHistory SessionRecord::flip_history(const TrialRecord& trial) const {
     const RecordedDisplay& display = header_.display;
-    return FlipHistory(flips(trial),
+    const std::optional<LedgerFit> fit = ledger_fit(trial);
+    return FlipHistory(fit ? fit->flips() : std::vector<FlipRecord>(),
                        {display.latency, display.refresh_hz, static_cast<double>(display.screen.screen_px.y)},
                        make_page_cycle(header_.animation, display.refresh_hz));
 }

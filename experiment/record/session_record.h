@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "experiment/ports.h"
 #include "experiment/record/recorded_box.h"
 #include "experiment/record/session_header.h"
+#include "experiment/timing/ledger_fit.h"
 
 namespace SQLite {
 class Database;
@@ -69,6 +71,9 @@ class SessionRecord {
 
     /// In the order in which they were written.
     std::vector<FlipRecord> flips(const TrialRecord& trial) const;
+    /// In the order of their refreshes. Sessions of earlier programs name none, and have them only as counts
+    /// in the flips.
+    std::vector<MissedRefresh> missed_refreshes(const TrialRecord& trial) const;
     std::vector<GazeSample> samples(const TrialRecord& trial) const;
 
     std::vector<RecordedEvent> events() const;
@@ -85,7 +90,11 @@ class SessionRecord {
     /// Readings of the display box's clock in one sitting, in the order in which they were made.
     std::vector<BoxClockReading> box_clock_readings(int sitting) const;
 
-    /// The trial's frames as they were lit on this session's display.
+    /// The line through the trial's time stamps, with the refresh interval that all trials of its sitting
+    /// have together; nothing of a trial without flips.
+    std::optional<LedgerFit> ledger_fit(const TrialRecord& trial) const;
+
+    /// The trial's frames as they were lit on this session's display, at the times of ledger_fit().
     FlipHistory flip_history(const TrialRecord& trial) const;
 
     /// The latest session time that any row names: from here on a resumed session's clock may go on.
@@ -98,11 +107,14 @@ class SessionRecord {
     std::vector<std::string> damages() const;
 
   private:
+    std::optional<KnownInterval> refresh_interval(int sitting) const;
+
     std::filesystem::path directory_;
     std::filesystem::path file_;
     std::unique_ptr<SQLite::Database> database_;
     SessionHeader header_;
     std::vector<TrialRecord> trials_;
+    mutable std::map<int, std::optional<KnownInterval>> intervals_; ///< by sitting, once asked for
 };
 
 } // namespace overt

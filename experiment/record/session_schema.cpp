@@ -25,7 +25,8 @@ CREATE TABLE session (
     refresh_hz REAL NOT NULL, display_latency_ns INTEGER NOT NULL,
     output_mode TEXT NOT NULL, background REAL NOT NULL,
     frame_count INTEGER NOT NULL, frame_rate_hz REAL NOT NULL, amplitude_deg REAL NOT NULL,
-    playback TEXT NOT NULL CHECK (playback IN ('cycle', 'ping-pong')), duration_s REAL NOT NULL
+    playback TEXT NOT NULL CHECK (playback IN ('cycle', 'ping-pong')), duration_s REAL NOT NULL,
+    when_late TEXT NOT NULL DEFAULT 'drop' CHECK (when_late IN ('drop', 'stretch'))
 ) STRICT;
 CREATE TABLE characterisation (
     id INTEGER PRIMARY KEY CHECK (id = 1),
@@ -77,7 +78,7 @@ CREATE TABLE flip (
     refresh_in_trial INTEGER NOT NULL, refresh INTEGER NOT NULL,
     planned INTEGER NOT NULL, shown INTEGER NOT NULL, pose INTEGER NOT NULL,
     requested_ns INTEGER NOT NULL, swapped_ns INTEGER NOT NULL, vertical_blank_ns INTEGER NOT NULL,
-    source INTEGER NOT NULL, missed INTEGER NOT NULL,
+    source INTEGER NOT NULL, missed INTEGER NOT NULL, uncertainty_ns INTEGER NOT NULL DEFAULT 0,
     PRIMARY KEY (trial_id, n)
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE sample (
@@ -102,6 +103,15 @@ CREATE TABLE IF NOT EXISTS box_clock_pair (
     id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting,
     before_ns INTEGER NOT NULL, box_us INTEGER NOT NULL, after_ns INTEGER NOT NULL
 ) STRICT;
+)sql";
+
+const char* const ledger_tables_sql = R"sql(
+CREATE TABLE IF NOT EXISTS missed_refresh (
+    trial_id INTEGER NOT NULL, refresh_in_trial INTEGER NOT NULL, refresh INTEGER NOT NULL,
+    planned INTEGER NOT NULL, shown INTEGER NOT NULL, pose INTEGER NOT NULL,
+    vertical_blank_ns INTEGER NOT NULL, uncertainty_ns INTEGER NOT NULL,
+    PRIMARY KEY (trial_id, refresh_in_trial)
+) STRICT, WITHOUT ROWID;
 )sql";
 
 } // namespace overt

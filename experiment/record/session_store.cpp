@@ -79,7 +79,7 @@ struct Message {
     std::promise<void> written;
 };
 
-using Row = std::variant<FlipRecord, SampleRow, ClockPair, Message*>;
+using Row = std::variant<FlipRecord, MissedRefresh, SampleRow, ClockPair, Message*>;
 
 } // namespace
 
@@ -206,6 +206,9 @@ void SessionStore::Writer::write(const Row& row) {
     } else if (const auto* flip = std::get_if<FlipRecord>(&row)) {
         rows_.flip(*flip);
         ++uncommitted_.flips;
+    } else if (const auto* missed = std::get_if<MissedRefresh>(&row)) {
+        rows_.missed(*missed);
+        ++uncommitted_.flips;
     } else if (const auto* pair = std::get_if<ClockPair>(&row)) {
         rows_.clock_pair(*pair);
     } else {
@@ -245,7 +248,7 @@ void SessionStore::Writer::fail(const SQLite::Exception& reason) {
 }
 
 void SessionStore::Writer::count_lost(const Row& row) noexcept {
-    if (std::holds_alternative<FlipRecord>(row))
+    if (std::holds_alternative<FlipRecord>(row) || std::holds_alternative<MissedRefresh>(row))
         ++lost_flips_;
     else if (std::holds_alternative<SampleRow>(row))
         ++lost_samples_;
@@ -280,6 +283,8 @@ SessionStore::~SessionStore() {
 }
 
 void SessionStore::flip(const FlipRecord& flip) noexcept { writer_->push(Row(flip)); }
+
+void SessionStore::missed(const MissedRefresh& refresh) noexcept { writer_->push(Row(refresh)); }
 
 void SessionStore::sample(int trial, const GazeSample& sample) noexcept {
     writer_->push(Row(SampleRow{trial, sample}));

@@ -14,7 +14,7 @@ namespace overt {
 
 /// Rows that could not be kept: the ring was full, or writing had failed.
 struct LostRows {
-    std::int64_t flips = 0;
+    std::int64_t flips = 0; ///< and missed refreshes
     std::int64_t samples = 0;
 };
 
@@ -45,6 +45,7 @@ class SessionStore final : public SessionLog {
     ~SessionStore() override;
 
     void flip(const FlipRecord& flip) noexcept override;
+    void missed(const MissedRefresh& refresh) noexcept override;
     void sample(int trial, const GazeSample& sample) noexcept override;
     void clock_pair(const ClockPair& pair) noexcept override;
     void event(const SessionEvent& event) override;

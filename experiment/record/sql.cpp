@@ -82,6 +82,13 @@ std::optional<int> Query::optional_small() {
     return small();
 }
 
+bool has_column(const SQLite::Database& database, const char* table, const char* column) {
+    Query row(
+        database,
+        fmt::format("SELECT COUNT(*) FROM pragma_table_info('{}') WHERE name = '{}'", table, column).c_str());
+    return row.step() && row.integer() > 0;
+}
+
 void throw_record_error(const std::filesystem::path& file, std::string_view doing,
                         const SQLite::Exception& reason) {
     throw RecordError(fmt::format("{}: {} failed: {}. {}.", file.string(), doing, reason.what(),

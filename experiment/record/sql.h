@@ -82,6 +82,9 @@ class Query {
     int column_ = 0;
 };
 
+/// Whether a table has a column: earlier versions of the program may have made it without.
+bool has_column(const SQLite::Database& database, const char* table, const char* column);
+
 /// Throws a RecordError that names the file, what was being done, SQLite's reason and the remedy.
 [[noreturn]] void throw_record_error(const std::filesystem::path& file, std::string_view doing,
                                      const SQLite::Exception& reason);

@@ -11,6 +11,7 @@
 #include "experiment/analysis/surface_walk.h"
 #include "experiment/error.h"
 #include "experiment/parallel.h"
+#include "experiment/record/ledger_rows.h"
 #include "experiment/record/partial_directory.h"
 #include "experiment/record/sample_join.h"
 #include "experiment/record/tsv_tables.h"
@@ -64,7 +65,6 @@ class TsvExport {
   private:
     std::string condition_cells(const Trial& trial) const;
     void begin_trial_row(const TrialRecord& trial);
-    void write_flips(const TrialRecord& trial);
     TsvExportCounts write_samples(const TrialRecord& trial, const SurfaceLookup* lookup);
     void write_sample(const GazeSample& sample, const JoinedSample& joined,
                       const std::vector<std::string>& part_cells);
@@ -108,7 +108,7 @@ void TsvExport::write_attempt_without_rows(const TrialRecord& trial) {
 }
 
 void TsvExport::write_trial(const TrialRecord& trial, const SurfaceLookup* lookup) {
-    write_flips(trial);
+    counts_.flips += write_ledger(flips_, record_, trial);
     const TsvExportCounts of_trial = write_samples(trial, lookup);
     write_response(trial);
 
@@ -133,21 +133,6 @@ void TsvExport::write_trial(const TrialRecord& trial, const SurfaceLookup* looku
     counts_.samples_without_gaze += of_trial.samples_without_gaze;
     counts_.samples_on_object += of_trial.samples_on_object;
     counts_.samples_off_plan += of_trial.samples_off_plan;
-}
-
-void TsvExport::write_flips(const TrialRecord& trial) {
-    for (const FlipRecord& flip : record_.flips(trial)) {
-        flips_.integer(number_of(trial.trial)).integer(flip.refresh_in_trial);
-        flips_.integer(flip.planned.value).integer(flip.shown.value);
-        angle(flips_, flip.page);
-        flips_.seconds(flip.report.requested)
-            .seconds(flip.report.swapped)
-            .seconds(flip.report.vertical_blank)
-            .text(name_of(flip.report.source))
-            .integer(flip.report.missed_refreshes)
-            .end_row();
-        ++counts_.flips;
-    }
 }
 
 TsvExportCounts TsvExport::write_samples(const TrialRecord& trial, const SurfaceLookup* lookup) {

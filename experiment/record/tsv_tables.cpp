@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "experiment/flip_report.h"
+#include "experiment/timing/ledger_fit.h"
 
 namespace overt {
 namespace {
@@ -73,22 +73,48 @@ TsvTable trials_table(const SharedColumns& shared) {
 }
 
 TsvTable flips_table(const SharedColumns& shared) {
-    return {"flips.tsv",
-            "The flip ledger of the completed trials: one row for each picture handed to the display.",
-            {shared.trial,
-             {"refresh", "Refresh of the display since the presentation's onset, from 0", "", {}},
-             {"planned_frame", "Animation frame that the plan had for this refresh", "", {}},
-             {"shown_frame", "Animation frame that was lit", "", {}},
-             shared.angle,
-             session_seconds("requested_s", "When the picture was asked for"),
-             session_seconds("swapped_s", "When the buffer swap had been handed over"),
-             session_seconds("vertical_blank_s", "When scan-out of this refresh began"),
-             {"source",
-              "Where vertical_blank_s comes from",
-              "",
-              {{std::string(name_of(VblankSource::virtual_display)), "the program's own clock, exact"},
-               {std::string(name_of(VblankSource::swap_return)), "when the buffer swap returned"}}},
-             {"missed", "Refreshes that went by with the old picture before this one", "", {}}}};
+    return {
+        "flips.tsv",
+        "The ledger of the completed trials: one row for each refresh of the display, from the "
+        "presentation's onset to the plan's end, or longer where pictures came later.",
+        {shared.trial,
+         {"refresh", "Refresh of the display since the presentation's onset, from 0", "", {}},
+         {"state",
+          "Whether a picture was handed over for this refresh",
+          "",
+          {{"flipped", "shown_frame began, or went on, by a flip"},
+           {"missed", "it went by with the frame before"}}},
+         {"planned_frame",
+          "Animation frame that the plan had for this refresh; n/a after the plan's end",
+          "",
+          {}},
+         {"shown_frame", "Animation frame that was lit", "", {}},
+         shared.angle,
+         session_seconds("requested_s", "When the picture was asked for"),
+         session_seconds("swapped_s", "When the buffer swap had been handed over"),
+         session_seconds("vertical_blank_s", "When scan-out of this refresh began, by its own time stamp"),
+         {"vertical_blank_uncertainty_s", "How far off the source may be", "s", {}},
+         session_seconds("onset_s",
+                         "The same by the line through all time stamps of the presentation; of a missed "
+                         "refresh, too"),
+         {"onset_uncertainty_s",
+          "Two standard errors of the line; where time stamps scatter by less than 1 us they stand as they "
+          "are, with their own uncertainty",
+          "s",
+          {}},
+         {"source",
+          "Where vertical_blank_s comes from",
+          "",
+          {{std::string(name_of(VblankSource::virtual_display)), "the program's own clock, exact"},
+           {std::string(name_of(VblankSource::swap_return)), "when the buffer swap returned"}}},
+         {"missed", "Refreshes that went by with the old picture before this one", "", {}},
+         {"cause",
+          "Why a refresh was missed",
+          "",
+          {{std::string(name_of(MissCause::asked_late)), "the flip was asked for when the refresh had begun"},
+           {std::string(name_of(MissCause::drawn_late)), "it was asked for in time, but drawn too late"},
+           {std::string(name_of(MissCause::shown_late)),
+            "it was drawn in time, but the display took it later"}}}}};
 }
 
 std::vector<std::string> all_part_names(const SessionHeader& header) {

@@ -19,6 +19,7 @@ class EventList final : public SessionLog {
   public:
     std::vector<std::string> kinds, details;
     void flip(const FlipRecord&) noexcept override {}
+    void missed(const MissedRefresh&) noexcept override {}
     void sample(int, const GazeSample&) noexcept override {}
     void clock_pair(const ClockPair&) noexcept override {}
     void event(const SessionEvent& event) override {

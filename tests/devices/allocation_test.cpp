@@ -27,7 +27,7 @@ TEST_CASE("from the begin of a presentation to its last sample nothing is alloca
         for (int refresh = 0; refresh < cycle.total_refreshes; ++refresh) {
             const PageCycleEntry& entry = cycle.entry_at(refresh);
             sitting.clock.wait_until(sitting.clock.now() + from_seconds(1.0 / scene.refresh_hz));
-            FlipRecord flip{trial, refresh, entry.frame, entry.frame, entry.page, {}};
+            FlipRecord flip{trial, refresh, entry.frame, entry.frame, entry.pose, {}};
             flip.report.vertical_blank = sitting.clock.now();
             sitting.observer.saw(flip);
             taken += tracker.poll(samples);

@@ -55,7 +55,7 @@ class Sitting {
         int refresh = 0;
         while (refresh < cycle.total_refreshes) {
             const PageCycleEntry& entry = cycle.entry_at(refresh);
-            FlipRecord flip{trial.index, refresh, entry.frame, entry.frame, entry.page, {}};
+            FlipRecord flip{trial.index, refresh, entry.frame, entry.frame, entry.pose, {}};
             for (const int late : missed)
                 flip.refresh_in_trial += late == refresh;
             flip.report.vertical_blank = onset + from_seconds(flip.refresh_in_trial / scene.refresh_hz);

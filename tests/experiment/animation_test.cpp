@@ -79,7 +79,7 @@ TEST_CASE("eight seconds at 120 Hz are 240 frames of 4 refreshes, four cycles of
     for (int refresh = 0; refresh < 960; ++refresh) {
         const PageCycleEntry& entry = cycle.entry_at(refresh);
         REQUIRE(entry.frame.value == refresh / 4 % 60);
-        REQUIRE(entry.page == distinct_poses(animation).pose_of(entry.frame));
+        REQUIRE(entry.pose == distinct_poses(animation).pose_of(entry.frame));
         REQUIRE(entry.refreshes == 4);
     }
 }

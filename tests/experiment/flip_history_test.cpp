@@ -31,7 +31,7 @@ std::vector<FlipRecord> present(const PageCycle& plan, const std::vector<Miss>& 
         for (const Miss& miss : misses)
             missed += miss.refresh == refresh ? miss.count : 0;
         const int lit = refresh + missed;
-        FlipRecord flip{4, lit, {}, entry.frame, entry.page, {}};
+        FlipRecord flip{4, lit, {}, entry.frame, entry.pose, {}};
         flip.report.refresh = {1000 + lit};
         flip.report.vertical_blank = onset + lit * refresh_interval;
         flip.report.missed_refreshes = missed;
@@ -67,7 +67,7 @@ TEST_CASE("a sample lies on the frame whose light was on its row", "[unit]") {
         REQUIRE(found.has_value() == (lit != nullptr));
         if (lit) {
             REQUIRE(found->frame == lit->shown);
-            REQUIRE(found->pose == lit->page);
+            REQUIRE(found->pose == lit->pose);
             REQUIRE(found->refresh == lit->report.refresh);
             ++on_frame;
         }

@@ -39,7 +39,7 @@ struct Presentation {
             const PageCycleEntry& entry = plan.entry_at(refresh);
             while (refresh > 0 && random.below(100) < missed_of_100)
                 ++refresh;
-            FlipRecord flip{0, refresh, entry.frame, entry.frame, entry.page, {}};
+            FlipRecord flip{0, refresh, entry.frame, entry.frame, entry.pose, {}};
             flip.report.refresh = {refresh};
             flip.report.vertical_blank = onset + refresh * refresh_interval;
             flips.push_back(flip);

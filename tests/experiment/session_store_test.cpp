@@ -40,7 +40,7 @@ FlipRecord flip_number(int trial, int number) {
     flip.refresh_in_trial = number;
     flip.planned = {number % 3};
     flip.shown = {(number + 1) % 3};
-    flip.page = {(number + 2) % 3};
+    flip.pose = {(number + 2) % 3};
     const SessionTime blank(SessionDuration(123'456'789'012'345 + 10'000'000LL * number));
     flip.report = {{5'000'000'000 + number},
                    blank - SessionDuration(3),
@@ -89,7 +89,7 @@ void require_same(const FlipRecord& a, const FlipRecord& b) {
     REQUIRE(a.refresh_in_trial == b.refresh_in_trial);
     REQUIRE(a.planned == b.planned);
     REQUIRE(a.shown == b.shown);
-    REQUIRE(a.page == b.page);
+    REQUIRE(a.pose == b.pose);
     REQUIRE(a.report.refresh == b.report.refresh);
     REQUIRE(a.report.requested == b.report.requested);
     REQUIRE(a.report.swapped == b.report.swapped);

@@ -56,7 +56,7 @@ void record_trial(SessionStore& store, const PageCycle& plan, const Trial& trial
         const int lit = refresh + late;
         const PageCycleEntry& entry = plan.entry_at(refresh);
         FlipRecord flip{trial.index, lit,        plan.entry_at(std::min(lit, plan.total_refreshes - 1)).frame,
-                        entry.frame, entry.page, {}};
+                        entry.frame, entry.pose, {}};
         flip.report.vertical_blank = onset + std::chrono::milliseconds(10 * lit);
         flip.report.missed_refreshes = late;
         store.flip(flip);
@@ -145,7 +145,8 @@ TEST_CASE("an export holds each row of the completed trials, and its counts are 
         on_object += row_of(samples, i)["part"] == "head";
     CHECK(on_object == counts.samples_on_object);
     CHECK(on_object > 1000);
-    CHECK(table(recorded.target() / "flips.tsv").size() == 504);
+    // The names, a row for each flip, and one for the refresh that was missed.
+    CHECK(table(recorded.target() / "flips.tsv").size() == 505);
     CHECK(table(recorded.target() / "responses.tsv").size() == 3);
     CHECK(table(recorded.target() / "stimuli.tsv").size() == 3);
     const auto trials = table(recorded.target() / "trials.tsv");

@@ -28,7 +28,7 @@ void present(LiveMaps& live, const Animation& animation, const PoseTable& poses)
         const AnimationFrameIndex frame = animation.frame_at_step(step);
         FlipRecord flip;
         flip.shown = frame;
-        flip.page = poses.pose_of(frame);
+        flip.pose = poses.pose_of(frame);
         live.saw(flip);
     }
     live.saw_screen({}, {});

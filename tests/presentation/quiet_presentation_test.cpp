@@ -1,0 +1,135 @@
+/// Between the first and the last flip of a presentation the session's thread asks the system for nothing
+/// that may make it wait.
+#include <catch2/catch.hpp>
+
+#include <fstream>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+
+#include "devices/simulated_response_panel.h"
+#include "devices/sitting.h"
+#include "experiment/record/session_record.h"
+#include "experiment/record/session_schema.h"
+#include "experiment/session.h"
+#include "experiment/session_fixture.h"
+#include "experiment/timing/virtual_refresh.h"
+#include "support/counted_calls.h"
+
+using namespace overt;
+
+namespace {
+
+/// A display without pictures that notes what was called from each presentation's first flip to what is shown
+/// after its last.
+class NotingPresenter final : public Presenter {
+  public:
+    explicit NotingPresenter(VirtualRefresh& refresh) : refresh_(&refresh) {}
+    std::vector<test::Calls> presentations;
+    int flips = 0;
+
+    DisplayTiming timing() const override { return refresh_->timing(); }
+    void load_frames(const Condition&) override {}
+    FlipReport show(const Screen&) override {
+        if (in_presentation_)
+            presentations.push_back(test::calls - at_first_flip_);
+        in_presentation_ = false;
+        return refresh_->next();
+    }
+    FlipReport flip(AnimationFrameIndex) noexcept override {
+        if (!in_presentation_)
+            at_first_flip_ = test::calls;
+        in_presentation_ = true;
+        ++flips;
+        return refresh_->next();
+    }
+    bool closed() const noexcept override { return false; }
+
+  private:
+    VirtualRefresh* refresh_;
+    bool in_presentation_ = false;
+    test::Calls at_first_flip_;
+};
+
+DisplayFaults all_kinds() {
+    DisplayFaults faults;
+    faults.jitter_sd_ms = 0.5;
+    faults.counts_refreshes = false;
+    faults.by_chance.late_share = faults.by_chance.skip_share = faults.by_chance.stall_share = 0.01;
+    return faults;
+}
+
+/// Three trials of the paper's animation, 960 refreshes each, with everything that a simulated session has.
+void run_quietly(const DisplayFaults& faults) {
+    const test::TemporaryFolder root;
+    const Mesh mesh = test::bust();
+    VirtualClock clock;
+    SimulatedObserver observer(test::scene_with(mesh), 31);
+    SimulatedEyeTracker tracker(clock, observer, 31);
+    SimulatedResponsePanel panel(clock, observer);
+    VirtualRefresh refresh(clock, 120.0, faults);
+    NotingPresenter presenter(refresh);
+    Protocol protocol;
+    protocol.tasks = {{"free", "Look."}, {"clothes", "Which clothes?"}};
+    Schedule schedule;
+    schedule.trials = {{0, 0, {}}, {1, 1, {}}, {2, 0, {}}};
+    const auto session = testing::make_session(root.path(), testing::example_header());
+    {
+        SessionStore store(session / session_file_name, testing::patient());
+        const SessionResult result = Session(protocol, schedule, observer.scene().screen.centre(),
+                                             {clock, presenter, tracker, panel, store, {&observer, &refresh}})
+                                         .run({});
+        REQUIRE(result.completed_trials == 3);
+        store.close();
+    }
+    REQUIRE(presenter.presentations.size() == 3);
+    for (const test::Calls& calls : presenter.presentations) {
+        CHECK(calls.allocations == 0);
+        CHECK(calls.locks == 0);
+        CHECK(calls.opened_files == 0);
+        CHECK(calls.exceptions == 0);
+    }
+    // All of it was written down nevertheless.
+    const SessionRecord record(session);
+    for (const TrialRecord& trial : record.trials()) {
+        std::vector<int> rows(960);
+        for (const FlipRecord& flip : record.flips(trial))
+            if (flip.refresh_in_trial < 960)
+                ++rows[static_cast<std::size_t>(flip.refresh_in_trial)];
+        for (const MissedRefresh& missed : record.missed_refreshes(trial))
+            ++rows.at(static_cast<std::size_t>(missed.refresh_in_trial));
+        CHECK(rows == std::vector<int>(960, 1));
+        CHECK(record.samples(trial).size() > 15'000);
+    }
+    CHECK((faults.is_clean() ? presenter.flips == 3 * 960 : presenter.flips < 3 * 960));
+}
+
+} // namespace
+
+TEST_CASE("960 refreshes with tracker, observer and log allocate, lock, open and throw nothing", "[unit]") {
+    run_quietly({});
+}
+
+TEST_CASE("nor do they when pictures come late, refreshes are skipped and the machine stalls", "[unit]") {
+    run_quietly(all_kinds());
+}
+
+#if OVERT_CALLS_ARE_COUNTED
+TEST_CASE("each kind of call is counted", "[unit]") {
+    const test::Calls before = test::calls;
+    std::vector<int>* volatile numbers = new std::vector<int>(100); // volatile: not to be left out
+    delete numbers;
+    CHECK(test::calls.allocations - before.allocations >= 4);
+    const long locks = test::calls.locks;
+    std::mutex mutex;
+    mutex.lock();
+    mutex.unlock();
+    CHECK(test::calls.locks > locks);
+    const long opened = test::calls.opened_files;
+    std::ifstream("/dev/null").get();
+    CHECK(test::calls.opened_files > opened);
+    const long thrown = test::calls.exceptions;
+    CHECK_THROWS_AS(throw std::runtime_error("counted"), std::runtime_error);
+    CHECK(test::calls.exceptions > thrown);
+}
+#endif
