@@ -93,11 +93,13 @@ void measure_flips(GlContext& context, const RandomPages& pages, const ScreenGeo
         surface = std::make_unique<WindowDisplay>(*window, clock, 120.0, true);
     else
         surface = std::make_unique<VirtualDisplay>(context, clock, 120.0);
-    const double before_mb = resident_memory_mb();
     PagePresenter presenter(context, *surface, pages, geometry, color_plus_plus(), {});
+    presenter.show({});
+    const double before_mb = resident_memory_mb();
     const auto begin = std::chrono::steady_clock::now();
     presenter.load_frames({0, 0});
     const double loading_s = seconds_since(begin);
+    const double loaded_mb = resident_memory_mb() - before_mb;
     for (int frame = 0; frame < frames; ++frame) // once round to set things up
         presenter.flip({frame});
     std::vector<double> times_s;
@@ -119,8 +121,12 @@ void measure_flips(GlContext& context, const RandomPages& pages, const ScreenGeo
     figures.push_back({where + ", a flip, 95th percentile", 1e3 * times_s[times_s.size() * 95 / 100], "ms"});
     figures.push_back(software ? at_most(processor, processor_ms, "ms", 17.0)
                                : BenchFigure{processor, processor_ms, "ms"});
-    figures.push_back({where + ", loading 61 pages", loading_s, "s"});
-    figures.push_back({where + ", memory with 61 pages", resident_memory_mb() - before_mb, "MB"});
+    // A quarter of its 2.1 s, and 0.3 of its 924 MB.
+    const std::string loading = where + ", loading 61 pages", memory = where + ", memory for 61 pages";
+    figures.push_back(software ? at_most(loading, loading_s, "s", 0.53)
+                               : BenchFigure{loading, loading_s, "s"});
+    figures.push_back(software ? at_most(memory, loaded_mb, "MB", 277.0)
+                               : BenchFigure{memory, loaded_mb, "MB"});
 }
 
 } // namespace

@@ -11,18 +11,18 @@ namespace overt {
 
 namespace {
 
-/// Pages that are in memory twice, under way to the card.
-constexpr int staged_pages = 4;
-
 int processors() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+
+/// Pages that are in memory twice, under way to the card: one for each processor to write, and one to hand
+/// over. With more than 8, disks and the card are what is waited for.
+int staged_pages() { return std::min(processors() + 1, 8); }
 
 } // namespace
 
 FrameStore::FrameStore(const GlContext& context, const FrameSource& source, const DisplayEncoder& encoder,
                        glm::ivec2 origin_px, glm::ivec2 image_px, std::size_t budget_bytes)
     : context_(&context), source_(&source), encoder_(&encoder), origin_px_(origin_px), image_px_(image_px),
-      budget_bytes_(budget_bytes), patch_(encoder.patch_of(origin_px, image_px)),
-      staging_(context, staged_pages, page_bytes()) {}
+      budget_bytes_(budget_bytes), patch_(encoder.patch_of(origin_px, image_px)) {}
 
 FrameStore::~FrameStore() = default;
 
@@ -59,9 +59,11 @@ void FrameStore::begin(const Condition& condition, int threads) {
         stimulus.textures.reset();
         stimulus.textures.emplace(*context_, patch_.size_px, stimulus.pages, encoder_->format());
     }
+    if (!staging_)
+        staging_.emplace(*context_, staged_pages(), page_bytes());
     expected_ = condition;
     loader_.emplace(
-        staging_, stimulus.pages,
+        *staging_, stimulus.pages,
         [this, condition](int page, std::span<std::byte> into) {
             const LinearImage picture = source_->page(condition, page);
             OVERT_EXPECTS(picture.size_px == image_px_);

@@ -72,7 +72,7 @@ class FrameStore {
     glm::ivec2 origin_px_, image_px_;
     std::size_t budget_bytes_;
     ScreenPatch patch_;
-    PageStaging staging_;
+    std::optional<PageStaging> staging_; ///< from the first page on
     std::array<StoredStimulus, 2> stimuli_;
     std::size_t current_ = 0;
     bool is_loaded_ = false; ///< stimuli_[current_] can be shown
