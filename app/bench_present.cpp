@@ -48,11 +48,15 @@ class RandomPages final : public FrameSource {
             pages.push_back(frame);
         return pages;
     }
-    LinearImage page(const Condition&, int page) const override {
-        LinearImage turned = light_;
+    LinearImage page(const Condition& condition, int page) const override {
+        LinearImage turned;
+        read_page(condition, page, turned);
+        return turned;
+    }
+    void read_page(const Condition&, int page, LinearImage& turned) const override {
+        turned = light_;
         std::rotate(turned.pixels.begin(), turned.pixels.begin() + 9973 * page % light_.size_px.x,
                     turned.pixels.end());
-        return turned;
     }
 
   private:

@@ -2,12 +2,16 @@
 #include <exception>
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include "app/command_line.h"
 #include "app/protocol_file.h"
 #include "experiment/error.h"
 
 int main(int argc, char** argv) {
+    // Memory of pictures and maps goes back to the system when it is freed, instead of staying with the
+    // thread that used it.
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
     // What is said comes line by line, also through a pipe, and in order with the progress on standard error.
     std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
     try {

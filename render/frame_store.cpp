@@ -64,8 +64,8 @@ void FrameStore::begin(const Condition& condition, int threads) {
     expected_ = condition;
     loader_.emplace(
         *staging_, stimulus.pages,
-        [this, condition](int page, std::span<std::byte> into) {
-            const LinearImage picture = source_->page(condition, page);
+        [this, condition](int page, LinearImage& picture, std::span<std::byte> into) {
+            source_->read_page(condition, page, picture);
             OVERT_EXPECTS(picture.size_px == image_px_);
             encoder_->encode(picture, origin_px_, into);
         },

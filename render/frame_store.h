@@ -23,6 +23,10 @@ class FrameSource {
     virtual std::vector<int> page_of_frame(const Condition& condition) const = 0;
     /// The picture for one page. May be called from several threads at once. Throws InputError.
     virtual LinearImage page(const Condition& condition, int page) const = 0;
+    /// The same into a picture whose memory is used again, for those who read many.
+    virtual void read_page(const Condition& condition, int page, LinearImage& into) const {
+        into = this->page(condition, page);
+    }
 };
 
 /// A stimulus on the card.

@@ -51,24 +51,34 @@ void write_picture(const std::filesystem::path& file, const OIIO::ImageSpec& spe
 } // namespace
 
 LinearImage read_linear_image(const std::filesystem::path& file, FrameEncoding encoding) {
+    LinearImage image;
+    read_linear_image(file, encoding, image);
+    return image;
+}
+
+void read_linear_image(const std::filesystem::path& file, FrameEncoding encoding, LinearImage& into) {
     const auto input = open_image(file);
     const OIIO::ImageSpec spec = input->spec();
-    const std::size_t channels = static_cast<std::size_t>(spec.nchannels);
-    std::vector<float> raw(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
-                           channels);
-    // Each file is read by one thread: several are read at once.
-    input->threads(1);
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, raw.data())) {
-        throw InputError(fmt::format("{}: reading the picture failed: {}", file.string(), input->geterror()));
-    }
     const bool grey = spec.nchannels < 3;
     const int alpha = spec.alpha_channel >= 0 ? spec.alpha_channel
                                               : (spec.nchannels == 4   ? 3
                                                  : spec.nchannels == 2 ? 1
                                                                        : -1);
-    LinearImage image({spec.width, spec.height});
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const float* value = &raw[i * channels];
+    // Its channels go to where the pixels will be, as many as have room there.
+    const int read = std::min(spec.nchannels, 4);
+    if (alpha >= read) {
+        throw InputError(fmt::format("{}: alpha is its channel {}; it has to be among the first four",
+                                     file.string(), alpha + 1));
+    }
+    into.size_px = {spec.width, spec.height};
+    into.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height));
+    // Each file is read by one thread: several are read at once.
+    input->threads(1);
+    if (!input->read_image(0, 0, 0, read, OIIO::TypeDesc::FLOAT, into.pixels.data(), sizeof(glm::vec4))) {
+        throw InputError(fmt::format("{}: reading the picture failed: {}", file.string(), input->geterror()));
+    }
+    for (std::size_t i = 0; i < into.pixels.size(); ++i) {
+        const glm::vec4 value = into.pixels[i];
         glm::vec4 pixel(value[0], value[grey ? 0 : 1], value[grey ? 0 : 2], alpha >= 0 ? value[alpha] : 1.0f);
         if (encoding == FrameEncoding::srgb) {
             for (int channel = 0; channel < 3; ++channel)
@@ -79,9 +89,8 @@ LinearImage read_linear_image(const std::filesystem::path& file, FrameEncoding e
                                          file.string(), static_cast<int>(i) % spec.width,
                                          static_cast<int>(i) / spec.width));
         }
-        image.pixels[i] = pixel;
+        into.pixels[i] = pixel;
     }
-    return image;
 }
 
 glm::ivec2 image_size_px(const std::filesystem::path& file) {

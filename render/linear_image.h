@@ -38,6 +38,9 @@ using ImageAttributes = std::vector<std::pair<std::string, std::string>>;
 LinearImage read_linear_image(const std::filesystem::path& file,
                               FrameEncoding encoding = FrameEncoding::linear);
 
+/// The same into a picture whose memory is used again.
+void read_linear_image(const std::filesystem::path& file, FrameEncoding encoding, LinearImage& into);
+
 /// Size of a picture without reading its pixels. Throws InputError as read_linear_image does.
 glm::ivec2 image_size_px(const std::filesystem::path& file);
 

@@ -20,6 +20,7 @@ PageLoader::~PageLoader() {
 }
 
 void PageLoader::work() {
+    LinearImage picture;
     std::unique_lock lock(mutex_);
     while (true) {
         place_freed_.wait(lock, [&] { return stopping_ || next_page_ == pages_ || !free_places_.empty(); });
@@ -30,7 +31,7 @@ void PageLoader::work() {
         lock.unlock();
         std::exception_ptr failure;
         try {
-            fill_(mine.page, staging_->open(mine.place));
+            fill_(mine.page, picture, staging_->open(mine.place));
         } catch (...) {
             failure = std::current_exception();
         }

@@ -10,14 +10,16 @@
 #include <thread>
 #include <vector>
 
+#include "render/linear_image.h"
 #include "render/page_staging.h"
 
 namespace overt {
 
 class PageLoader {
   public:
-    /// Writes the bytes of a page. Called from several threads at once; may throw.
-    using FillPage = std::function<void(int page, std::span<std::byte> into)>;
+    /// Writes the bytes of a page, by way of a picture that is used again for further pages. Called from
+    /// several threads at once; may throw.
+    using FillPage = std::function<void(int page, LinearImage& by_way_of, std::span<std::byte> into)>;
 
     /// Begins at once, with at most `threads` threads. `staging` must outlive this, and nobody else use it
     /// meanwhile.

@@ -230,16 +230,22 @@ std::vector<int> StimulusLibrary::page_of_frame(const Condition& condition) cons
 }
 
 LinearImage StimulusLibrary::page(const Condition& condition, int page) const {
+    LinearImage image;
+    read_page(condition, page, image);
+    return image;
+}
+
+void StimulusLibrary::read_page(const Condition& condition, int page, LinearImage& into) const {
     if (const FrameSequenceSettings* sequence = sequence_of(condition)) {
-        return read_linear_image(frame_file(*sequence, {page}), sequence->encoding);
+        read_linear_image(frame_file(*sequence, {page}), sequence->encoding, into);
+        return;
     }
-    LinearImage image = read_linear_image(page_file(condition, page));
+    read_linear_image(page_file(condition, page), FrameEncoding::linear, into);
     if (protocol_->display.characterisation) {
         const glm::mat3 to_display(display_from_rec709(*protocol_->display.characterisation));
-        for (glm::vec4& pixel : image.pixels)
+        for (glm::vec4& pixel : into.pixels)
             pixel = glm::vec4(to_display * glm::vec3(pixel), pixel.w);
     }
-    return image;
 }
 
 std::string StimulusLibrary::source_of(const Condition& condition) const {
