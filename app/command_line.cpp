@@ -243,6 +243,13 @@ int run_command_line(int argc, char** argv) {
     run_command.add_option("--pin", run.processor, "Run the session's thread on this processor only")
         ->type_name("CPU")
         ->check(CLI::NonNegativeNumber);
+    run_command
+        .add_option("--refresh-check", run.refresh_check_s,
+                    "How long the refresh of a real screen is measured before the session; less for a "
+                    "rehearsal, 0 not at all")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.0, 600.0))
+        ->capture_default_str();
     add_context_option(run_command, run.context);
     run_command.callback([&] { command = [&] { return run_session(run); }; });
 
@@ -310,6 +317,17 @@ int run_command_line(int argc, char** argv) {
     auto& doctor_command =
         add_command(app, "doctor", "What this machine offers for a session", "overt doctor --json");
     doctor_command.add_flag("--json", doctor.json, "Print JSON");
+    doctor_command.add_flag("--window", doctor.window,
+                            "Show a dark screen, measure its refreshes, and say what may spoil their times");
+    doctor_command.add_flag("--windowed", doctor.windowed, "A window instead of the whole screen");
+    doctor_command
+        .add_option("--monitor", doctor.monitor, "The screen to take, as this command numbers them")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
+    doctor_command.add_option("--seconds", doctor.seconds, "How long to measure")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.1, 3600.0))
+        ->capture_default_str();
     doctor_command.callback([&] { command = [&] { return run_doctor(doctor); }; });
 
     LutOptions lut;

@@ -45,7 +45,8 @@ struct RunOptions {
     bool realtime = false;        ///< ask for priority and locked memory
     std::optional<int> processor; ///< the only one for the session's thread
     std::filesystem::path print_session_to;
-    std::optional<int> monitor; ///< from 1
+    std::optional<int> monitor;   ///< from 1
+    double refresh_check_s = 5.0; ///< measure a real screen's refresh for so long; 0: take its word
 };
 int run_session(const RunOptions& options);
 
@@ -79,6 +80,10 @@ int run_show(const ShowOptions& options);
 
 struct DoctorOptions {
     bool json = false;
+    bool window = false; ///< show a dark screen and measure its refreshes
+    bool windowed = false;
+    std::optional<int> monitor; ///< from 1
+    double seconds = 10.0;      ///< of measuring
 };
 int run_doctor(const DoctorOptions& options);
 

@@ -2,6 +2,7 @@
 
 #include "devices/clocks.h"
 #include "experiment/error.h"
+#include "render/timing_check.h"
 
 namespace overt {
 
@@ -72,8 +73,12 @@ void Rig::open(DisplayFaults faults) {
     const ScreenGeometry geometry = screen_geometry_of(*protocol_);
     const double refresh_hz = protocol_->display.refresh_hz;
     if (window_) {
+        VblankChoice vblanks;
+        if (is_on_a_real_screen())
+            vblanks = choose_vblank_clock(vblank_candidates(*window_, *clock_), *clock_);
         auto display = std::make_unique<WindowDisplay>(*window_, *clock_, refresh_hz, request_.virtual_time,
-                                                       std::move(faults));
+                                                       std::move(faults), std::move(vblanks));
+        window_display_ = display.get();
         virtual_refresh_ = request_.virtual_time ? &display->refresh() : nullptr;
         surface_ = std::move(display);
     } else {
@@ -100,6 +105,17 @@ void Rig::open(DisplayFaults faults) {
     }
     if (is_on_a_real_screen())
         window_->hold_still();
+}
+
+std::vector<ScreenFinding> Rig::check_timing(double seconds,
+                                             const std::function<void(int done, int total)>& progress) {
+    OVERT_EXPECTS(is_on_a_real_screen() && window_display_);
+    const TimingFacts facts = measure_timing(*window_, *window_display_, *clock_, seconds, progress);
+    const std::vector<ScreenFinding> findings =
+        judge_timing(facts, protocol_->display.refresh_hz, "the protocol");
+    refuse_spoilt_screen(findings);
+    screen_findings_.insert(screen_findings_.end(), findings.begin(), findings.end());
+    return findings;
 }
 
 } // namespace overt

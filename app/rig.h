@@ -2,6 +2,7 @@
 /// and handed to the session as the ports it declared.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "app/commands.h"
@@ -60,6 +61,12 @@ class Rig {
     /// for faults of a real screen in real time.
     void open(DisplayFaults faults = {});
 
+    /// Shows a dark screen for so many seconds, watches its refreshes, and adds what it finds to
+    /// screen_findings(); gives what was added. Only on a real screen, once open. Throws GraphicsError for a
+    /// refresh that is not the protocol's.
+    std::vector<ScreenFinding> check_timing(double seconds,
+                                            const std::function<void(int done, int total)>& progress);
+
     PagePresenter& presenter() { return *presenter_; }
     EyeTracker& tracker() { return *tracker_; }
     ResponsePanel& panel() { return *panel_; }
@@ -81,6 +88,7 @@ class Rig {
     StimulusLibrary library_;
     std::unique_ptr<Clock> clock_;
     std::unique_ptr<DisplaySurface> surface_;
+    WindowDisplay* window_display_ = nullptr;   ///< the surface, if it is a window
     VirtualRefresh* virtual_refresh_ = nullptr; ///< the surface's
     std::unique_ptr<PagePresenter> presenter_;
     std::unique_ptr<LiveMaps> live_maps_;

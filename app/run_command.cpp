@@ -75,6 +75,17 @@ void say_risks(const std::vector<ScreenFinding>& findings) {
             fmt::print(stderr, "risk: {}: {}\n", finding.what, finding.finding);
 }
 
+void check_timing(Rig& rig, double seconds) {
+    ProgressBar bar;
+    const std::vector<ScreenFinding> findings = rig.check_timing(
+        seconds, [&](int done, int total) { bar.update("measuring the screen's refresh, s", done, total); });
+    bar.finish();
+    for (const ScreenFinding& finding : findings)
+        if (finding.what == "measured refresh" || finding.what == "vertical blank")
+            fmt::print("{}: {}\n", finding.what, finding.finding);
+    say_risks(findings);
+}
+
 /// The faults of --faults, or none. What is wrong with the file is printed, with its places.
 DisplayFaults read_faults_or_report(const std::filesystem::path& file) {
     if (file.empty())
@@ -164,6 +175,8 @@ int run_session(const RunOptions& options) {
     }
     const Interruption interruption;
     rig.open(faults);
+    if (rig.is_on_a_real_screen() && options.refresh_check_s > 0.0)
+        check_timing(rig, options.refresh_check_s);
     rig.presenter().close_on(Interruption::requested());
     std::optional<DisplayBoxSession> box;
     if (box_identity) {

@@ -8,6 +8,16 @@ std::string_view name_of(VblankSource source) {
         return "virtual display";
     case VblankSource::swap_return:
         return "return of the buffer swap";
+    case VblankSource::glx_sync_control:
+        return "GLX_OML_sync_control";
+    case VblankSource::present_swap:
+        return "X Present, the swap";
+    case VblankSource::present_count:
+        return "X Present, the count";
+    case VblankSource::egl_sync_control:
+        return "EGL_CHROMIUM_sync_control";
+    case VblankSource::drm_vblank:
+        return "DRM, the count";
     }
     return "unknown";
 }

@@ -17,8 +17,13 @@ struct RefreshIndex {
 
 /// Where a time of vertical blank comes from.
 enum class VblankSource : std::uint8_t {
-    virtual_display, ///< our own display clock: exact by construction
-    swap_return,     ///< the time at which the buffer swap and a glFinish returned
+    virtual_display,  ///< our own display clock: exact by construction
+    swap_return,      ///< the time at which the buffer swap and a glFinish returned
+    glx_sync_control, ///< GLX_OML_sync_control: the refresh the swap was lit at
+    present_swap,     ///< the X server's Present extension: the refresh the swap was lit at
+    present_count,    ///< the same, which only counts: the first refresh after the swap
+    egl_sync_control, ///< EGL_CHROMIUM_sync_control: the refresh the swap was lit at
+    drm_vblank,       ///< the kernel's count for the screen: the first refresh after the swap
 };
 std::string_view name_of(VblankSource source);
 

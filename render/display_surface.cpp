@@ -6,6 +6,16 @@
 #include "experiment/error.h"
 
 namespace overt {
+namespace {
+
+/// What the kernel's stamps of vertical blanks are good for: it asks the controller for the row until it
+/// knows when the blank began to so much (module drm, timestamp_precision_usec).
+constexpr SessionDuration kernel_precision = std::chrono::microseconds(20);
+
+/// Of a server that makes its vertical blanks with a timer of whole milliseconds.
+constexpr SessionDuration server_timer = std::chrono::milliseconds(1);
+
+} // namespace
 
 FlipReport VirtualDisplay::present(const Framebuffer&) noexcept {
     const SessionTime requested = clock_->now();
@@ -20,15 +30,18 @@ void VirtualDisplay::read(const Framebuffer& canvas, PixelFormat format, std::sp
 }
 
 WindowDisplay::WindowDisplay(WindowContext& window, Clock& clock, double refresh_hz, bool virtual_time,
-                             DisplayFaults faults)
+                             DisplayFaults faults, VblankChoice vblanks)
     : window_(&window), clock_(&clock), virtual_time_(virtual_time),
-      virtual_refresh_(clock, refresh_hz, std::move(faults)) {
+      virtual_refresh_(clock, refresh_hz, std::move(faults)), blanks_are_real_(vblanks.is_real),
+      refused_sources_(std::move(vblanks.refused)),
+      flips_(window, clock, refresh_hz, std::move(vblanks.clock),
+             vblanks.is_real ? kernel_precision : server_timer) {
     window.set_swap_interval(virtual_time ? 0 : 1);
 }
 
 DisplayTiming WindowDisplay::timing() const {
     return virtual_time_ ? virtual_refresh_.timing()
-                         : DisplayTiming{virtual_refresh_.refresh_hz(), VblankSource::swap_return};
+                         : DisplayTiming{virtual_refresh_.refresh_hz(), flips_.source()};
 }
 
 std::string WindowDisplay::why_closed() const {
@@ -77,30 +90,27 @@ void WindowDisplay::read(const Framebuffer& canvas, PixelFormat format, std::spa
     throw_on_gl_error(*window_, "reading the window's back buffer");
 }
 
+FlipReport WindowDisplay::present_dark() noexcept {
+    OVERT_EXPECTS(!virtual_time_);
+    const SessionTime requested = clock_->now();
+    flips_.begin();
+    const GladGLContext& gl = window_->gl();
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    gl.ClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+    gl.Clear(GL_COLOR_BUFFER_BIT);
+    return flips_.swap(requested);
+}
+
 FlipReport WindowDisplay::present(const Framebuffer& canvas) noexcept {
     const SessionTime requested = clock_->now();
-    const GladGLContext& gl = window_->gl();
+    if (!virtual_time_)
+        flips_.begin();
     draw_into_window(canvas);
+    if (!virtual_time_)
+        return flips_.swap(requested);
     window_->swap_buffers();
     window_->poll_events();
-    if (virtual_time_)
-        return virtual_refresh_.next(requested);
-
-    FlipReport report;
-    report.requested = requested;
-    report.swapped = clock_->now();
-    gl.Finish();
-    report.vertical_blank = clock_->now();
-    report.source = VblankSource::swap_return;
-    // The blank lies between the two.
-    report.uncertainty = report.vertical_blank - report.swapped;
-    const double elapsed = to_seconds(report.vertical_blank - last_blank_) * virtual_refresh_.refresh_hz();
-    const std::int64_t refreshes = std::max<std::int64_t>(1, std::llround(elapsed));
-    report.missed_refreshes = static_cast<int>(std::min<std::int64_t>(refreshes - 1, 1 << 30));
-    last_refresh_ += refreshes;
-    last_blank_ = report.vertical_blank;
-    report.refresh = {last_refresh_};
-    return report;
+    return virtual_refresh_.next(requested);
 }
 
 } // namespace overt

@@ -4,7 +4,7 @@
 #include "experiment/ports.h"
 #include "experiment/timing/virtual_refresh.h"
 #include "render/gl_objects.h"
-#include "render/window_context.h"
+#include "render/window_flips.h"
 
 namespace overt {
 
@@ -54,10 +54,17 @@ class VirtualDisplay final : public DisplaySurface {
 /// clock.
 class WindowDisplay final : public DisplaySurface {
   public:
+    /// In real time, stamps are those of `vblanks`.
     WindowDisplay(WindowContext& window, Clock& clock, double refresh_hz, bool virtual_time,
-                  DisplayFaults faults = {});
+                  DisplayFaults faults = {}, VblankChoice vblanks = {});
     DisplayTiming timing() const override;
     FlipReport present(const Framebuffer& canvas) noexcept override;
+    /// A black screen, in real time, for what is measured with it.
+    FlipReport present_dark() noexcept;
+    /// Of the source of times in real time: whether its blanks are real ones, and which better ones were
+    /// refused, why.
+    bool blanks_are_real() const { return blanks_are_real_; }
+    const std::vector<std::string>& refused_sources() const { return refused_sources_; }
     bool closed() const noexcept override {
         return window_->close_requested() || window_->disturbance() != WindowDisturbance::none;
     }
@@ -75,8 +82,9 @@ class WindowDisplay final : public DisplaySurface {
     Clock* clock_;
     bool virtual_time_;
     VirtualRefresh virtual_refresh_;
-    SessionTime last_blank_{};
-    std::int64_t last_refresh_ = 0;
+    bool blanks_are_real_;
+    std::vector<std::string> refused_sources_;
+    WindowFlips flips_;
 };
 
 } // namespace overt

@@ -289,6 +289,10 @@ GammaRamp WindowContext::gamma_ramp() const { return ramp_of(monitor_under(state
 
 bool WindowContext::is_fullscreen() const noexcept { return glfwGetWindowMonitor(state_->window) != nullptr; }
 
+NativeWindow WindowContext::native() const {
+    return native_window_of(state_->window, monitor_under(state_->window));
+}
+
 void WindowContext::hold_still() {
     poll_events(); // what was under way
     state_->held_framebuffer_px = framebuffer_px();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/gl_context.h"
+#include "render/native_window.h"
 
 namespace overt {
 
@@ -89,6 +90,9 @@ class WindowContext final : public GlContext {
     GammaRamp gamma_ramp() const; ///< of that monitor
 
     bool is_fullscreen() const noexcept;
+
+    /// As the systems below know it, for what they can tell of its refreshes.
+    NativeWindow native() const;
 
     /// From now on the window has to stay as and where it is: disturbance() says what happened first. A whole
     /// screen must not move at all, a window must stay on its monitor.

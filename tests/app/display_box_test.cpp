@@ -55,6 +55,8 @@ struct Rigged {
                 "5",
                 "--seed",
                 "7",
+                "--refresh-check",
+                "0.5",
                 "--sessions",
                 experiment->sessions().string(),
                 "--trials",
