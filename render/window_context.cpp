@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <functional>
+#include <thread>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -24,13 +26,25 @@ std::string last_glfw_error() {
 struct GlfwLibrary {
     static inline int users = 0;
     GlfwLibrary() {
-        if (users == 0 && !glfwInit())
-            throw GraphicsError(fmt::format("GLFW: {}", last_glfw_error()));
+        if (users == 0)
+            initialise();
         ++users;
     }
     ~GlfwLibrary() {
         if (--users == 0)
             glfwTerminate();
+    }
+
+  private:
+    /// An X server without a desktop starts anew when its last client leaves (Xvfb does), and takes no
+    /// clients for a moment.
+    static void initialise() {
+        constexpr int attempts = 20;
+        for (int attempt = 1; !glfwInit(); ++attempt) {
+            if (attempt == attempts || !display_is_available())
+                throw GraphicsError(fmt::format("GLFW: {}", last_glfw_error()));
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        }
     }
 };
 
