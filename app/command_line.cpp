@@ -319,6 +319,14 @@ int run_command_line(int argc, char** argv) {
     doctor_command.add_flag("--json", doctor.json, "Print JSON");
     doctor_command.add_flag("--window", doctor.window,
                             "Show a dark screen, measure its refreshes, and say what may spoil their times");
+    doctor_command.add_flag("--photodiode", doctor.photodiode,
+                            "Show a square in the top left corner that changes, and compare what a sensor sees "
+                            "with the times of the flips");
+    doctor_command
+        .add_option("--sensor", doctor.sensor,
+                    "Serial port of a light sensor that sends 1 and 0, or `simulated` (5 ms late, 0.2 ms jitter)")
+        ->type_name("PORT");
+    add_context_option(doctor_command, doctor.context);
     doctor_command.add_flag("--windowed", doctor.windowed, "A window instead of the whole screen");
     doctor_command
         .add_option("--monitor", doctor.monitor, "The screen to take, as this command numbers them")

@@ -7,6 +7,7 @@
 
 #include "app/cache_folder.h"
 #include "app/commands.h"
+#include "app/photodiode_doctor.h"
 #include "app/screen_doctor.h"
 #include "app/state_folder.h"
 #include "devices/clocks.h"
@@ -116,6 +117,8 @@ std::vector<Line> examine() {
 } // namespace
 
 int run_doctor(const DoctorOptions& options) {
+    if (options.photodiode)
+        return run_photodiode_doctor(options);
     if (options.window)
         return run_screen_doctor(options);
     const std::vector<Line> lines = examine();

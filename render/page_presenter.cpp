@@ -73,6 +73,7 @@ PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, 
     if (display.output == OutputMode::bits_plus_plus)
         colour_table_row_ = t_lock::row_of(encoder_.colour_table());
     onset_packet_ = t_lock::pulse(static_cast<std::uint16_t>(display.onset_trigger), 0.0, onset_pulse_ms);
+    make_patch();
     clear_picture();
 }
 
@@ -134,6 +135,41 @@ void PagePresenter::put_page(int page) noexcept {
     page_on_canvas_ = page;
 }
 
+void PagePresenter::make_patch() {
+    const std::optional<PatchPlace> place = photodiode_patch_of([this] {
+        DisplaySettings here = display_;
+        here.width_px = geometry_.screen_px.x;
+        here.height_px = geometry_.screen_px.y;
+        return here;
+    }());
+    if (!place)
+        return;
+    const auto square = [&](float light) {
+        LinearImage picture(place->size_px);
+        std::ranges::fill(picture.pixels, glm::vec4(light, light, light, 1.0f));
+        const ScreenPatch around = encoder_.patch_of(place->origin_px, place->size_px);
+        std::vector<std::byte> bytes(bytes_in(around.size_px, encoder_.format()));
+        encoder_.encode(picture, place->origin_px, bytes);
+        Texture2D encoded(*context_, around.size_px, encoder_.format());
+        encoded.upload(bytes);
+        return encoded;
+    };
+    const ScreenPatch around = encoder_.patch_of(place->origin_px, place->size_px);
+    Texture2D black = square(0.0f), white = square(1.0f);
+    Framebuffer black_source(*context_, {&black}, false), white_source(*context_, {&white}, false);
+    patch_.emplace(Patch{{around.origin_px, around.size_px},
+                         std::move(black),
+                         std::move(white),
+                         std::move(black_source),
+                         std::move(white_source)});
+}
+
+void PagePresenter::put_patch(bool white) noexcept {
+    if (patch_)
+        blit(context_->gl(), white ? patch_->white_source : patch_->black_source, {0, 0}, picture_target_,
+             patch_->place.origin_px, patch_->place.size_px);
+}
+
 void PagePresenter::put_picture(const LinearImage& picture) {
     const glm::ivec2 origin = centred_origin_px(geometry_.screen_px, picture.size_px);
     const ScreenPatch patch = encoder_.patch_of(origin, picture.size_px);
@@ -167,6 +203,7 @@ FlipReport PagePresenter::show(const Screen& screen) {
             pixel.w = 1.0f;
         put_picture(picture);
     }
+    put_patch(false);
     throw_on_gl_error(*context_, "drawing a screen");
     return present();
 }
@@ -176,7 +213,13 @@ FlipReport PagePresenter::flip(AnimationFrameIndex frame) noexcept {
                   static_cast<std::size_t>(frame.value) < loaded_->page_of_frame.size());
     if (page_on_canvas_ < 0 && display_.onset_trigger != 0)
         send_with_next_flip(t_lock::outputs_row, onset_packet_);
+    const bool is_onset = page_on_canvas_ < 0;
     put_page(loaded_->page_of_frame[static_cast<std::size_t>(frame.value)]);
+    if (is_onset || frame.value != frame_on_canvas_) {
+        patch_is_white_ = is_onset || !patch_is_white_;
+        put_patch(patch_is_white_);
+        frame_on_canvas_ = frame.value;
+    }
     return present();
 }
 
@@ -240,6 +283,9 @@ std::vector<std::byte> PagePresenter::read_canvas() const {
 
 std::vector<std::byte> PagePresenter::read_page(int page) {
     OVERT_EXPECTS(loaded_ && page >= 0 && page < loaded_->pages);
+    // Alone on the background, without the square for a photodiode.
+    if (patch_)
+        page_on_canvas_ = -1;
     put_page(page);
     compose();
     put_messages();

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "experiment/ports.h"
+#include "experiment/protocol/photodiode_patch.h"
 #include "experiment/screen_geometry.h"
 #include "render/display_encoder.h"
 #include "render/display_surface.h"
@@ -60,6 +61,8 @@ class PagePresenter final : public Presenter {
     void clear_picture() noexcept;
     void put_page(int page) noexcept;
     void put_picture(const LinearImage& picture);
+    void make_patch();
+    void put_patch(bool white) noexcept;
     void compose() noexcept;
     FlipReport present() noexcept;
     void put_row(int row, int first_px, std::span<const WirePixel> pixels) noexcept;
@@ -92,6 +95,15 @@ class PagePresenter final : public Presenter {
     bool rows_are_dirty_ = false;
     t_lock::ColourTableRow colour_table_row_{};
     t_lock::Packet onset_packet_;
+    // The square for a photodiode.
+    struct Patch {
+        PatchPlace place;
+        Texture2D black, white;
+        Framebuffer black_source, white_source;
+    };
+    std::optional<Patch> patch_;
+    bool patch_is_white_ = false;
+    int frame_on_canvas_ = -1;
     std::int64_t refreshes_ = 0; ///< presented so far
     const std::atomic<bool>* interrupted_ = nullptr;
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/protocol/photodiode_patch.h"
 #include "experiment/protocol/protocol_checks.h"
 #include "experiment/protocol/protocol_keys.h"
 
@@ -97,11 +98,35 @@ void check_place(ProtocolExamination& examination) {
     }
 }
 
+void check_photodiode(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    const std::optional<PatchPlace> patch = photodiode_patch_of(protocol.display);
+    if (!patch) {
+        if (examination.is_written("display.photodiode_px"))
+            examination.warning({"display.photodiode_px"}, "no square is shown: photodiode says no corner");
+        return;
+    }
+    const ScreenGeometry geometry = screen_geometry_of(protocol);
+    const glm::ivec2 first = patch->origin_px - patch_distance_px, end = patch->end_px() + patch_distance_px;
+    const glm::ivec2 image = geometry.image_origin_px, image_end = image + geometry.image_px;
+    if (first.x < image_end.x && end.x > image.x && first.y < image_end.y && end.y > image.y) {
+        examination.error(
+            {"display.photodiode", "display.photodiode_px"},
+            fmt::format(
+                "the square takes the columns {} to {} and the rows {} to {}, closer than {} px to the "
+                "stimulus in columns {} to {} and rows {} to {}",
+                patch->origin_px.x, patch->end_px().x - 1, patch->origin_px.y, patch->end_px().y - 1,
+                patch_distance_px, image.x, image_end.x - 1, image.y, image_end.y - 1),
+            "take a smaller photodiode_px or another corner, or place the stimulus with left_px and top_px");
+    }
+}
+
 } // namespace
 
 void check_output(ProtocolExamination& examination) {
     check_keys_of_mode(examination);
     check_place(examination);
+    check_photodiode(examination);
 }
 
 } // namespace overt

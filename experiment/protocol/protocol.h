@@ -65,6 +65,9 @@ enum class Dithering : std::uint8_t { none, ordered, blue_noise };
 /// How two neighbours become the one colour of a pair, in linear light.
 enum class PairFilter : std::uint8_t { box, lanczos };
 
+/// Where a square for a photodiode stands.
+enum class PatchCorner : std::uint8_t { none, top_left, top_right, bottom_left, bottom_right };
+
 /// [display]: the screen in front of the observer. Defaults: a Display++ as in the paper; its 698 mm are the
 /// active width.
 struct DisplaySettings {
@@ -88,7 +91,9 @@ struct DisplaySettings {
     double latency_ms = 0.0;                                 ///< from vertical blank to the first row's light
     double background = 0.0;                                 ///< linear grey, 0 … 1 of the display's white
     double frame_store_mb = 1000.0; ///< what the frames of two stimuli may take on the graphics card
-    std::optional<double> background_cd_m2; ///< or its luminance, from which `background` is made
+    PatchCorner photodiode = PatchCorner::none; ///< a square that alternates with the animation frames
+    int photodiode_px = 60;                     ///< side of it
+    std::optional<double> background_cd_m2;     ///< or its luminance, from which `background` is made
 };
 
 enum class TrackerKind : std::uint8_t { simulated };

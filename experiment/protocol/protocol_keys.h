@@ -36,7 +36,7 @@ using KeyMember =
                  std::optional<int> Struct::*, std::optional<std::uint64_t> Struct::*,
                  std::optional<glm::dvec3> Struct::*, std::array<double, 3> Struct::*,
                  std::vector<std::array<double, 4>> Struct::*, std::vector<std::array<double, 6>> Struct::*,
-                 OutputMode Struct::*, Dithering Struct::*, PairFilter Struct::*, TrackerKind Struct::*,
+                 OutputMode Struct::*, Dithering Struct::*, PairFilter Struct::*, PatchCorner Struct::*, TrackerKind Struct::*,
                  Playback Struct::*, WhenLate Struct::*, TaskCoverage Struct::*, MaterialKind Struct::*,
                  FrameEncoding Struct::*>;
 
@@ -74,6 +74,7 @@ template <class Visitor> void for_each_section(Visitor&& visit) {
 std::string_view name_of(OutputMode mode);
 std::string_view name_of(Dithering dithering);
 std::string_view name_of(PairFilter filter);
+std::string_view name_of(PatchCorner corner);
 std::string_view name_of(TrackerKind kind);
 std::string_view name_of(Playback playback);
 std::string_view name_of(WhenLate when_late);

@@ -84,6 +84,18 @@ Section<DisplaySettings> display() {
                   .explanation = "Digital outputs of a Display++ that the first refresh of a presentation "
                                  "raises for 5 ms, as a sum of 1, 2, 4 … 512; 0 for none."},
                  &D::onset_trigger},
+                {{.name = "photodiode",
+                  .choices = patch_corners,
+                  .explanation = "A square in this corner that changes between white and black with each frame "
+                                 "of the animation, white first, for a photodiode; black otherwise. It stands "
+                                 "below the rows that carry messages."},
+                 &D::photodiode},
+                {{.name = "photodiode_px",
+                  .unit = "px",
+                  .low = 2,
+                  .high = 1000,
+                  .explanation = "Side of that square."},
+                 &D::photodiode_px},
                 {{.name = "gamma",
                   .low = 0.1,
                   .high = 5,

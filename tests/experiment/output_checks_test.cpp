@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "experiment/protocol/photodiode_patch.h"
 #include "experiment/protocol_fixtures.h"
 
 using namespace overt;
@@ -80,4 +81,36 @@ TEST_CASE("a stimulus placed by angles is seen under these angles", "[unit]") {
           Approx(7.5).margin(half_px_deg));
     CHECK(geometry.angle_between(geometry.centre(), {geometry.centre().x_px, middle.y_px}).value ==
           Approx(3.0).margin(half_px_deg));
+}
+
+TEST_CASE("a square for a photodiode stands in its corner, below the rows of messages and of whole pairs",
+          "[unit]") {
+    DisplaySettings display;
+    display.width_px = 800;
+    display.height_px = 600;
+    display.photodiode_px = 41;
+    CHECK_FALSE(photodiode_patch_of(display));
+    display.output = OutputMode::color_plus_plus;
+    display.photodiode = PatchCorner::top_left;
+    CHECK(photodiode_patch_of(display)->origin_px == glm::ivec2(0, 3));
+    CHECK(photodiode_patch_of(display)->size_px == glm::ivec2(42, 41));
+    display.photodiode = PatchCorner::bottom_right;
+    CHECK(photodiode_patch_of(display)->end_px() == glm::ivec2(800, 600));
+    display.output = OutputMode::native_8bit;
+    display.photodiode = PatchCorner::top_right;
+    CHECK(photodiode_patch_of(display)->origin_px == glm::ivec2(759, 0));
+    CHECK(photodiode_patch_of(display)->size_px == glm::ivec2(41, 41));
+}
+
+TEST_CASE("a square for a photodiode that comes too close to the stimulus is an error", "[unit]") {
+    // The stimulus takes the columns 448 to 1471 and the rows 28 to 1051.
+    const auto lines = [](const std::string& keys) {
+        return ReadText(minimal_protocol, "[display]\n" + keys).lines();
+    };
+    CHECK(lines("photodiode = \"top-left\"\nphotodiode_px = 436\n").empty());
+    for (const char* corner : {"top-left", "top-right", "bottom-left", "bottom-right"}) {
+        const Lines found = lines(std::string("photodiode = \"") + corner + "\"\nphotodiode_px = 438\n");
+        REQUIRE(found.size() == 1);
+        CHECK(found[0].find("closer than 12 px to the stimulus in columns 448 to 1471") != std::string::npos);
+    }
 }

@@ -506,3 +506,39 @@ TEST_CASE("each tile holds every rank once, and blue noise has little of the coa
             REQUIRE(ranks[i] == i);
     }
 }
+
+TEST_CASE("the square for a photodiode is white at the onset and changes with every frame, and only then",
+          "[gl]") {
+    Bench bench;
+    bench.settings.photodiode = PatchCorner::bottom_left;
+    bench.settings.photodiode_px = 8;
+    PagePresenter presenter(*bench.context, bench.display, bench.pages, bench.geometry, bench.settings,
+                            bench.screens);
+    const glm::ivec2 first{0, screen_px.y - 8}, last{7, screen_px.y - 1};
+    const auto light = [&] {
+        const auto canvas = presenter.read_canvas();
+        CHECK(red_at(canvas, first) == red_at(canvas, last));
+        CHECK(red_at(canvas, {8, screen_px.y - 1}) == 10);
+        CHECK(red_at(canvas, {0, screen_px.y - 9}) == 10);
+        return red_at(canvas, first);
+    };
+    presenter.show({});
+    CHECK(light() == 0);
+    for (int presentation = 0; presentation < 2; ++presentation) {
+        presenter.load_frames({0, 0});
+        // Frames 1 and 3 share a page; the square tells them apart all the same.
+        int expected = 255, before = 0;
+        for (const int frame : {0, 0, 1, 1, 2, 3, 3, 4}) {
+            if (frame != before)
+                expected = 255 - expected;
+            before = frame;
+            presenter.flip({frame});
+            CHECK(light() == expected);
+        }
+        presenter.show({});
+        CHECK(light() == 0);
+    }
+    // A page that is verified stands on the background alone.
+    presenter.load_frames({0, 0});
+    CHECK(red_at(presenter.read_page(1), first) == 10);
+}
