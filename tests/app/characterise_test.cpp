@@ -50,7 +50,8 @@ TEST_CASE("a simulated display goes through OpenGL and the photometer into a fil
     const ProgramRun run = characterise(experiment, {"--name", "the lab's", "--json"});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    for (const auto& figure : nlohmann::json::parse(run.out)["figures"]) {
+    const auto printed = nlohmann::json::parse(run.out);
+    for (const auto& figure : printed.at("figures")) {
         if (figure.contains("holds"))
             CHECK(figure["holds"].get<bool>());
     }
