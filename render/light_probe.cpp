@@ -24,7 +24,7 @@ glm::vec3 direction_of(int column, int row, glm::ivec2 size_px) {
 }
 
 template <class Radiance> LightProbe probe_of(glm::ivec2 size_px, const Radiance& radiance) {
-    LightProbe probe{LinearImage(size_px)};
+    LightProbe probe{LinearImage(size_px), 0};
     parallel_for(size_px.y, [&](int row) {
         for (int column = 0; column < size_px.x; ++column) {
             probe.radiance.at(column, row) = glm::vec4(radiance(direction_of(column, row, size_px)), 1.0f);
@@ -142,16 +142,20 @@ LightProbe load_light_probe(const LightSettings& light) {
                 fmt::format("{}: a latitude-longitude probe is twice as wide as high, this is {} x {}",
                             light.probe, size.x, size.y));
         }
-        for (glm::vec4& pixel : probe.radiance.pixels)
+        for (glm::vec4& pixel : probe.radiance.pixels) {
+            probe.negative_texels += glm::any(glm::lessThan(glm::vec3(pixel), glm::vec3(0.0f))) ? 1 : 0;
             pixel = glm::max(pixel, glm::vec4(0.0f));
+        }
     }
     if (light.rotation_deg == 0.0)
         return probe;
     const float angle = static_cast<float>(to_radians({light.rotation_deg}).value);
     const float c = std::cos(angle), s = std::sin(angle);
-    return probe_of(probe.radiance.size_px, [&](glm::vec3 d) {
+    LightProbe turned = probe_of(probe.radiance.size_px, [&](glm::vec3 d) {
         return probe.towards({c * d.x + s * d.y, -s * d.x + c * d.y, d.z});
     });
+    turned.negative_texels = probe.negative_texels;
+    return turned;
 }
 
 LightProbe blurred_by_ggx(const LightProbe& probe, double alpha, glm::ivec2 size_px) {
@@ -206,7 +210,7 @@ LightProbe reduced(const LightProbe& probe, glm::ivec2 size_px) {
     if (source.x % size_px.x != 0 || source.y % size_px.y != 0)
         return probe;
     const glm::ivec2 factor = source / size_px;
-    LightProbe result{LinearImage(size_px)};
+    LightProbe result{LinearImage(size_px), 0};
     for (int y = 0; y < source.y; ++y) {
         for (int x = 0; x < source.x; ++x)
             result.radiance.at(x / factor.x, y / factor.y) += probe.radiance.at(x, y);

@@ -12,6 +12,7 @@ namespace overt {
 /// 1/2 of the width and v = acos(d.z) / pi of the height. Linear Rec.709; alpha unused.
 struct LightProbe {
     LinearImage radiance;
+    int negative_texels = 0; ///< that were found when it was read, and set to zero
 
     /// Bilinear, wrapping round horizontally. `direction` of unit length.
     glm::vec3 towards(glm::vec3 direction) const;

@@ -1,0 +1,57 @@
+/// A sculpture in a material, made ready for paths.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "experiment/protocol/protocol.h"
+#include "experiment/scene/mesh.h"
+#include "render/bake/conductor.h"
+#include "render/bake/surface_tree.h"
+
+namespace overt {
+
+/// Normals of faces that meet at no more than this angle run into one another.
+constexpr double default_crease_deg = 50.0;
+
+/// Built once for a stimulus and used for all its poses, from any number of threads.
+class BakeScene {
+  public:
+    /// The mesh may go afterwards. Throws InputError for an unknown metal and for what the material does not
+    /// allow, GraphicsError if Embree refuses.
+    BakeScene(const Mesh& mesh, const MaterialSettings& material, double crease_deg = default_crease_deg);
+    ~BakeScene();
+    BakeScene(BakeScene&&) noexcept;
+    BakeScene& operator=(BakeScene&&) noexcept;
+
+    /// Numbers of the surfaces in tree().
+    static constexpr int body = 0, coat = 1;
+
+    MaterialKind kind() const { return material_.kind; }
+    const MaterialSettings& material() const { return material_; }
+    glm::dvec3 centre() const { return centre_; } ///< of the mesh; paths have their coordinates about it
+    float radius() const { return radius_; }      ///< of a sphere about the centre that holds all surfaces
+    float step_off() const {
+        return 2e-6f * radius_;
+    } ///< how far off a surface a path goes on, lest it meet it again
+    /// Whether the mesh bounds a volume: then its surface has one side.
+    bool is_closed() const { return is_closed_; }
+
+    const SurfaceTree& tree() const { return *tree_; }                                 ///< all surfaces
+    const SurfaceTree& body_tree() const { return coat_body_ ? *coat_body_ : *tree_; } ///< the mesh itself
+    const ConductorTable& metal() const { return metal_; }
+    const Bins& reflectance() const { return reflectance_; }         ///< of a diffuse body
+    const Bins& coat_absorbance() const { return coat_absorbance_; } ///< per unit of length
+
+  private:
+    MaterialSettings material_;
+    glm::dvec3 centre_{0.0};
+    float radius_ = 1.0f;
+    bool is_closed_ = false;
+    ConductorTable metal_;
+    Bins reflectance_, coat_absorbance_;
+    std::unique_ptr<TracedSurface> body_surface_, coat_surface_; // the trees hold their addresses
+    std::unique_ptr<SurfaceTree> tree_, coat_body_;
+};
+
+} // namespace overt

@@ -1,0 +1,26 @@
+#include "render/bake/bake_settings.h"
+
+namespace overt {
+
+BakeSettings settings_of(BakeQuality quality, MaterialKind material) {
+    const bool scatters = material == MaterialKind::rough_conductor || material == MaterialKind::diffuse;
+    BakeSettings settings;
+    switch (quality) {
+    case BakeQuality::preview:
+        settings.samples = 4;
+        settings.pixel_step = 2;
+        break;
+    case BakeQuality::draft:
+        settings.samples = 16;
+        break;
+    case BakeQuality::standard:
+        settings.samples = scatters ? 256 : 64;
+        break;
+    case BakeQuality::reference:
+        settings.samples = 256;
+        break;
+    }
+    return settings;
+}
+
+} // namespace overt

@@ -1,0 +1,32 @@
+/// A rough metal as a crowd of small mirrors: the distribution GGX.
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace overt {
+
+/// Two directions that make a right-handed frame with a normal (Duff et al. 2017, "Building an orthonormal
+/// basis, revisited").
+struct NormalFrame {
+    glm::vec3 tangent, bitangent, normal;
+    explicit NormalFrame(glm::vec3 of_normal);
+    glm::vec3 to_local(glm::vec3 v) const { return {dot(v, tangent), dot(v, bitangent), dot(v, normal)}; }
+    glm::vec3 to_world(glm::vec3 v) const { return v.x * tangent + v.y * bitangent + v.z * normal; }
+};
+
+/// Smith's share of the micro-mirrors facing `direction` that are not hidden by others: 2 / (1 + sqrt(1 +
+/// alpha^2 tan^2)). Local frame; 0 below the surface.
+float ggx_visible_share(glm::vec3 direction, float alpha);
+
+/// Density of micro-normals per solid angle (Walter et al. 2007, eq. 33).
+float ggx_density(glm::vec3 micro_normal, float alpha);
+
+/// Micro-normal as seen from `towards_eye` (local frame, above the surface), for a place in the unit square:
+/// drawn with the density of visible normals (Heitz 2018, JCGT 7(4)). What such a mirror reflects weighs
+/// Fresnel times ggx_visible_share(out), shadowing and masking taken as independent.
+glm::vec3 ggx_visible_normal(glm::vec3 towards_eye, float alpha, glm::vec2 place);
+
+/// Direction with density cosine / pi about +z.
+glm::vec3 cosine_direction(glm::vec2 place);
+
+} // namespace overt

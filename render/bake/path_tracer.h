@@ -1,0 +1,37 @@
+/// Light along one path, from the surroundings to the eye.
+#pragma once
+
+#include <cstdint>
+
+#include "render/bake/bake_scene.h"
+#include "render/bake/sample_sequence.h"
+#include "render/bake/spectral_light.h"
+
+namespace overt {
+
+/// Follows paths from the eye. The surface is asked for a direction, and what leaves the figure looks up the
+/// light: no lamp is aimed at, which under a broad sky pays as well and has no seams.
+class PathTracer {
+  public:
+    /// Both must outlive the tracer. `turn`: see SpectralLight::share_of_turn.
+    PathTracer(const BakeScene& scene, const SpectralLight& light, float turn)
+        : scene_(&scene), light_(&light), turn_(turn) {}
+
+    /// Adds to `sum` the light that reaches the eye along a ray that meets the figure; gives false, adding
+    /// nothing, if it misses the mesh itself. `sequence` has given its first two numbers for the place in the
+    /// pixel.
+    bool add_sample(const PathRay& from_eye, SampleSequence& sequence, Bins& sum);
+
+    /// Rays cast so far.
+    std::uint64_t rays() const { return rays_; }
+
+  private:
+    void follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, Bins& sum);
+
+    const BakeScene* scene_;
+    const SpectralLight* light_;
+    float turn_;
+    std::uint64_t rays_ = 0;
+};
+
+} // namespace overt

@@ -1,0 +1,76 @@
+#include "render/bake/spectral_bins.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+// The loader picks a version for the processor before a sanitizer is ready for that.
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) &&                \
+    !defined(__clang__)
+#define OVERT_FOR_EACH_PROCESSOR __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define OVERT_FOR_EACH_PROCESSOR
+#endif
+
+namespace overt {
+
+namespace {
+
+/// 2^x for -125 <= x <= 0: the exponent's bits, and a series of e^(f ln 2) for the rest of -1 < f <= 0.
+inline float power_of_two(float x) {
+    const int whole = static_cast<int>(x);
+    const float y = (x - static_cast<float>(whole)) * 0.693147181f;
+    // Taylor's series to the 9th power: what is left out is below 1e-8.
+    float series = 1.0f / 362880.0f;
+    series = series * y + 1.0f / 40320.0f;
+    series = series * y + 1.0f / 5040.0f;
+    series = series * y + 1.0f / 720.0f;
+    series = series * y + 1.0f / 120.0f;
+    series = series * y + 1.0f / 24.0f;
+    series = series * y + 1.0f / 6.0f;
+    series = series * y + 0.5f;
+    series = series * y + 1.0f;
+    series = series * y + 1.0f;
+    return series * std::bit_cast<float>((whole + 127) << 23);
+}
+
+} // namespace
+
+float Bins::largest() const { return *std::max_element(value.begin(), value.begin() + spectral_bins); }
+
+OVERT_FOR_EACH_PROCESSOR void scale(Bins& bins, float factor) {
+    for (std::size_t i = 0; i < Bins::padded; ++i)
+        bins.value[i] *= factor;
+}
+
+OVERT_FOR_EACH_PROCESSOR void multiply(Bins& bins, const Bins& by) {
+    for (std::size_t i = 0; i < Bins::padded; ++i)
+        bins.value[i] *= by.value[i];
+}
+
+OVERT_FOR_EACH_PROCESSOR void multiply_mixed(Bins& bins, const Bins& from, const Bins& to, float share) {
+    for (std::size_t i = 0; i < Bins::padded; ++i)
+        bins.value[i] *= from.value[i] + share * (to.value[i] - from.value[i]);
+}
+
+OVERT_FOR_EACH_PROCESSOR void absorb(Bins& bins, const Bins& absorbance, float path) {
+    for (std::size_t i = 0; i < Bins::padded; ++i) {
+        const float exponent = -1.44269504f * path * absorbance.value[i];
+        bins.value[i] *= power_of_two(exponent < -125.0f ? -125.0f : exponent);
+    }
+}
+
+OVERT_FOR_EACH_PROCESSOR void add_lit(Bins& sum, const Bins& bins, const RgbBasis& basis, glm::vec3 rgb) {
+    const float r = rgb.x, g = rgb.y, b = rgb.z;
+    for (std::size_t i = 0; i < Bins::padded; ++i) {
+        sum.value[i] +=
+            bins.value[i] * (r * basis[0].value[i] + g * basis[1].value[i] + b * basis[2].value[i]);
+    }
+}
+
+OVERT_FOR_EACH_PROCESSOR void add(Bins& sum, const Bins& bins) {
+    for (std::size_t i = 0; i < Bins::padded; ++i)
+        sum.value[i] += bins.value[i];
+}
+
+} // namespace overt

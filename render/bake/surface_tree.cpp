@@ -1,0 +1,128 @@
+#include "render/bake/surface_tree.h"
+
+#include <cstring>
+#include <limits>
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
+#include "experiment/error.h"
+
+namespace overt {
+
+namespace {
+
+struct DeviceRelease {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct SceneRelease {
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+
+void refuse(RTCDevice device) {
+    const RTCError error = rtcGetDeviceError(device);
+    if (error != RTC_ERROR_NONE) {
+        throw GraphicsError(fmt::format(
+            "Embree cannot build the tree of a stimulus (its error {}): check that enough memory is free",
+            static_cast<int>(error)));
+    }
+}
+
+RTCRay tree_ray(const PathRay& ray, float limit) {
+    RTCRay cast{};
+    cast.org_x = ray.origin.x;
+    cast.org_y = ray.origin.y;
+    cast.org_z = ray.origin.z;
+    cast.dir_x = ray.direction.x;
+    cast.dir_y = ray.direction.y;
+    cast.dir_z = ray.direction.z;
+    cast.tfar = limit;
+    cast.mask = ~0u;
+    return cast;
+}
+
+template <class Item>
+void give(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const std::vector<Item>& items) {
+    void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Item), items.size());
+    if (buffer != nullptr)
+        std::memcpy(buffer, items.data(), items.size() * sizeof(Item));
+}
+
+} // namespace
+
+TracedSurface::TracedSurface(const Mesh& mesh, glm::dvec3 centre, double crease_deg)
+    : triangles(mesh.triangles), normals(corner_normals(mesh, crease_deg)) {
+    positions.reserve(mesh.positions.size());
+    for (const glm::vec3& position : mesh.positions)
+        positions.emplace_back(glm::dvec3(position) - centre);
+}
+
+struct SurfaceTree::Tree {
+    std::vector<const TracedSurface*> surfaces;
+    std::unique_ptr<RTCDeviceTy, DeviceRelease> device;
+    std::unique_ptr<RTCSceneTy, SceneRelease> scene;
+};
+
+SurfaceTree::SurfaceTree(std::vector<const TracedSurface*> surfaces) : tree_(std::make_unique<Tree>()) {
+    tree_->surfaces = std::move(surfaces);
+    tree_->device.reset(rtcNewDevice("threads=1,set_affinity=0"));
+    if (!tree_->device)
+        refuse(nullptr);
+    const RTCDevice device = tree_->device.get();
+    tree_->scene.reset(rtcNewScene(device));
+    rtcSetSceneFlags(tree_->scene.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(tree_->scene.get(), RTC_BUILD_QUALITY_HIGH);
+    for (const TracedSurface* surface : tree_->surfaces) {
+        const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        give(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, surface->positions);
+        give(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, surface->triangles);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(tree_->scene.get(), geometry);
+        rtcReleaseGeometry(geometry); // the scene keeps it
+    }
+    rtcCommitScene(tree_->scene.get());
+    refuse(device);
+}
+
+SurfaceTree::~SurfaceTree() = default;
+SurfaceTree::SurfaceTree(SurfaceTree&&) noexcept = default;
+SurfaceTree& SurfaceTree::operator=(SurfaceTree&&) noexcept = default;
+
+SurfaceHit SurfaceTree::first_hit(const PathRay& ray, float limit, bool coherent) const noexcept {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    RTCRayHit cast;
+    cast.ray = tree_ray(ray, limit);
+    cast.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    cast.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(tree_->scene.get(), &context, &cast);
+    SurfaceHit hit;
+    if (cast.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return hit;
+    hit.surface = static_cast<int>(cast.hit.geomID);
+    hit.triangle = cast.hit.primID;
+    hit.distance = cast.ray.tfar;
+    hit.position = ray.origin + cast.ray.tfar * ray.direction;
+    hit.triangle_normal = glm::normalize(glm::vec3(cast.hit.Ng_x, cast.hit.Ng_y, cast.hit.Ng_z));
+    const CornerNormals& corners = tree_->surfaces[cast.hit.geomID]->normals[cast.hit.primID];
+    const glm::vec3 mean =
+        (1.0f - cast.hit.u - cast.hit.v) * corners[0] + cast.hit.u * corners[1] + cast.hit.v * corners[2];
+    const float length = glm::length(mean);
+    hit.shading_normal = length > 1e-3f ? mean / length : hit.triangle_normal;
+    return hit;
+}
+
+float SurfaceTree::first_distance(const PathRay& ray, bool coherent) const noexcept {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    RTCRayHit cast;
+    cast.ray = tree_ray(ray, std::numeric_limits<float>::infinity());
+    cast.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    cast.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(tree_->scene.get(), &context, &cast);
+    return cast.hit.geomID == RTC_INVALID_GEOMETRY_ID ? -1.0f : cast.ray.tfar;
+}
+
+} // namespace overt
