@@ -15,24 +15,43 @@ struct GlFormat {
     GLenum format, type;
     std::size_t bytes;
     const char* name;
+    GLenum kept_as; ///< the components' order that the driver is asked to keep
 };
 
 GlFormat gl_format(PixelFormat format) noexcept {
     switch (format) {
     case PixelFormat::rgba8:
-        return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, "RGBA8"};
+        // In the order of the framebuffers of window systems, so that a picture goes into a window as a plain
+        // copy of memory: with Mesa's software renderer a twentieth of the time. Only a format without a size
+        // leaves the choice to the order; Texture2D and TextureArray see that 8 bits come of it.
+        return {GL_RGBA, GL_RGBA, GL_UNSIGNED_BYTE, 4, "RGBA8", GL_BGRA};
     case PixelFormat::rgb10_a2:
-        return {GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, 4, "RGB10_A2"};
+        return {GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, 4, "RGB10_A2", GL_RGBA};
     case PixelFormat::rgba16:
-        return {GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT, 8, "RGBA16"};
+        return {GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT, 8, "RGBA16", GL_RGBA};
     case PixelFormat::rgba32f:
-        return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16, "RGBA32F"};
+        return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16, "RGBA32F", GL_RGBA};
     case PixelFormat::r32ui:
-        return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4, "R32UI"};
+        return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4, "R32UI", GL_RED_INTEGER};
     case PixelFormat::depth32f:
-        return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4, "DEPTH32F"};
+        return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4, "DEPTH32F", GL_DEPTH_COMPONENT};
     }
     return {};
+}
+
+/// Throws GraphicsError if the texture bound to `target` has other than the 8 bits a channel asked for.
+void expect_depth(const GlContext& context, GLenum target, PixelFormat format) {
+    if (format != PixelFormat::rgba8)
+        return;
+    for (const GLenum channel :
+         {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE}) {
+        GLint bits = 0;
+        context.gl().GetTexLevelParameteriv(target, 0, channel, &bits);
+        if (bits != 8) {
+            throw GraphicsError(fmt::format("{} keeps pictures of {} bits per channel where 8 are needed",
+                                            context.description().renderer, bits));
+        }
+    }
 }
 
 GlName make_texture(const GlContext& context) {
@@ -71,10 +90,11 @@ Texture2D::Texture2D(const GlContext& context, glm::ivec2 size_px, PixelFormat f
     const GlFormat pixel = gl_format(format);
     gl.BindTexture(GL_TEXTURE_2D, *name_);
     use_nearest_texels(gl, GL_TEXTURE_2D);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, pixel.internal, size_px.x, size_px.y, 0, pixel.format, pixel.type,
+    gl.TexImage2D(GL_TEXTURE_2D, 0, pixel.internal, size_px.x, size_px.y, 0, pixel.kept_as, pixel.type,
                   nullptr);
     throw_on_gl_error(context,
                       fmt::format("making a texture of {} x {} {}", size_px.x, size_px.y, pixel.name));
+    expect_depth(context, GL_TEXTURE_2D, format);
 }
 
 void Texture2D::upload(std::span<const std::byte> pixels) {
@@ -108,10 +128,11 @@ TextureArray::TextureArray(const GlContext& context, glm::ivec2 size_px, int lay
     const GlFormat pixel = gl_format(format);
     gl.BindTexture(GL_TEXTURE_2D_ARRAY, *name_);
     use_nearest_texels(gl, GL_TEXTURE_2D_ARRAY);
-    gl.TexImage3D(GL_TEXTURE_2D_ARRAY, 0, pixel.internal, size_px.x, size_px.y, layers, 0, pixel.format,
+    gl.TexImage3D(GL_TEXTURE_2D_ARRAY, 0, pixel.internal, size_px.x, size_px.y, layers, 0, pixel.kept_as,
                   pixel.type, nullptr);
     throw_on_gl_error(context, fmt::format("making a frame store of {} pages of {} x {} {}", layers,
                                            size_px.x, size_px.y, pixel.name));
+    expect_depth(context, GL_TEXTURE_2D_ARRAY, format);
 }
 
 void TextureArray::upload(int layer, std::span<const std::byte> pixels) {
