@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,30 +14,51 @@
 namespace overt {
 
 /// The material in which an observer sees a sculpture under the `rotating_task`-th of the tasks that are
-/// asked once per sculpture (from 0). A cyclic arrangement: (number - 1 + c + floor(c / L)) mod M with the
+/// asked once per sculpture (from 0), in a cyclic rotation: (number - 1 + c + floor(c / L)) mod M with the
 /// cell c = task * S + sculpture and L the least common multiple of S and M. So every M observers in sequence
 /// fill all M materials of a cell once; each observer sees all materials equally often, to one; and a
-/// sculpture changes its material from task to task. `observer_number` from 1.
+/// sculpture changes its material from task to task. `observer_number` from 1. Other rotations take the same
+/// columns of another square.
 int rotated_material(int observer_number, int rotating_task, int sculpture, int sculpture_count,
                      int material_count);
 
-/// All trials of an observer, task by task in the order of the protocol.
+/// All trials of an observer, block by block as listed, each as often as it comes; of a block with draws,
+/// those that are drawn from, once. Throws InputError as group_place does.
 std::vector<Trial> trials_of(const Protocol& protocol, int observer_number);
 
-/// The trials in random order: every order that keeps to max_sculpture_run and max_task_run is equally
-/// probable. It is drawn by rejection, which is exact; where fewer than about one order in 2000 keeps to
-/// them, by a chain of random exchanges from an order found by search, which comes near. A pure function of
-/// its arguments. Throws InputError if no order keeps to the limits. The protocol's lists must not be empty.
+/// How many trials an observer has.
+int trial_count(const Protocol& protocol, int observer_number);
+
+/// Makes schedules of a sound protocol, which must outlive it, and keeps what it has counted of one
+/// observer's orders for the next.
+class ScheduleMaker {
+  public:
+    explicit ScheduleMaker(const Protocol& protocol);
+    ~ScheduleMaker();
+
+    /// A pure function of protocol, observer's number and seed. Each block has a random stream of its own,
+    /// named by its id: changing, adding or removing another block reshuffles nothing in it. Every order that
+    /// keeps to the limits is equally probable where Schedule::is_even says so. Throws InputError if no order
+    /// keeps to them, or the number is beyond the caps of all groups.
+    Schedule make(const Observer& observer, std::uint64_t seed);
+
+  private:
+    class Orders;
+    const Protocol& protocol_;
+    std::unique_ptr<Orders> orders_;
+};
+
+/// One schedule.
 Schedule make_schedule(const Protocol& protocol, const Observer& observer, std::uint64_t seed);
 
-/// Why no order keeps to the protocol's limits.
+/// Why no order keeps to the protocol's limits: the fewest limits that cannot hold together.
 struct OrderConflict {
-    std::string key; ///< the key to change, as "schedule.max_task_run"
+    std::vector<std::string> keys; ///< to change, as "schedule.max_task_run"; the first is at fault most
     std::string message;
     std::string hint;
 };
 
-/// Nothing if there is an order that keeps to them.
+/// Nothing if there is an order that keeps to them, for each planned observer.
 std::optional<OrderConflict> find_order_conflict(const Protocol& protocol);
 
 /// The number at the end of an observer's label: 7 for "P07" or "lab2-7". Nothing where there is none, or it

@@ -19,6 +19,7 @@ struct Trial {
     int index = 0; ///< position in the observer's order, from 0
     int task = 0;  ///< index into the protocol's tasks
     Condition condition;
+    int block = 0; ///< index into the protocol's blocks; 0 if it has none
     friend constexpr bool operator==(const Trial&, const Trial&) = default;
 };
 
@@ -34,6 +35,7 @@ struct Schedule {
     Observer observer;
     std::uint64_t seed = 0;
     std::vector<Trial> trials;
+    bool is_even = true; ///< no order that keeps to the limits was more probable than another; not recorded
 };
 
 } // namespace overt

@@ -21,8 +21,8 @@ Section<ScheduleSettings> schedule() {
     using S = ScheduleSettings;
     return {
         .name = "schedule",
-        .explanation = "How many observers there will be, and what the random order of their trials has "
-                       "to keep to.",
+        .explanation = "How many observers there will be, and what the order of their trials has to keep to. "
+                       "The limits hold within each block.",
         .keys =
             {
                 {{.name = "observers",
@@ -36,18 +36,81 @@ Section<ScheduleSettings> schedule() {
                   .if_left_out = "drawn anew for each session, and recorded",
                   .explanation = "Start of all random numbers."},
                  &S::seed},
-                {{.name = "max_sculpture_run",
-                  .low = 0,
-                  .high = 1000,
-                  .explanation = "Longest run of trials with the same sculpture; 0 for no limit. With a "
-                                 "single sculpture it has no effect."},
-                 &S::max_sculpture_run},
                 {{.name = "max_task_run",
                   .low = 0,
                   .high = 1000,
                   .explanation = "Longest run of trials with the same task; 0 for no limit. With a single "
                                  "task it has no effect."},
                  &S::max_task_run},
+                {{.name = "max_sculpture_run",
+                  .low = 0,
+                  .high = 1000,
+                  .explanation = "Longest run of trials with the same sculpture; 0 for no limit. With a "
+                                 "single sculpture it has no effect."},
+                 &S::max_sculpture_run},
+                {{.name = "max_material_run",
+                  .low = 0,
+                  .high = 1000,
+                  .explanation = "Longest run of trials with the same material; 0 for no limit. With a "
+                                 "single material it has no effect."},
+                 &S::max_material_run},
+                {{.name = "max_stimulus_run",
+                  .low = 0,
+                  .high = 1000,
+                  .explanation = "Longest run of trials with the same stimulus (sculpture and material); 0 "
+                                 "for no limit. With a single stimulus it has no effect."},
+                 &S::max_stimulus_run},
+                {{.name = "min_task_distance",
+                  .low = 0,
+                  .high = 1000,
+                  .explanation = "Least distance of trials with the same task, in trials: 2 is never twice "
+                                 "in a row, 3 leaves two others between them; 0 for no limit."},
+                 &S::min_task_distance},
+                {{.name = "min_sculpture_distance",
+                  .low = 0,
+                  .high = 1000,
+                  .explanation =
+                      "Least distance of trials with the same sculpture, in trials: 2 is never twice "
+                      "in a row, 3 leaves two others between them; 0 for no limit."},
+                 &S::min_sculpture_distance},
+                {{.name = "min_material_distance",
+                  .low = 0,
+                  .high = 1000,
+                  .explanation =
+                      "Least distance of trials with the same material, in trials: 2 is never twice "
+                      "in a row, 3 leaves two others between them; 0 for no limit."},
+                 &S::min_material_distance},
+                {{.name = "min_stimulus_distance",
+                  .low = 0,
+                  .high = 1000,
+                  .explanation =
+                      "Least distance of trials with the same stimulus, in trials: 2 is never twice "
+                      "in a row, 3 leaves two others between them; 0 for no limit."},
+                 &S::min_stimulus_distance},
+                {{.name = "material_rotation",
+                  .choices = square_kinds,
+                  .explanation =
+                      "How the materials of tasks that are asked once per sculpture go round over the "
+                      "observers: "
+                      "shifted by one from observer to observer; by the rows of a balanced (Williams) "
+                      "square, in "
+                      "which each material also follows each other one equally often; or by random squares, "
+                      "a "
+                      "new one for each round of observers. A balanced square of an odd number of materials "
+                      "takes twice as many observers."},
+                 &S::material_rotation},
+                {{.name = "block_order",
+                  .choices = level_orders,
+                  .explanation =
+                      "Order of the blocks: random for each session; fixed, as they stand in the file; "
+                      "or by the rows of a Latin square over the observers, as for "
+                      "`material_rotation`."},
+                 &S::block_order},
+                {{.name = "rotation_seed",
+                  .low = 0,
+                  .explanation = "Start of the random squares. All observers of an experiment share them, so "
+                                 "they do not depend on `seed`."},
+                 &S::rotation_seed},
             },
         .one = &Protocol::schedule};
 }

@@ -23,6 +23,10 @@ Section<Protocol> protocol();
 Section<ScheduleSettings> schedule();
 Section<Task> task();
 
+// The order of trials and of observers (order_keys.cpp).
+Section<BlockSettings> block();
+Section<GroupSettings> group();
+
 // Names of enumerations, in the order of their values.
 inline constexpr std::string_view output_modes[] = {"native-8bit", "native-10bit", "mono++",   "color++",
                                                     "bits++",      "vpixx-m16",    "vpixx-c48"};
@@ -34,6 +38,11 @@ inline constexpr std::string_view tracker_kinds[] = {"simulated"};
 inline constexpr std::string_view playbacks[] = {"cycle", "ping-pong"};
 inline constexpr std::string_view when_lates[] = {"drop", "stretch"};
 inline constexpr std::string_view task_coverages[] = {"every-stimulus", "once-per-sculpture"};
+inline constexpr std::string_view order_methods[] = {"random", "sequential", "blocked", "weighted"};
+inline constexpr std::string_view trial_factors[] = {"task", "sculpture", "material", "stimulus"};
+inline constexpr std::string_view level_orders[] = {"random", "fixed", "cyclic", "balanced", "random-square"};
+inline constexpr std::string_view square_kinds[] = {"cyclic", "balanced", "random-square"};
+inline constexpr std::string_view repetition_orders[] = {"in-turn", "mixed"};
 inline constexpr std::string_view material_kinds[] = {"smooth-conductor", "rough-conductor",
                                                       "coated-conductor", "diffuse"};
 inline constexpr std::string_view frame_encodings[] = {"linear", "srgb"};

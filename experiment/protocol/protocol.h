@@ -14,6 +14,7 @@
 
 #include "experiment/animation.h"
 #include "experiment/colour/display_characterisation.h"
+#include "experiment/protocol/design_settings.h"
 #include "experiment/protocol/key_places.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/units.h"
@@ -134,14 +135,6 @@ struct LightSettings {
     double rotation_deg = 0.0; ///< turns the probe about the vertical
 };
 
-/// [schedule]
-struct ScheduleSettings {
-    int observers = 12;                ///< planned number
-    std::optional<std::uint64_t> seed; ///< left out: drawn for each session, and recorded
-    int max_sculpture_run = 2;         ///< longest run of trials with the same sculpture; 0: no limit
-    int max_task_run = 0;              ///< longest run of trials with the same task; 0: no limit
-};
-
 /// [screens]: what is shown between the animations.
 struct ScreenSettings {
     double task_min_s = 1.0;     ///< before a key goes on
@@ -156,18 +149,6 @@ struct ScreenSettings {
     std::string response_text = "Please answer now.\nPress a key when you have finished.";
     std::string welcome_text = "Welcome.\nPress a key to begin.";
     std::string farewell_text = "Thank you. This is the end.";
-};
-
-/// Which stimuli a task is asked for.
-enum class TaskCoverage : std::uint8_t { every_stimulus, once_per_sculpture };
-
-/// [[task]]
-struct Task {
-    std::string id;
-    std::string question;
-    TaskCoverage stimuli = TaskCoverage::every_stimulus;
-    double simulated_head_share =
-        0.4; ///< share of a simulated observer's fixations that go to the part "head"
 };
 
 /// [[sculpture]]
@@ -229,6 +210,8 @@ struct Protocol {
     ScheduleSettings schedule;
     ScreenSettings screens;
     std::vector<Task> tasks;
+    std::vector<BlockSettings> blocks; ///< none: all trials are one block in random order
+    std::vector<GroupSettings> groups; ///< none: all observers see the same
     std::vector<SculptureSettings> sculptures;
     std::vector<MaterialSettings> materials;
     std::vector<FrameSequenceSettings> frames;

@@ -5,14 +5,21 @@
 
 #include <fmt/format.h>
 
-#include "experiment/schedule.h"
-
 namespace overt {
 
 void ProtocolExamination::error(std::initializer_list<std::string_view> paths, std::string message,
                                 std::string hint) {
     if (!is_any_faulty(paths))
         diagnostics_.error(file_, protocol.places.first_written(paths), std::move(message), std::move(hint));
+}
+
+void ProtocolExamination::error(const std::vector<std::string>& paths, std::string message, std::string hint) {
+    const auto written =
+        std::find_if(paths.begin(), paths.end(), [&](const std::string& path) { return is_written(path); });
+    const bool is_faulty = std::any_of(paths.begin(), paths.end(),
+                                       [&](const std::string& path) { return faulty.contains(path); });
+    if (!is_faulty)
+        error({written == paths.end() ? paths.front() : *written}, std::move(message), std::move(hint));
 }
 
 void ProtocolExamination::warning(std::initializer_list<std::string_view> paths, std::string message,
@@ -105,39 +112,6 @@ void check_screens(ProtocolExamination& examination) {
         examination.error({"screens.text_height_deg", "display.viewing_distance_mm"},
                           fmt::format("text of {} deg is {:.0f} px high: too large for a screen of {} rows",
                                       screens.text_height_deg, text_px, display.height_px));
-    }
-}
-
-void check_schedule(ProtocolExamination& examination) {
-    // More than anyone sits through, and a bound for all that is reckoned per trial.
-    constexpr std::size_t most_trials = 2000;
-    const Protocol& protocol = examination.protocol;
-    std::size_t trials = 0;
-    const std::size_t sculptures = protocol.sculptures.size(), materials = protocol.materials.size();
-    bool has_rotation = false;
-    for (const Task& task : protocol.tasks) {
-        const bool rotates = task.stimuli == TaskCoverage::once_per_sculpture;
-        has_rotation = has_rotation || rotates;
-        trials += sculptures * (rotates ? 1 : materials);
-    }
-    if (trials > most_trials) {
-        examination.error(
-            {"task"}, fmt::format("an observer would have {} trials; {} is the most", trials, most_trials));
-        return;
-    }
-    if (const auto conflict = find_order_conflict(protocol))
-        examination.error({conflict->key}, conflict->message, conflict->hint);
-    const int observers = protocol.schedule.observers, rotation = static_cast<int>(materials);
-    if (has_rotation && observers % rotation != 0) {
-        const int below = observers / rotation * rotation;
-        examination.warning(
-            {"schedule.observers"},
-            fmt::format(
-                "{} observers cannot see {} materials equally often under the tasks that are asked once "
-                "per sculpture",
-                observers, rotation),
-            below > 0 ? fmt::format("{} or {} observers would", below, below + rotation)
-                      : fmt::format("{} observers would", rotation));
     }
 }
 

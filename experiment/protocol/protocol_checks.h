@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "experiment/diagnostics.h"
 #include "experiment/protocol/protocol.h"
@@ -25,6 +26,7 @@ class ProtocolExamination {
 
     /// Reports at the first of these keys that is written. Does nothing if one of them is faulty.
     void error(std::initializer_list<std::string_view> paths, std::string message, std::string hint = {});
+    void error(const std::vector<std::string>& paths, std::string message, std::string hint = {});
     void warning(std::initializer_list<std::string_view> paths, std::string message, std::string hint = {});
 
     /// Where findings about files that the protocol names belong.
@@ -46,6 +48,10 @@ void check_output(ProtocolExamination& examination);
 void check_animation(ProtocolExamination& examination);
 void check_screens(ProtocolExamination& examination);
 void check_schedule(ProtocolExamination& examination);
+
+/// Blocks and groups: what they name, and what belongs together in one.
+void check_blocks(ProtocolExamination& examination);
+void check_groups(ProtocolExamination& examination);
 
 /// Reads the characterisation of the display, if the protocol names one and `look_at_files`, and finds what
 /// in the protocol contradicts it or asks for it. Turns luminances into linear light.

@@ -13,6 +13,7 @@ const ProtocolSections& protocol_sections() {
     static const ProtocolSections sections{key_rows::protocol(),  key_rows::display(),  key_rows::tracker(),
                                            key_rows::view(),      key_rows::light(),    key_rows::animation(),
                                            key_rows::schedule(),  key_rows::screens(),  key_rows::task(),
+                                           key_rows::block(),     key_rows::group(),
                                            key_rows::sculpture(), key_rows::material(), key_rows::frames()};
     return sections;
 }
@@ -27,6 +28,9 @@ std::string_view name_of(WhenLate when_late) { return key_rows::when_lates[stati
 std::string_view name_of(TaskCoverage coverage) {
     return key_rows::task_coverages[static_cast<int>(coverage)];
 }
+std::string_view name_of(OrderMethod method) { return key_rows::order_methods[static_cast<int>(method)]; }
+std::string_view name_of(TrialFactor factor) { return key_rows::trial_factors[static_cast<int>(factor)]; }
+std::string_view name_of(LevelOrder order) { return key_rows::level_orders[static_cast<int>(order)]; }
 std::string_view name_of(MaterialKind kind) { return key_rows::material_kinds[static_cast<int>(kind)]; }
 std::string_view name_of(FrameEncoding encoding) {
     return key_rows::frame_encodings[static_cast<int>(encoding)];

@@ -34,11 +34,13 @@ using KeyMember =
     std::variant<int Struct::*, double Struct::*, Degrees Struct::*, std::string Struct::*,
                  std::filesystem::path Struct::*, std::optional<double> Struct::*,
                  std::optional<int> Struct::*, std::optional<std::uint64_t> Struct::*,
-                 std::optional<glm::dvec3> Struct::*, std::array<double, 3> Struct::*,
+                 std::optional<glm::dvec3> Struct::*, std::array<double, 3> Struct::*, bool Struct::*,
+                 std::vector<double> Struct::*, std::vector<std::string> Struct::*,
                  std::vector<std::array<double, 4>> Struct::*, std::vector<std::array<double, 6>> Struct::*,
                  OutputMode Struct::*, Dithering Struct::*, PairFilter Struct::*, PatchCorner Struct::*, TrackerKind Struct::*,
                  Playback Struct::*, WhenLate Struct::*, TaskCoverage Struct::*, MaterialKind Struct::*,
-                 FrameEncoding Struct::*>;
+                 FrameEncoding Struct::*, std::optional<TaskCoverage> Struct::*, OrderMethod Struct::*,
+                 TrialFactor Struct::*, SquareKind Struct::*, LevelOrder Struct::*, RepetitionOrder Struct::*>;
 
 template <class Struct> struct Key {
     KeyRule rule;
@@ -59,7 +61,7 @@ template <class Struct> struct Section {
 using ProtocolSections =
     std::tuple<Section<Protocol>, Section<DisplaySettings>, Section<TrackerSettings>, Section<ViewSettings>,
                Section<LightSettings>, Section<Animation>, Section<ScheduleSettings>, Section<ScreenSettings>,
-               Section<Task>, Section<SculptureSettings>, Section<MaterialSettings>,
+               Section<Task>, Section<BlockSettings>, Section<GroupSettings>, Section<SculptureSettings>, Section<MaterialSettings>,
                Section<FrameSequenceSettings>>;
 
 /// All sections, in the order of the documentation. Made once; safe from any thread.
@@ -79,6 +81,9 @@ std::string_view name_of(TrackerKind kind);
 std::string_view name_of(Playback playback);
 std::string_view name_of(WhenLate when_late);
 std::string_view name_of(TaskCoverage coverage);
+std::string_view name_of(OrderMethod method);
+std::string_view name_of(TrialFactor factor);
+std::string_view name_of(LevelOrder order);
 std::string_view name_of(MaterialKind kind);
 std::string_view name_of(FrameEncoding encoding);
 
@@ -106,6 +111,12 @@ template <class Value> constexpr std::string_view noun_of() {
         return "a list of spheres [x, y, z, radius]";
     else if constexpr (is_same_v<Value, std::vector<std::array<double, 6>>>)
         return "a list of planes [[x, y, z], [nx, ny, nz]]";
+    else if constexpr (is_same_v<Value, bool>)
+        return "true or false";
+    else if constexpr (is_same_v<Value, std::vector<double>>)
+        return "a list of numbers";
+    else if constexpr (is_same_v<Value, std::vector<std::string>>)
+        return "a list of texts";
     else
         return "a text";
 }

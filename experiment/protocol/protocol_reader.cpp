@@ -244,6 +244,8 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_animation(examination);
         check_screens(examination);
         check_ids(examination);
+        check_blocks(examination);
+        check_groups(examination);
         check_sculptures(examination, shipped_sculptures);
         check_materials(examination);
         check_frames(examination);

@@ -39,6 +39,7 @@ This page is written from the program's own table of keys.
 )";
 
 std::string default_text(const KeyRule&, int value) { return fmt::format("{}", value); }
+std::string default_text(const KeyRule&, bool value) { return value ? "true" : "false"; }
 std::string default_text(const KeyRule&, double value) { return fmt::format("{}", value); }
 std::string default_text(const KeyRule&, Degrees value) { return fmt::format("{}", value.value); }
 std::string default_text(const KeyRule&, const std::string& value) {

@@ -72,6 +72,14 @@ ValueResult check_identifier(const TomlValue& value, const KeyRule& rule, const 
 
 } // namespace
 
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, bool& out) {
+    const auto* truth = std::get_if<bool>(&value.content);
+    if (!truth)
+        return wrong_kind(value, rule, "true or false");
+    out = *truth;
+    return std::nullopt;
+}
+
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, int& out) {
     std::int64_t whole = 0;
     if (ValueResult fault = read_whole(value, rule, whole))
@@ -171,6 +179,22 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<
     }
     out.resize(value.list()->size());
     return read_numbers(value, rule, "a list of numbers", out.size(), out.data());
+}
+
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<std::string>& out) {
+    if (!value.list()) {
+        if (!std::holds_alternative<std::string>(value.content))
+            return wrong_kind(value, rule, "a list of texts");
+        return read_value(value, rule, out.emplace_back());
+    }
+    for (const TomlValue& item : *value.list()) {
+        if (ValueResult fault = read_value(item, rule, out.emplace_back()))
+            return fault;
+    }
+    if (out.empty())
+        return ValueFault{value.place, fmt::format("{}: the list is empty", rule.name),
+                          "leave the key out to take all"};
+    return std::nullopt;
 }
 
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<std::array<double, 4>>& out) {

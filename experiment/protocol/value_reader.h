@@ -17,6 +17,7 @@ struct ValueFault {
 };
 using ValueResult = std::optional<ValueFault>; ///< nothing: the value was taken
 
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, bool& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, int& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, double& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, Degrees& out);
@@ -32,6 +33,9 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<std::array<double, 4>>& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<std::array<double, 6>>& out);
 
+/// A list of texts, or one text, which is a list of one. The rule holds for each.
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<std::string>& out);
+
 template <class Enumeration>
 requires std::is_enum_v<Enumeration> ValueResult read_value(const TomlValue& value, const KeyRule& rule,
                                                             Enumeration& out) {
@@ -43,6 +47,12 @@ requires std::is_enum_v<Enumeration> ValueResult read_value(const TomlValue& val
             out = static_cast<Enumeration>(i);
     }
     return std::nullopt;
+}
+
+template <class Enumeration>
+requires std::is_enum_v<Enumeration> ValueResult read_value(const TomlValue& value, const KeyRule& rule,
+                                                            std::optional<Enumeration>& out) {
+    return read_value(value, rule, out.emplace());
 }
 
 } // namespace overt

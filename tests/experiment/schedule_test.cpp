@@ -178,8 +178,9 @@ TEST_CASE("both limits hold together", "[unit]") {
     Protocol protocol = paper_protocol();
     protocol.schedule.max_sculpture_run = 1;
     protocol.schedule.max_task_run = 1;
+    ScheduleMaker maker(protocol);
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-        const Schedule schedule = make_schedule(protocol, {"P", 2}, seed);
+        const Schedule schedule = maker.make({"P", 2}, seed);
         CHECK(sculpture_run(schedule) == 1);
         CHECK(task_run(schedule) == 1);
     }
@@ -190,7 +191,7 @@ TEST_CASE("a limit that no order can keep to is refused by its name", "[unit]") 
     protocol.schedule.max_task_run = 2;
     CHECK_THROWS_WITH(make_schedule(protocol, {"P", 1}, 1),
                       Catch::Contains("schedule.max_task_run") && Catch::Contains("runs of 3 at least"));
-    CHECK(find_order_conflict(protocol)->key == "schedule.max_task_run");
+    CHECK(find_order_conflict(protocol)->keys.front() == "schedule.max_task_run");
     protocol.schedule.max_task_run = 3;
     CHECK_FALSE(find_order_conflict(protocol));
     CHECK(task_run(make_schedule(protocol, {"P", 1}, 1)) <= 3);

@@ -1,0 +1,69 @@
+/// From a protocol to what is to be ordered: an observer's blocks, their trials, and what their order has to
+/// keep to.
+#pragma once
+
+#include <vector>
+
+#include "experiment/design/order_problem.h"
+#include "experiment/protocol/protocol.h"
+#include "experiment/trial.h"
+
+namespace overt {
+
+/// The only block of a protocol without any.
+extern const BlockSettings whole_session;
+
+/// The blocks of a protocol; whole_session alone if it has none.
+const BlockSettings& block_at(const Protocol& protocol, int block);
+int block_count(const Protocol& protocol);
+
+/// What of a protocol a block shows to an observer. Indices into the protocol's lists, in the order of the
+/// block's.
+struct BlockScope {
+    std::vector<int> tasks, sculptures, materials;
+};
+
+/// What a block shows to somebody whom no group keeps anything from.
+BlockScope scope_of(const Protocol& protocol, int block);
+
+/// A block as one observer has it.
+struct BlockPlan {
+    int block = 0;
+    BlockScope scope;
+    std::vector<Trial> trials; ///< each once, task by task, sculpture by sculpture, material by material
+};
+
+/// The blocks that an observer has, in their order. `seed` decides a random order of blocks only. Blocks that
+/// the observer's group leaves without trials are not among them. Throws InputError as group_place does.
+std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number, std::uint64_t seed);
+
+/// How many trials a block has: its trials with their repetitions or weights, or its draws.
+int length_of(const Protocol& protocol, const BlockPlan& plan);
+
+/// The level of a trial: an index into the protocol's list, or a number for the stimulus.
+int level_of(const Protocol& protocol, const Trial& trial, TrialFactor factor);
+
+/// The levels of a factor in a block, in its order, as level_of gives them.
+std::vector<int> levels_in(const Protocol& protocol, const BlockScope& scope, TrialFactor factor);
+
+/// How often a trial comes in a block, or is drawn in proportion to its siblings of the same level. 1 but in
+/// weighted blocks.
+double weight_of(const Protocol& protocol, const Trial& trial);
+
+/// What is to be ordered together: a block and those after it that continue it.
+struct OrderChain {
+    std::vector<BlockPlan> blocks;
+    OrderProblem problem;
+    std::vector<Trial> trials; ///< by item of the problem
+};
+
+std::vector<OrderChain> order_chains(const Protocol& protocol, int observer_number, std::uint64_t seed);
+
+/// A limit's value in a block, and the key that says it; 0: no limit.
+struct LimitSetting {
+    int amount = 0;
+    std::string key;
+};
+LimitSetting limit_in(const Protocol& protocol, int block, TrialFactor factor, OrderLimit::Kind kind);
+
+} // namespace overt

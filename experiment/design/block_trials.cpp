@@ -1,0 +1,184 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "experiment/design/block_plan.h"
+#include "experiment/design/latin_square.h"
+#include "experiment/design/observer_groups.h"
+#include "experiment/random.h"
+#include "experiment/schedule.h"
+
+namespace overt {
+
+namespace {
+
+int count_of(const auto& list) { return static_cast<int>(list.size()); }
+
+/// Indices of the entries that an id list names, in its order; of all, if it names none. Those that `group`
+/// names none of are left out.
+template <class Entry>
+std::vector<int> chosen(const std::vector<Entry>& entries, const std::vector<std::string>& ids,
+                        const std::vector<std::string>* group) {
+    std::vector<int> indices;
+    const auto add = [&](const auto& wanted) {
+        for (int i = 0; i < count_of(entries); ++i) {
+            const std::string& id = entries[static_cast<std::size_t>(i)].id;
+            if (wanted(id) &&
+                (!group || group->empty() || std::find(group->begin(), group->end(), id) != group->end()))
+                indices.push_back(i);
+        }
+    };
+    if (ids.empty())
+        add([](const std::string&) { return true; });
+    for (const std::string& wanted : ids)
+        add([&](const std::string& id) { return id == wanted; });
+    return indices;
+}
+
+/// Materials over the observers of a rotation, cell by cell.
+int rotated(const Protocol& protocol, int row, int cell, const BlockScope& scope) {
+    const int sculptures = count_of(scope.sculptures), materials = count_of(scope.materials);
+    const int round = std::lcm(sculptures, materials);
+    const int column = (cell + cell / round) % materials;
+    return row_of_square(protocol.schedule.material_rotation, materials, row,
+                         static_cast<std::uint64_t>(protocol.schedule.rotation_seed),
+                         "material rotation")[static_cast<std::size_t>(column)];
+}
+
+std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockScope& scope, int row) {
+    const BlockSettings& settings = block_at(protocol, block);
+    std::vector<Trial> trials;
+    for (const int task : scope.tasks) {
+        const TaskCoverage own = protocol.tasks[static_cast<std::size_t>(task)].stimuli;
+        const bool rotates = settings.stimuli.value_or(own) == TaskCoverage::once_per_sculpture;
+        // A rotated task's cells are numbered by its place among the rotated tasks, whatever block it is in.
+        int rotating_task = task;
+        if (own == TaskCoverage::once_per_sculpture)
+            rotating_task = static_cast<int>(
+                std::count_if(protocol.tasks.begin(), protocol.tasks.begin() + task, [](const Task& earlier) {
+                    return earlier.stimuli == TaskCoverage::once_per_sculpture;
+                }));
+        for (int i = 0; i < count_of(scope.sculptures); ++i) {
+            const int sculpture = scope.sculptures[static_cast<std::size_t>(i)];
+            if (rotates) {
+                const int cell = rotating_task * count_of(scope.sculptures) + i;
+                const int material =
+                    scope.materials[static_cast<std::size_t>(rotated(protocol, row, cell, scope))];
+                trials.push_back({count_of(trials), task, {sculpture, material}, block});
+                continue;
+            }
+            for (const int material : scope.materials)
+                trials.push_back({count_of(trials), task, {sculpture, material}, block});
+        }
+    }
+    return trials;
+}
+
+std::vector<int> order_of_blocks(const Protocol& protocol, const std::vector<int>& blocks, int row,
+                                 std::uint64_t seed) {
+    std::vector<int> order = blocks;
+    const LevelOrder by = protocol.schedule.block_order;
+    if (by == LevelOrder::fixed || blocks.empty())
+        return order;
+    if (by == LevelOrder::random) {
+        RandomStream random(seed, "block order", static_cast<std::uint64_t>(row));
+        random.shuffle(std::span(order));
+        return order;
+    }
+    const std::vector<int> places =
+        row_of_square(square_of(by), count_of(blocks), row,
+                      static_cast<std::uint64_t>(protocol.schedule.rotation_seed), "block order");
+    for (std::size_t i = 0; i < order.size(); ++i)
+        order[i] = blocks[static_cast<std::size_t>(places[i])];
+    return order;
+}
+
+} // namespace
+
+BlockScope scope_of(const Protocol& protocol, int block) {
+    const BlockSettings& settings = block_at(protocol, block);
+    return {chosen(protocol.tasks, settings.tasks, nullptr),
+            chosen(protocol.sculptures, settings.sculptures, nullptr),
+            chosen(protocol.materials, settings.materials, nullptr)};
+}
+
+const BlockSettings whole_session;
+
+int block_count(const Protocol& protocol) { return protocol.blocks.empty() ? 1 : count_of(protocol.blocks); }
+
+const BlockSettings& block_at(const Protocol& protocol, int block) {
+    return protocol.blocks.empty() ? whole_session : protocol.blocks.at(static_cast<std::size_t>(block));
+}
+
+int level_of(const Protocol& protocol, const Trial& trial, TrialFactor factor) {
+    switch (factor) {
+    case TrialFactor::task:
+        return trial.task;
+    case TrialFactor::sculpture:
+        return trial.condition.sculpture;
+    case TrialFactor::material:
+        return trial.condition.material;
+    case TrialFactor::stimulus:
+        break;
+    }
+    return trial.condition.sculpture * count_of(protocol.materials) + trial.condition.material;
+}
+
+std::vector<int> levels_in(const Protocol& protocol, const BlockScope& scope, TrialFactor factor) {
+    if (factor == TrialFactor::task)
+        return scope.tasks;
+    if (factor == TrialFactor::sculpture)
+        return scope.sculptures;
+    if (factor == TrialFactor::material)
+        return scope.materials;
+    std::vector<int> stimuli;
+    for (const int sculpture : scope.sculptures) {
+        for (const int material : scope.materials)
+            stimuli.push_back(level_of(protocol, {0, 0, {sculpture, material}}, factor));
+    }
+    return stimuli;
+}
+
+double weight_of(const Protocol& protocol, const Trial& trial) {
+    const BlockSettings& block = block_at(protocol, trial.block);
+    if (block.order != OrderMethod::weighted || block.weights.empty())
+        return 1.0;
+    const std::vector<int> levels = levels_in(protocol, scope_of(protocol, trial.block), block.by);
+    const auto at = std::find(levels.begin(), levels.end(), level_of(protocol, trial, block.by));
+    return block.weights.at(static_cast<std::size_t>(at - levels.begin()));
+}
+
+int length_of(const Protocol& protocol, const BlockPlan& plan) {
+    const BlockSettings& block = block_at(protocol, plan.block);
+    if (block.order == OrderMethod::weighted && block.draws)
+        return *block.draws * block.repetitions;
+    double length = 0.0;
+    for (const Trial& trial : plan.trials)
+        length += weight_of(protocol, trial);
+    return static_cast<int>(std::lround(length)) * block.repetitions;
+}
+
+std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number, std::uint64_t seed) {
+    const GroupPlace place = group_place(protocol, observer_number);
+    const GroupSettings* group =
+        place.group < 0 ? nullptr : &protocol.groups[static_cast<std::size_t>(place.group)];
+    std::vector<int> blocks{0};
+    if (!protocol.blocks.empty())
+        blocks = chosen(protocol.blocks, {}, group ? &group->blocks : nullptr);
+    std::vector<BlockPlan> plans;
+    for (const int block : order_of_blocks(protocol, blocks, place.row, seed)) {
+        const BlockSettings& settings = block_at(protocol, block);
+        BlockPlan plan{
+            block,
+            {chosen(protocol.tasks, settings.tasks, group ? &group->tasks : nullptr),
+             chosen(protocol.sculptures, settings.sculptures, group ? &group->sculptures : nullptr),
+             chosen(protocol.materials, settings.materials, group ? &group->materials : nullptr)},
+            {}};
+        plan.trials = trials_in(protocol, block, plan.scope, place.row);
+        if (!plan.trials.empty())
+            plans.push_back(std::move(plan));
+    }
+    return plans;
+}
+
+} // namespace overt

@@ -1,0 +1,92 @@
+/// What is asked, of whom, and in which order, as a protocol states it. Explained key by key in
+/// design_keys.cpp and order_keys.cpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace overt {
+
+/// Which stimuli a task is asked for.
+enum class TaskCoverage : std::uint8_t { every_stimulus, once_per_sculpture };
+
+/// [[task]]
+struct Task {
+    std::string id;
+    std::string question;
+    TaskCoverage stimuli = TaskCoverage::every_stimulus;
+    double simulated_head_share =
+        0.4; ///< share of a simulated observer's fixations that go to the part "head"
+};
+
+/// What tells trials apart. A stimulus is a sculpture in a material.
+enum class TrialFactor : std::uint8_t { task, sculpture, material, stimulus };
+inline constexpr int trial_factor_count = 4;
+
+/// How the trials of a block come.
+enum class OrderMethod : std::uint8_t {
+    random,     ///< every order equally probable
+    sequential, ///< as listed
+    blocked,    ///< all trials of one level of a factor, then all of the next
+    weighted    ///< levels of a factor come more or less often
+};
+
+/// Latin squares, of which each observer takes a row (latin_square.h).
+enum class SquareKind : std::uint8_t { cyclic, balanced, random_square };
+
+/// In which order levels come, or blocks: drawn for each session, the same for all observers, or the row of a
+/// Latin square.
+enum class LevelOrder : std::uint8_t { random, fixed, cyclic, balanced, random_square };
+
+/// Whether one repetition is over before the next begins.
+enum class RepetitionOrder : std::uint8_t { in_turn, mixed };
+
+/// [schedule]
+struct ScheduleSettings {
+    int observers = 12;                ///< planned number
+    std::optional<std::uint64_t> seed; ///< left out: drawn for each session, and recorded
+    // Longest run of trials with the same …; 0: no limit.
+    int max_task_run = 0;
+    int max_sculpture_run = 2;
+    int max_material_run = 0;
+    int max_stimulus_run = 0;
+    // Least distance of trials with the same …, in trials; 0: no limit.
+    int min_task_distance = 0;
+    int min_sculpture_distance = 0;
+    int min_material_distance = 0;
+    int min_stimulus_distance = 0;
+    SquareKind material_rotation = SquareKind::cyclic;
+    LevelOrder block_order = LevelOrder::fixed;
+    int rotation_seed = 1; ///< of random squares, which all observers share
+};
+
+/// [[block]]
+struct BlockSettings {
+    std::string id;
+    // Left out: all.
+    std::vector<std::string> tasks, sculptures, materials;
+    std::optional<TaskCoverage> stimuli; ///< left out: as each task says
+    OrderMethod order = OrderMethod::random;
+    TrialFactor by = TrialFactor::task;     ///< of blocked and weighted orders
+    LevelOrder levels = LevelOrder::random; ///< of a blocked order
+    std::vector<double> weights;            ///< of a weighted order, by level
+    std::optional<int> draws;               ///< trials drawn with replacement, of a weighted order
+    int repetitions = 1;
+    RepetitionOrder repetition_order = RepetitionOrder::in_turn;
+    bool continues = false; ///< limits count the trials of the block before, too
+    std::optional<int> max_task_run, max_sculpture_run, max_material_run, max_stimulus_run;
+    std::optional<int> min_task_distance, min_sculpture_distance, min_material_distance,
+        min_stimulus_distance;
+};
+
+/// [[group]]: of observers, who differ in what they see.
+struct GroupSettings {
+    std::string id;
+    int cap = 0; ///< most observers; 0: no limit
+    // Left out: all.
+    std::vector<std::string> blocks, tasks, sculptures, materials;
+};
+
+} // namespace overt
