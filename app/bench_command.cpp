@@ -19,7 +19,7 @@ struct Benchmark {
 };
 
 constexpr Benchmark benchmarks[] = {
-    {"lut", bench_lut}, {"reproject", bench_reproject}, {"present", bench_present}};
+    {"lut", bench_lut}, {"reproject", bench_reproject}, {"present", bench_present}, {"frames", bench_frames}};
 
 } // namespace
 

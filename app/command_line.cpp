@@ -503,9 +503,10 @@ int run_command_line(int argc, char** argv) {
             "WHICH", bench.what,
             "lut: the hidden pass, its exactness, time and memory; reproject: gaze to "
             "surface, its exactness, speed and memory; present: a flip of a page, its time, processor "
-            "time, packing and memory, and the timing of presentations on displays whose faults are known")
+            "time, packing and memory, and the timing of presentations on displays whose faults are known; "
+            "frames: ready-made frames from files to the frame store")
         ->required()
-        ->check(CLI::IsMember({"lut", "reproject", "present"}));
+        ->check(CLI::IsMember({"lut", "reproject", "present", "frames"}));
     bench_command
         .add_option("--mesh", bench.mesh,
                     "Measure on this mesh (PLY, OBJ, STL) instead of the shipped sculptures")

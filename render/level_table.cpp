@@ -11,9 +11,6 @@ namespace {
 
 constexpr int ranges = 65536;
 
-/// What lies half-way between two levels, but for the rounding of the sums that led there, goes up.
-constexpr double tie = 1e-9;
-
 /// Also for what is not a number.
 double clipped(double light) { return light > 0.0 ? (light < 1.0 ? light : 1.0) : 0.0; }
 
@@ -39,7 +36,7 @@ void LevelTable::tabulate(const std::function<double(double)>& curve) {
     for (int level = 0; level <= levels_; ++level)
         add(lights_, curve(static_cast<double>(level) / levels_));
     for (int level = 1; level <= levels_; ++level)
-        add(borders_, curve((level - 0.5 - tie) / levels_));
+        add(borders_, curve((level - half) / levels_));
     for (int range = 0; range <= ranges; ++range) {
         const double begin = static_cast<double>(range) / ranges;
         first_of_range_.push_back(
@@ -50,7 +47,7 @@ void LevelTable::tabulate(const std::function<double(double)>& curve) {
 int LevelTable::level_of(double light) const noexcept {
     const double inside = clipped(light);
     if (linear_)
-        return static_cast<int>(inside * levels_ + (0.5 + tie));
+        return static_cast<int>(inside * levels_ + half);
     const auto range = static_cast<std::size_t>(inside * ranges);
     const auto last = range < ranges ? borders_.begin() + first_of_range_[range + 1] : borders_.end();
     const auto first = borders_.begin() + first_of_range_[range];

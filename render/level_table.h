@@ -27,6 +27,11 @@ class LevelTable {
 
     int levels() const { return levels_; }
 
+    /// Levels make light in proportion: the level of light x in 0 … 1 is floor(x * levels() + half).
+    bool is_linear() const { return linear_; }
+    /// What lies half-way between two levels, but for the rounding of the sums that led there, goes up.
+    static constexpr double half = 0.5 + 1e-9;
+
   private:
     void tabulate(const std::function<double(double)>& curve);
     double light_of(int level) const noexcept { return lights_[static_cast<std::size_t>(level)]; }

@@ -1,22 +1,82 @@
 #include "render/linear_image.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <span>
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include "experiment/error.h"
+#include "render/stored_values.h"
 
 namespace overt {
 
 namespace {
 
-/// IEC 61966-2-1, equations of the encoding and its inverse.
-float linear_from_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
-float srgb_from_linear(float v) {
-    return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
+/// Where in a file's pixel red, green, blue and alpha stand; alpha -1: nowhere.
+struct ChannelPlaces {
+    int channels = 4; ///< that are read
+    std::array<int, 4> of{0, 1, 2, -1};
+
+    bool are_rgba() const { return channels == 4 && of[3] == 3; }
+};
+
+ChannelPlaces places_in(const OIIO::ImageSpec& spec, const std::filesystem::path& file) {
+    ChannelPlaces places;
+    places.channels = std::min(spec.nchannels, 4);
+    if (spec.nchannels < 3)
+        places.of = {0, 0, 0, -1};
+    if (spec.alpha_channel >= 0)
+        places.of[3] = spec.alpha_channel;
+    else if (spec.nchannels == 4 || spec.nchannels == 2)
+        places.of[3] = spec.nchannels - 1;
+    if (places.of[3] >= places.channels) {
+        throw InputError(fmt::format("{}: alpha is its channel {}; it has to be among the first four",
+                                     file.string(), places.of[3] + 1));
+    }
+    return places;
+}
+
+std::span<float> values_of(LinearImage& image) { return {&image.pixels.data()->x, 4 * image.pixels.size()}; }
+
+/// What is known of a file's values.
+struct ValueFacts {
+    bool are_codes = false; ///< of 8 or 16 bits
+    bool are_finite = true;
+};
+
+/// Reads the channels of all pixels as floats.
+ValueFacts read_values(OIIO::ImageInput& input, const ChannelPlaces& places, std::span<float> into,
+                       const std::filesystem::path& file) {
+    const OIIO::ImageSpec& spec = input.spec();
+    const auto read = [&](OIIO::TypeDesc type, void* values) {
+        if (!input.read_image(0, 0, 0, places.channels, type, values))
+            throw InputError(
+                fmt::format("{}: reading the picture failed: {}", file.string(), input.geterror()));
+    };
+    const bool halves = spec.format == OIIO::TypeDesc::HALF, codes = spec.format == OIIO::TypeDesc::UINT16;
+    if ((!halves && !codes) || !spec.channelformats.empty()) {
+        read(OIIO::TypeDesc::FLOAT, into.data());
+        return {spec.format == OIIO::TypeDesc::UINT8, all_finite(into)};
+    }
+    // Kept for the next file that this thread reads.
+    thread_local std::vector<std::uint16_t> stored;
+    stored.resize(into.size());
+    read(OIIO::TypeDesc::UNKNOWN, stored.data()); // as they are
+    if (halves)
+        return {false, floats_of_halves(stored, into)};
+    floats_of_codes(stored, into);
+    return {true, true};
+}
+
+void decode_srgb(LinearImage& image, bool of_codes) {
+    for (glm::vec4& pixel : image.pixels) {
+        for (int channel = 0; channel < 3; ++channel)
+            pixel[channel] =
+                of_codes ? linear_from_srgb_code(pixel[channel]) : linear_from_srgb(pixel[channel]);
+    }
 }
 
 std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file) {
@@ -59,38 +119,38 @@ LinearImage read_linear_image(const std::filesystem::path& file, FrameEncoding e
 void read_linear_image(const std::filesystem::path& file, FrameEncoding encoding, LinearImage& into) {
     const auto input = open_image(file);
     const OIIO::ImageSpec spec = input->spec();
-    const bool grey = spec.nchannels < 3;
-    const int alpha = spec.alpha_channel >= 0 ? spec.alpha_channel
-                                              : (spec.nchannels == 4   ? 3
-                                                 : spec.nchannels == 2 ? 1
-                                                                       : -1);
-    // Its channels go to where the pixels will be, as many as have room there.
-    const int read = std::min(spec.nchannels, 4);
-    if (alpha >= read) {
-        throw InputError(fmt::format("{}: alpha is its channel {}; it has to be among the first four",
-                                     file.string(), alpha + 1));
-    }
+    const ChannelPlaces places = places_in(spec, file);
     into.size_px = {spec.width, spec.height};
     into.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height));
     // Each file is read by one thread: several are read at once.
     input->threads(1);
-    if (!input->read_image(0, 0, 0, read, OIIO::TypeDesc::FLOAT, into.pixels.data(), sizeof(glm::vec4))) {
-        throw InputError(fmt::format("{}: reading the picture failed: {}", file.string(), input->geterror()));
-    }
-    for (std::size_t i = 0; i < into.pixels.size(); ++i) {
-        const glm::vec4 value = into.pixels[i];
-        glm::vec4 pixel(value[0], value[grey ? 0 : 1], value[grey ? 0 : 2], alpha >= 0 ? value[alpha] : 1.0f);
-        if (encoding == FrameEncoding::srgb) {
-            for (int channel = 0; channel < 3; ++channel)
-                pixel[channel] = linear_from_srgb(pixel[channel]);
+    ValueFacts facts;
+    if (places.are_rgba()) {
+        facts = read_values(*input, places, values_of(into), file);
+    } else {
+        thread_local std::vector<float> values;
+        values.resize(into.pixels.size() * static_cast<std::size_t>(places.channels));
+        facts = read_values(*input, places, values, file);
+        const auto [r, g, b, a] = places.of;
+        const float* stored = values.data();
+        for (glm::vec4& pixel : into.pixels) {
+            pixel = {stored[r], stored[g], stored[b], a >= 0 ? stored[a] : 1.0f};
+            stored += places.channels;
         }
-        if (!std::isfinite(pixel.x + pixel.y + pixel.z + pixel.w)) {
+    }
+    if (!facts.are_finite) {
+        const auto bad = std::ranges::find_if(into.pixels, [](const glm::vec4& pixel) {
+            return !all_finite({&pixel.x, 4});
+        });
+        // What is bad may stand in a channel that nobody wants.
+        if (bad != into.pixels.end()) {
+            const auto index = static_cast<int>(bad - into.pixels.begin());
             throw InputError(fmt::format("{}: pixel ({}, {}) holds a value that is not a finite number",
-                                         file.string(), static_cast<int>(i) % spec.width,
-                                         static_cast<int>(i) / spec.width));
+                                         file.string(), index % spec.width, index / spec.width));
         }
-        into.pixels[i] = pixel;
     }
+    if (encoding == FrameEncoding::srgb)
+        decode_srgb(into, facts.are_codes);
 }
 
 glm::ivec2 image_size_px(const std::filesystem::path& file) {

@@ -234,3 +234,29 @@ TEST_CASE("8 bits are rounded to the nearest level after the display's exponent"
         CHECK(std::abs(bytes[4 * i] - exact) < 0.5001);
     }
 }
+
+TEST_CASE("whole pairs are sent as pairs that begin in the middle of a picture are", "[unit]") {
+    const glm::ivec2 size{64, 9};
+    RandomStream random(7, "pairs");
+    LinearImage picture(size);
+    for (glm::vec4& pixel : picture.pixels) {
+        for (int channel = 0; channel < 4; ++channel)
+            pixel[channel] =
+                static_cast<float>(random.uniform(channel == 3 ? 0.0 : -0.1, channel == 3 ? 1.0 : 1.1));
+    }
+    // The same with a transparent column before it, which takes the other way through the encoder.
+    LinearImage wider({size.x + 1, size.y});
+    for (int y = 0; y < size.y; ++y) {
+        for (int x = 0; x < size.x; ++x)
+            wider.at(x + 1, y) = picture.at(x, y);
+    }
+    DisplaySettings display = display_for(OutputMode::color_plus_plus, {size.x + 2, size.y});
+    display.background = 0.3;
+    const auto pairs = sent(display, picture, {2, 0}), all = sent(display, wider, {1, 0});
+    const auto columns = static_cast<std::size_t>(4 * size.x);
+    for (std::size_t row = 0; row < static_cast<std::size_t>(size.y); ++row) {
+        const auto begin = all.begin() + static_cast<std::ptrdiff_t>(row * (columns + 8) + 8);
+        CHECK(std::equal(begin, begin + static_cast<std::ptrdiff_t>(columns),
+                         pairs.begin() + static_cast<std::ptrdiff_t>(row * columns)));
+    }
+}
