@@ -155,14 +155,20 @@ int wrong_messages(PagePresenter& presenter, glm::ivec2 screen_px) {
     return wrong;
 }
 
+/// Every second of a VPixx device's outputs.
+constexpr int pixel_mode_trigger = 0x555555;
+
 int wrong_psync(PagePresenter& presenter, glm::ivec2 screen_px) {
     int wrong = 0;
     std::optional<int> before;
+    presenter.show({});
     for (int i = 0; i < 3; ++i) {
         presenter.flip({0});
         const std::vector<std::byte> bytes = presenter.read_canvas();
-        const std::optional<int> count = receive_messages({screen_px, bytes}).psync_count;
+        const ReceivedMessages received = receive_messages({screen_px, bytes});
+        const std::optional<int> count = received.psync_count;
         wrong += !count || (before && *count != (*before + 1) % 256);
+        wrong += received.pixel_mode_outputs != (i == 0 ? pixel_mode_trigger : 0);
         before = count;
     }
     return wrong;
@@ -172,6 +178,8 @@ void verify_output(ContextKind kind, const Output& output, DisplaySettings displ
     const glm::ivec2 screen{display.width_px, display.height_px};
     display.output = output.mode;
     display.dither = output.dither;
+    if (output.mode == OutputMode::vpixx_m16 || output.mode == OutputMode::vpixx_c48)
+        display.onset_trigger = pixel_mode_trigger;
     Stage stage(kind, screen, output.mode);
     const std::string where = fmt::format("{}, {}", name_of(kind), output.name());
     WireFindings all;

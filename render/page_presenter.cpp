@@ -211,9 +211,13 @@ FlipReport PagePresenter::show(const Screen& screen) {
 FlipReport PagePresenter::flip(AnimationFrameIndex frame) noexcept {
     OVERT_EXPECTS(loaded_ && frame.value >= 0 &&
                   static_cast<std::size_t>(frame.value) < loaded_->page_of_frame.size());
-    if (page_on_canvas_ < 0 && display_.onset_trigger != 0)
-        send_with_next_flip(t_lock::outputs_row, onset_packet_);
     const bool is_onset = page_on_canvas_ < 0;
+    if (is_onset && display_.onset_trigger != 0) {
+        if (has_t_lock(display_.output))
+            send_with_next_flip(t_lock::outputs_row, onset_packet_);
+        else
+            outputs_ = display_.onset_trigger;
+    }
     put_page(loaded_->page_of_frame[static_cast<std::size_t>(frame.value)]);
     if (is_onset || frame.value != frame_on_canvas_) {
         patch_is_white_ = is_onset || !patch_is_white_;
@@ -263,8 +267,12 @@ void PagePresenter::put_messages() noexcept {
     }
     if (display_.output == OutputMode::bits_plus_plus)
         put_row(t_lock::colour_table_row, 0, colour_table_row_);
-    if (has_psync(display_.output))
+    if (has_psync(display_.output)) {
+        const std::array<WirePixel, 1> outputs{psync::outputs_pixel(outputs_)};
+        put_row(psync::row, 0, outputs);
         put_row(psync::row, psync::first_px, psync::pixels_of(static_cast<std::uint8_t>(refreshes_ + 1)));
+        outputs_ = 0;
+    }
     for (std::optional<Message>& message : messages_) {
         if (message) {
             put_row(message->row, 0, message->pixels);

@@ -95,6 +95,7 @@ class PagePresenter final : public Presenter {
     bool rows_are_dirty_ = false;
     t_lock::ColourTableRow colour_table_row_{};
     t_lock::Packet onset_packet_;
+    int outputs_ = 0; ///< of a VPixx device, with the next flip
     // The square for a photodiode.
     struct Patch {
         PatchPlace place;

@@ -86,6 +86,11 @@ Packet pulse(std::uint16_t lines, double begin_ms, double duration_ms) noexcept 
 
 } // namespace t_lock
 
+WirePixel psync::outputs_pixel(int outputs) noexcept {
+    return {static_cast<std::uint8_t>(outputs & 255), static_cast<std::uint8_t>((outputs >> 8) & 255),
+            static_cast<std::uint8_t>((outputs >> 16) & 255), 255};
+}
+
 std::array<WirePixel, 8> psync::pixels_of(std::uint8_t count) noexcept {
     return {pixel(255, 0, 0),   pixel(0, 255, 0),   pixel(0, 0, 255),     pixel(255, 255, 0),
             pixel(255, 0, 255), pixel(0, 255, 255), pixel(255, 255, 255), pixel(0, count, 0)};

@@ -60,6 +60,10 @@ namespace psync {
 inline constexpr int row = 0;
 inline constexpr int first_px = 10;
 
+/// The top left pixel, whose colour a VPixx device in Pixel Mode puts on its 24 digital outputs for the
+/// refresh: red on 0 … 7, green on 8 … 15, blue on 16 … 23.
+WirePixel outputs_pixel(int outputs) noexcept;
+
 /// The eight pixels; `count` is that of the refresh, modulo 256.
 std::array<WirePixel, 8> pixels_of(std::uint8_t count) noexcept;
 

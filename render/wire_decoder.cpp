@@ -218,6 +218,10 @@ ReceivedMessages receive_messages(const WireScreen& screen) {
         }
     }
     messages.psync_count = read_psync(reader);
+    if (messages.psync_count) {
+        const Rgb corner = reader.colour(0, 0);
+        messages.pixel_mode_outputs = corner.r + 256 * corner.g + 65536 * corner.b;
+    }
     return messages;
 }
 

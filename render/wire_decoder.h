@@ -54,7 +54,8 @@ struct ReceivedTable {
 struct ReceivedMessages {
     std::vector<ReceivedTable> tables;
     std::vector<ReceivedPacket> packets;
-    std::optional<int> psync_count; ///< of the code in the top row
+    std::optional<int> psync_count;        ///< of the code in the top row
+    std::optional<int> pixel_mode_outputs; ///< of the top left pixel, where there is such a code
     std::vector<std::string> faults;
 };
 

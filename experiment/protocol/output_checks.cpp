@@ -46,15 +46,19 @@ void check_keys_of_mode(ProtocolExamination& examination) {
             "leave dither out, or take output = \"native-8bit\"");
     }
     if (has_t_lock(display.output)) {
+        if (display.onset_trigger > 1023)
+            examination.error(
+                {"display.onset_trigger"},
+                fmt::format("{} has ten digital outputs: onset_trigger may be 1023 at most", mode));
         if (display.width_px < t_lock_row_px)
             examination.error({"display.width_px", "display.output"},
                               fmt::format("{} carries messages in rows of {} px: the screen is narrower",
                                           mode, t_lock_row_px));
     } else {
-        if (display.onset_trigger != 0)
+        if (display.onset_trigger != 0 && is_native(display.output))
             examination.error({"display.onset_trigger"},
-                              fmt::format("{} has no digital outputs: onset_trigger needs mono++, color++ or "
-                                          "bits++",
+                              fmt::format("{} has no digital outputs: onset_trigger needs mono++, color++, "
+                                          "bits++, vpixx-m16 or vpixx-c48",
                                           mode));
         if (display.box.starts_with('/'))
             examination.error(

@@ -80,15 +80,19 @@ Section<DisplaySettings> display() {
                  &D::box},
                 {{.name = "onset_trigger",
                   .low = 0,
-                  .high = 1023,
-                  .explanation = "Digital outputs of a Display++ that the first refresh of a presentation "
-                                 "raises for 5 ms, as a sum of 1, 2, 4 … 512; 0 for none."},
+                  .high = 16777215,
+                  .explanation =
+                      "Digital outputs that the first refresh of a presentation raises, as a sum of "
+                      "1, 2, 4 …; 0 for none. A Display++ has ten (up to 1023) and raises them for "
+                      "5 ms; a VPixx device in its Pixel Mode has 24 and raises them for the "
+                      "refresh; see [output.md](output.md)."},
                  &D::onset_trigger},
                 {{.name = "photodiode",
                   .choices = patch_corners,
-                  .explanation = "A square in this corner that changes between white and black with each frame "
-                                 "of the animation, white first, for a photodiode; black otherwise. It stands "
-                                 "below the rows that carry messages."},
+                  .explanation =
+                      "A square in this corner that changes between white and black with each frame "
+                      "of the animation, white first, for a photodiode; black otherwise. It stands "
+                      "below the rows that carry messages."},
                  &D::photodiode},
                 {{.name = "photodiode_px",
                   .unit = "px",
@@ -123,9 +127,10 @@ Section<DisplaySettings> display() {
                   .unit = "MB",
                   .low = 1,
                   .high = 1000000,
-                  .explanation = "What the frames of the shown stimulus and of the next may take on the graphics "
-                                 "card. If both do not fit, the next is loaded before its trial instead of "
-                                 "during the answer before."},
+                  .explanation =
+                      "What the frames of the shown stimulus and of the next may take on the graphics "
+                      "card. If both do not fit, the next is loaded before its trial instead of "
+                      "during the answer before."},
                  &D::frame_store_mb},
                 {{.name = "background_cd_m2",
                   .unit = "cd/m2",

@@ -21,14 +21,18 @@ TEST_CASE("keys that a mode of output cannot follow are errors at these keys", "
             "13:10: color++ carries 16 bits in bytes that noise would turn into others: nothing to dither"});
     CHECK(ReadText(minimal_protocol, "[display]\noutput = \"native-10bit\"\ngamma = 2.2\nonset_trigger = 1\n")
               .lines() ==
-          Lines{"15:17: native-10bit has no digital outputs: onset_trigger needs mono++, color++ or bits++"});
+          Lines{"15:17: native-10bit has no digital outputs: onset_trigger needs mono++, color++, bits++, "
+                "vpixx-m16 or vpixx-c48"});
+    CHECK(ReadText(minimal_protocol, "[display]\noutput = \"bits++\"\nonset_trigger = 1024\n").lines() ==
+          Lines{"14:17: bits++ has ten digital outputs: onset_trigger may be 1023 at most"});
     CHECK(ReadText(minimal_protocol,
                    "[display]\noutput = \"bits++\"\nwidth_px = 512\nheight_px = 288\n[view]\n"
                    "width_px = 64\nheight_px = 64\n[screens]\ntext_height_deg = 1\n")
               .lines() == Lines{"14:12: bits++ carries messages in rows of 524 px: the screen is narrower"});
     for (const char* sound : {"output = \"native-8bit\"\ngamma = 2.2\ndither = \"blue-noise\"\n",
                               "output = \"vpixx-c48\"\npair_filter = \"lanczos\"\n",
-                              "output = \"bits++\"\nonset_trigger = 1023\n"}) {
+                              "output = \"bits++\"\nonset_trigger = 1023\n",
+                              "output = \"vpixx-m16\"\nonset_trigger = 16777215\n"}) {
         CAPTURE(sound);
         CHECK(ReadText(minimal_protocol, std::string("[display]\n") + sound).lines().empty());
     }

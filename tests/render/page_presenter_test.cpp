@@ -354,6 +354,28 @@ TEST_CASE("the onset trigger goes with the first refresh of each presentation, a
     }
 }
 
+TEST_CASE("the top left pixel raises a VPixx device's outputs for the first refresh of a presentation",
+          "[gl]") {
+    const auto context = make_headless_context(ContextKind::osmesa);
+    for (const OutputMode mode : {OutputMode::vpixx_m16, OutputMode::vpixx_c48}) {
+        Wire wire(*context, mode, {{32, 32}, {100, 100}}, {640, 300}, Dithering::none, 1.0, 0x8142a5);
+        for (int presentation = 0; presentation < 2; ++presentation) {
+            wire.presenter->show({});
+            CHECK(wire.messages().pixel_mode_outputs == 0);
+            wire.presenter->flip({1});
+            CHECK(wire.messages().pixel_mode_outputs == 0x8142a5);
+            const std::vector<std::byte> bytes = wire.presenter->read_canvas();
+            CHECK(bytes[0] == std::byte{0xa5});
+            CHECK(bytes[1] == std::byte{0x42});
+            CHECK(bytes[2] == std::byte{0x81});
+            for (const int frame : {1, 2}) {
+                wire.presenter->flip({frame});
+                CHECK(wire.messages().pixel_mode_outputs == 0);
+            }
+        }
+    }
+}
+
 TEST_CASE("PSYNC counts the refreshes on a black row", "[gl]") {
     const auto context = make_headless_context(ContextKind::osmesa);
     for (const OutputMode mode : {OutputMode::vpixx_m16, OutputMode::vpixx_c48}) {
