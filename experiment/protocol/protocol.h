@@ -177,12 +177,16 @@ struct MaterialSettings {
     std::string id;
     std::string title;
     MaterialKind kind = MaterialKind::smooth_conductor;
-    std::string metal = "Au"; ///< "Au" or "Ag"
+    std::string metal = "Au"; ///< "Au", "Ag", or a file (metal_table.h), resolved against the protocol's folder
     double roughness = 0.13;  ///< GGX alpha of rough_conductor
     double coat_ior = 1.4;
     std::array<double, 3> coat_absorbance{0.0, 0.10,
                                           0.75}; ///< red, green, blue, for one pass of the nominal thickness
-    double coat_bump = 0.01; ///< height of the coat's bumps as share of half the object's height
+    // The coat's shape, as shares of half the object's height.
+    double coat_thickness = 0.01;  ///< in the mean
+    double coat_bump = 0.01;       ///< height of its bumps
+    double coat_bump_width = 0.08; ///< from one bump to the next
+    int coat_seed = 0;             ///< of the bumps
     std::array<double, 3> reflectance{0.5, 0.5, 0.5}; ///< of diffuse
 };
 

@@ -1,27 +1,78 @@
 #include "render/bake/bake_scene.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "experiment/error.h"
 #include "experiment/scene/mesh_topology.h"
 #include "experiment/scene/metal_table.h"
+#include "render/bake/coat_surface.h"
 #include "render/bake/light_colour.h"
 
 namespace overt {
+
+namespace {
+
+/// Edges that are not between two triangles, at most, of a mesh that still counts as closed: what a scan
+/// leaves.
+constexpr double open_share = 1e-3;
+
+/// Throws InputError if a coat cannot be put around the mesh.
+void check_coatable(const EdgeCounts& edges, double volume) {
+    const std::size_t faulty = edges.boundary + edges.non_manifold + edges.conflicting;
+    if (static_cast<double>(faulty) > open_share * static_cast<double>(edges.edges)) {
+        throw InputError(fmt::format(
+            "a coat needs a closed surface, but {} of the mesh's {} edges are open, {} belong to more than "
+            "two "
+            "triangles and at {} the fronts disagree: close the mesh, or use a material without a coat",
+            edges.boundary, edges.edges, edges.non_manifold, edges.conflicting));
+    }
+    if (!(volume > 0.0)) {
+        throw InputError("a coat lies outside, but the mesh's fronts face inwards: turn its faces round, or "
+                         "use a material without a "
+                         "coat");
+    }
+}
+
+CoatShape coat_shape(const MaterialSettings& material, double half_height) {
+    return {material.coat_thickness * half_height, material.coat_bump * half_height,
+            material.coat_bump_width * half_height, static_cast<std::uint64_t>(material.coat_seed)};
+}
+
+} // namespace
 
 BakeScene::BakeScene(const Mesh& mesh, const MaterialSettings& material, double crease_deg)
     : material_(material), centre_(mesh.bounds().centre()) {
     if (mesh.triangles.empty())
         throw InputError("a mesh without triangles cannot be baked");
+    const double half_height = 0.5 * mesh.bounds().extent().z;
     radius_ = static_cast<float>(0.5 * mesh.bounds().diagonal());
+    const EdgeCounts edges = count_edges(mesh.triangles, mesh.positions.size());
+    const double volume = signed_volume(mesh);
     is_closed_ =
-        count_edges(mesh.triangles, mesh.positions.size()).bounds_volume() && signed_volume(mesh) > 0.0;
-    if (material.kind == MaterialKind::diffuse)
-        reflectance_ = Bins::of(reflectance_of(material.reflectance));
-    else
-        metal_ = ConductorTable(load_metal(material.metal), 1.0);
+        volume > 0.0 && static_cast<double>(edges.boundary + edges.non_manifold + edges.conflicting) <=
+                            open_share * static_cast<double>(edges.edges);
     body_surface_ = std::make_unique<TracedSurface>(mesh, centre_, crease_deg);
-    tree_ = std::make_unique<SurfaceTree>(std::vector<const TracedSurface*>{body_surface_.get()});
+    std::vector<const TracedSurface*> surfaces{body_surface_.get()};
+    if (material.kind == MaterialKind::diffuse) {
+        reflectance_ = Bins::of(reflectance_of(material.reflectance));
+    } else if (material.kind == MaterialKind::coated_conductor) {
+        check_coatable(edges, volume);
+        metal_ = ConductorTable(load_metal(material.metal), material.coat_ior);
+        const CoatShape shape = coat_shape(material, half_height);
+        coat_absorbance_ = Bins::of(absorbance_of(material.coat_absorbance));
+        scale(coat_absorbance_, static_cast<float>(1.0 / shape.thickness));
+        const Mesh outside = coat_over(mesh, shape);
+        coat_surface_ = std::make_unique<TracedSurface>(outside, centre_, 180.0);
+        for (const glm::vec3& position : coat_surface_->positions)
+            radius_ = std::max(radius_, glm::length(position));
+        coat_body_ = std::make_unique<SurfaceTree>(surfaces);
+        surfaces.push_back(coat_surface_.get());
+    } else {
+        metal_ = ConductorTable(load_metal(material.metal), 1.0);
+    }
+    tree_ = std::make_unique<SurfaceTree>(std::move(surfaces));
 }
 
 BakeScene::~BakeScene() = default;

@@ -105,6 +105,10 @@ const std::array<Spectrum, 3>& light_basis() {
     return basis;
 }
 
+Spectrum absorbance_of(const std::array<double, 3>& rgb) {
+    return weighted(absorbance_basis(), {rgb[0], rgb[1], rgb[2]});
+}
+
 Spectrum reflectance_of(const std::array<double, 3>& rec709) {
     const glm::dvec3 colour(rec709[0], rec709[1], rec709[2]);
     Spectrum reflectance = weighted(absorbance_basis(), bands_from_rec709() * colour);

@@ -29,6 +29,9 @@ const std::array<Spectrum, 3>& light_basis();
 /// over the spectrum. They add to 1 in each bin.
 const std::array<Spectrum, 3>& absorbance_basis();
 
+/// Absorbance (optical depth) given in red, green and blue, over the spectrum.
+Spectrum absorbance_of(const std::array<double, 3>& rgb);
+
 /// Reflectance whose colour under D65 is the given one; cut to 0 … 1 in each bin.
 Spectrum reflectance_of(const std::array<double, 3>& rec709);
 

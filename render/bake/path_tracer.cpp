@@ -49,6 +49,13 @@ bool goes_on(Bins& carried, SampleSequence& sequence) {
 
 bool PathTracer::add_sample(const PathRay& from_eye, SampleSequence& sequence, Bins& sum) {
     ++rays_;
+    if (scene_->kind() == MaterialKind::coated_conductor) {
+        if (scene_->body_tree().first_distance(from_eye, true) < 0.0f)
+            return false;
+        CoatedPath path{from_eye, Bins::filled(1.0f), 0, false};
+        follow_coated(path, sequence, sum);
+        return true;
+    }
     const SurfaceHit hit = scene_->tree().first_hit(from_eye, no_limit, true);
     if (hit.surface < 0)
         return false;
@@ -92,8 +99,8 @@ void PathTracer::follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, B
                 ray.direction = above(NormalFrame(normal).to_world(cosine_direction(sequence.next_two())),
                                       surface_normal);
                 break;
-            case MaterialKind::smooth_conductor:
-            case MaterialKind::coated_conductor: {
+            case MaterialKind::coated_conductor: // goes another way
+            case MaterialKind::smooth_conductor: {
                 const float cosine = glm::dot(to_eye, normal);
                 scene_->metal().multiply_into(carried, cosine);
                 ray.direction = above(glm::normalize(2.0f * cosine * normal - to_eye), surface_normal);
@@ -111,6 +118,80 @@ void PathTracer::follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, B
             return;
         }
     }
+}
+
+void PathTracer::follow_coated(CoatedPath& path, SampleSequence sequence, Bins& sum) {
+    for (int event = 0; event < most_events; ++event) {
+        ++rays_;
+        const SurfaceHit hit = scene_->tree().first_hit(path.ray, no_limit, event == 0 && !path.has_split);
+        if (hit.surface < 0) {
+            add_lit(sum, path.carried, light_->basis(), light_->towards(path.ray.direction, turn_));
+            return;
+        }
+        if (path.layers > 0)
+            absorb(path.carried, scene_->coat_absorbance(), hit.distance);
+        if (hit.surface == BakeScene::coat) {
+            if (!meet_coat(path, hit, sequence, sum))
+                return;
+        } else if (glm::dot(hit.triangle_normal, path.ray.direction) > 0.0f) {
+            // Slipped in at an edge, by rounding: let it out again.
+            path.ray.origin = hit.position + scene_->step_off() * hit.triangle_normal;
+        } else {
+            const glm::vec3 to_eye = -path.ray.direction, normal = facing(hit.shading_normal, to_eye);
+            const float cosine = glm::dot(to_eye, normal);
+            scene_->metal().multiply_into(path.carried, cosine);
+            path.ray.direction = above(glm::normalize(2.0f * cosine * normal - to_eye), hit.triangle_normal);
+            path.ray.origin = hit.position + scene_->step_off() * hit.triangle_normal;
+        }
+        if (!goes_on(path.carried, sequence))
+            return;
+    }
+}
+
+bool PathTracer::meet_coat(CoatedPath& path, const SurfaceHit& hit, SampleSequence& sequence, Bins& sum) {
+    const bool enters = glm::dot(hit.triangle_normal, path.ray.direction) < 0.0f;
+    const float side = enters ? 1.0f : -1.0f;
+    const glm::vec3 surface_normal = side * hit.triangle_normal;
+    const int layers_beyond = path.layers + (enters ? 1 : -1);
+    const glm::vec3 before = hit.position + scene_->step_off() * surface_normal;
+    const glm::vec3 beyond = hit.position - scene_->step_off() * surface_normal;
+    if ((path.layers > 0) == (layers_beyond > 0)) {
+        // Coat on both sides, or air: no surface, only the coat passing through itself.
+        path.layers = layers_beyond;
+        path.ray.origin = beyond;
+        return true;
+    }
+    const glm::vec3 to_eye = -path.ray.direction;
+    glm::vec3 normal = facing(side * hit.shading_normal, to_eye);
+    const float ior =
+        static_cast<float>(enters ? scene_->material().coat_ior : 1.0 / scene_->material().coat_ior);
+    glm::vec3 inward = glm::refract(path.ray.direction, normal, 1.0f / ior);
+    if (glm::dot(inward, surface_normal) > -1e-5f) {
+        // The shading normal would send it back: then the triangle's own normal has the say.
+        normal = surface_normal;
+        inward = glm::refract(path.ray.direction, normal, 1.0f / ior);
+    }
+    const float cosine = std::min(1.0f, glm::dot(normal, to_eye));
+    const float reflected = dielectric_fresnel(ior, cosine);
+    const PathRay back{before, above(glm::normalize(2.0f * cosine * normal - to_eye), surface_normal)};
+    if (!path.has_split) {
+        // Both ways once, at the first meeting: which of the two shows is most of what chance would bring
+        // into the picture.
+        path.has_split = true;
+        CoatedPath mirrored = path;
+        mirrored.ray = back;
+        scale(mirrored.carried, reflected);
+        follow_coated(mirrored, sequence, sum);
+        scale(path.carried, 1.0f - reflected);
+    } else if (sequence.next() < reflected) {
+        path.ray = back;
+        return true;
+    }
+    if (reflected >= 1.0f)
+        return false;
+    path.ray = {beyond, glm::normalize(inward)};
+    path.layers = layers_beyond;
+    return true;
 }
 
 } // namespace overt

@@ -26,7 +26,17 @@ class PathTracer {
     std::uint64_t rays() const { return rays_; }
 
   private:
+    /// What a path through a coat is about.
+    struct CoatedPath {
+        PathRay ray;
+        Bins carried;
+        int layers = 0; ///< of coat that it is in: where the coat passes through itself, more than one
+        bool has_split = false;
+    };
+
     void follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, Bins& sum);
+    void follow_coated(CoatedPath& path, SampleSequence sequence, Bins& sum);
+    bool meet_coat(CoatedPath& path, const SurfaceHit& hit, SampleSequence& sequence, Bins& sum);
 
     const BakeScene* scene_;
     const SpectralLight* light_;
