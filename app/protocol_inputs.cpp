@@ -5,6 +5,7 @@
 #include "app/progress_bar.h"
 #include "app/protocol_file.h"
 #include "experiment/error.h"
+#include "experiment/scene/metal_table.h"
 #include "render/given_maps.h"
 #include "render/light_probe.h"
 #include "render/ready_made_frames.h"
@@ -78,6 +79,23 @@ void examine_given_maps(const Protocol& protocol, Diagnostics& diagnostics) {
     }
 }
 
+void examine_surroundings(const Protocol& protocol, Diagnostics& diagnostics) {
+    const Place probe = protocol.places.of("light.probe");
+    if (protocol.light.probe != "overcast") {
+        examine(protocol, probe, diagnostics, [&] {
+            if (const int negative = load_light_probe(protocol.light).negative_texels; negative > 0) {
+                diagnostics.warning(protocol.file.string(), probe,
+                                    fmt::format("{} texels of {} hold negative light, which counts as none",
+                                                negative, protocol.light.probe));
+            }
+        });
+    }
+    for (std::size_t i = 0; i < protocol.materials.size(); ++i) {
+        examine(protocol, protocol.places.of(fmt::format("material[{}].metal", i)), diagnostics,
+                [&] { load_metal(protocol.materials[i].metal); });
+    }
+}
+
 void examine_frames(const Protocol& protocol, Diagnostics& diagnostics) {
     ProgressBar bar;
     const int count = static_cast<int>(protocol.frames.size());
@@ -101,9 +119,7 @@ std::optional<Experiment> read_experiment(const std::filesystem::path& file,
         return std::nullopt;
     Experiment experiment{*std::move(protocol), {}};
     experiment.sculptures = examine_sculptures(experiment.protocol, cache, diagnostics);
-    if (experiment.protocol.light.probe != "overcast")
-        examine(experiment.protocol, experiment.protocol.places.of("light.probe"), diagnostics,
-                [&] { load_light_probe(experiment.protocol.light); });
+    examine_surroundings(experiment.protocol, diagnostics);
     if (depth == InputDepth::everything) {
         examine_frames(experiment.protocol, diagnostics);
         examine_given_maps(experiment.protocol, diagnostics);

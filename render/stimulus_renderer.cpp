@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "experiment/error.h"
-#include "experiment/scene/spectra.h"
+#include "experiment/scene/metal_table.h"
 #include "render_shaders.h"
 
 namespace overt {
@@ -74,7 +74,7 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
                                     ? glm::vec3(glm::dvec3(material_.reflectance[0], material_.reflectance[1],
                                                            material_.reflectance[2]))
                                     : glm::vec3(linear_rec709_of(normal_reflectance(
-                                          metal_index(material_.metal), coated ? material_.coat_ior : 1.0))));
+                                          load_metal(material_.metal), coated ? material_.coat_ior : 1.0))));
     program_.set("lobe_radius", diffuse ? 1.0f
                                 : material_.kind == MaterialKind::rough_conductor
                                     ? static_cast<float>(2.0 * material_.roughness)

@@ -1,4 +1,5 @@
 #include "experiment/protocol/protocol_checks.h"
+#include "experiment/scene/metal_table.h"
 
 #include <system_error>
 
@@ -53,6 +54,13 @@ void check_files(ProtocolExamination& examination) {
             check_sequence(examination, lut, "maps", [&](AnimationFrameIndex frame) {
                 return lut_file(protocol.sculptures[i], frame);
             });
+        }
+    }
+    for (std::size_t i = 0; i < protocol.materials.size(); ++i) {
+        const std::string& metal = protocol.materials[i].metal;
+        if (is_metal_file(metal) && !is_file(metal)) {
+            examination.error({fmt::format("material[{}].metal", i)},
+                              fmt::format("there is no file {}", metal), remedy);
         }
     }
     for (std::size_t i = 0; i < protocol.frames.size(); ++i) {

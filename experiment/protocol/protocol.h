@@ -184,8 +184,8 @@ struct MaterialSettings {
                                           0.75}; ///< red, green, blue, for one pass of the nominal thickness
     // The coat's shape, as shares of half the object's height.
     double coat_thickness = 0.01;  ///< in the mean
-    double coat_bump = 0.01;       ///< height of its bumps
-    double coat_bump_width = 0.08; ///< from one bump to the next
+    double coat_bump = 0.015;      ///< height of its bumps
+    double coat_bump_width = 0.05; ///< from one bump to the next
     int coat_seed = 0;             ///< of the bumps
     std::array<double, 3> reflectance{0.5, 0.5, 0.5}; ///< of diffuse
 };

@@ -12,6 +12,7 @@
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/protocol/toml_tree.h"
 #include "experiment/protocol/value_reader.h"
+#include "experiment/scene/metal_table.h"
 
 namespace overt {
 
@@ -212,6 +213,8 @@ void complete(Protocol& protocol) {
     for (MaterialSettings& material : protocol.materials) {
         if (material.title.empty())
             material.title = material.id;
+        if (is_metal_file(material.metal))
+            material.metal = (folder / material.metal).string();
     }
     for (FrameSequenceSettings& sequence : protocol.frames) {
         if (!sequence.files.empty())

@@ -1,4 +1,5 @@
 #include "experiment/protocol/protocol_checks.h"
+#include "experiment/scene/metal_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -161,10 +162,21 @@ void check_materials(ProtocolExamination& examination) {
         {"roughness", {MaterialKind::rough_conductor}},
         {"coat_ior", {MaterialKind::coated_conductor}},
         {"coat_absorbance", {MaterialKind::coated_conductor}},
+        {"coat_thickness", {MaterialKind::coated_conductor}},
         {"coat_bump", {MaterialKind::coated_conductor}},
+        {"coat_bump_width", {MaterialKind::coated_conductor}},
+        {"coat_seed", {MaterialKind::coated_conductor}},
         {"reflectance", {MaterialKind::diffuse}}};
     const std::vector<MaterialSettings>& materials = examination.protocol.materials;
+    constexpr std::string_view metals[] = {"Au", "Ag"};
     for (std::size_t i = 0; i < materials.size(); ++i) {
+        const std::string& metal = materials[i].metal;
+        if (!is_metal_file(metal) &&
+            std::find(std::begin(metals), std::end(metals), metal) == std::end(metals)) {
+            examination.error(
+                {entry_path("material", i, "metal")}, fmt::format("there is no metal \"{}\"", metal),
+                "known are \"Au\" and \"Ag\"; for another give a table, a file that ends in .csv");
+        }
         for (const auto& [key, kinds] : kinds_of_key) {
             const std::string path = entry_path("material", i, key), kind = entry_path("material", i, "kind");
             const bool matters = std::find(kinds.begin(), kinds.end(), materials[i].kind) != kinds.end();

@@ -5,7 +5,6 @@ namespace overt::key_rows {
 namespace {
 
 constexpr std::string_view axes[] = {"x", "y", "z", "-x", "-y", "-z"};
-constexpr std::string_view metals[] = {"Au", "Ag"};
 
 Section<SculptureSettings> head() {
     using S = SculptureSettings;
@@ -256,7 +255,10 @@ Section<MaterialSettings> material() {
                   .explanation = "Polished metal, brushed metal, polished metal under a bumpy coloured "
                                  "coat, or a matt surface."},
                  &M::kind},
-                {{.name = "metal", .choices = metals, .explanation = "Gold or silver, of the conductors."},
+                {{.name = "metal",
+                  .explanation = "\"Au\" for gold, \"Ag\" for silver, or a table of another conductor: a "
+                                 "CSV file with the columns wavelength_nm, n and k, by its path from the "
+                                 "protocol's folder."},
                  &M::metal},
                 {{.name = "roughness",
                   .low = 0.001,
@@ -271,11 +273,27 @@ Section<MaterialSettings> material() {
                   .explanation = "Optical depth of the coat in red, green and blue, for one pass of its "
                                  "nominal thickness."},
                  &M::coat_absorbance},
+                {{.name = "coat_thickness",
+                  .low = 0.0001,
+                  .high = 0.1,
+                  .explanation = "Nominal thickness of the coat, as share of half the sculpture's height."},
+                 &M::coat_thickness},
                 {{.name = "coat_bump",
                   .low = 0,
                   .high = 0.2,
-                  .explanation = "Height of the coat's bumps, as share of half the sculpture's height."},
+                  .explanation = "Height of the coat's bumps, as share of half the sculpture's height; the "
+                                 "coat is nowhere thinner than a tenth of its nominal thickness."},
                  &M::coat_bump},
+                {{.name = "coat_bump_width",
+                  .low = 0.005,
+                  .high = 2,
+                  .explanation = "From one bump to the next, as share of half the sculpture's height."},
+                 &M::coat_bump_width},
+                {{.name = "coat_seed",
+                  .low = 0,
+                  .high = 2147483647,
+                  .explanation = "Another number, other bumps."},
+                 &M::coat_seed},
                 {{.name = "reflectance",
                   .low = 0,
                   .high = 1,

@@ -44,7 +44,7 @@ TEST_CASE("a protocol with many errors reports all of them with their places", "
         {{43, 1}, "sculpture \"penelope\" has neither \"shipped\" nor \"mesh\""},
         {{49, 13}, "roughness: 1.3 is out of range, which is 0.001 … 1"},
         {{51, 1}, "[[material]] has no \"kind\""},
-        {{53, 9}, "metal: unknown value \"Fe\""},
+        {{53, 9}, "there is no metal \"Fe\""},
         {{55, 1}, "[[task]] has no \"id\""},
         {{56, 12}, "question: expected a text, found a whole number"},
         {{59, 13}, "there is no [[sculpture]] \"hermse\""},
