@@ -18,8 +18,11 @@ struct Benchmark {
     BenchFigures (*measure)(const BenchOptions&);
 };
 
-constexpr Benchmark benchmarks[] = {
-    {"lut", bench_lut}, {"reproject", bench_reproject}, {"present", bench_present}, {"frames", bench_frames}};
+constexpr Benchmark benchmarks[] = {{"lut", bench_lut},
+                                    {"reproject", bench_reproject},
+                                    {"present", bench_present},
+                                    {"frames", bench_frames},
+                                    {"bake", bench_bake}};
 
 } // namespace
 

@@ -28,5 +28,8 @@ BenchFigures bench_reproject(const BenchOptions& options);
 BenchFigures bench_present(const BenchOptions& options);
 /// Ready-made frames from files to the frame store, against OpenImageIO alone.
 BenchFigures bench_frames(const BenchOptions& options);
+/// A baked frame of each material: its time beside that of its rays, its errors against many samples, and
+/// what a whole bake takes.
+BenchFigures bench_bake(const BenchOptions& options);
 
 } // namespace overt

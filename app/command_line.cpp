@@ -504,9 +504,11 @@ int run_command_line(int argc, char** argv) {
             "lut: the hidden pass, its exactness, time and memory; reproject: gaze to "
             "surface, its exactness, speed and memory; present: a flip of a page, its time, processor "
             "time, packing and memory, and the timing of presentations on displays whose faults are known; "
-            "frames: ready-made frames from files to the frame store")
+            "frames: ready-made frames from files to the frame store; "
+            "bake: a frame of each material, its time beside that of its rays, its errors, and the hours "
+            "of a whole bake")
         ->required()
-        ->check(CLI::IsMember({"lut", "reproject", "present", "frames"}));
+        ->check(CLI::IsMember({"lut", "reproject", "present", "frames", "bake"}));
     bench_command
         .add_option("--mesh", bench.mesh,
                     "Measure on this mesh (PLY, OBJ, STL) instead of the shipped sculptures")
@@ -517,6 +519,22 @@ int run_command_line(int argc, char** argv) {
     bench_command.add_option("--size", bench.size_px, "Width and height of the picture")
         ->type_name("PX")
         ->check(CLI::Range(16, 8192))
+        ->capture_default_str();
+    bench_command
+        .add_option("--probe", bench.probe,
+                    "bake: a latitude-longitude picture of the surroundings instead of the overcast sky")
+        ->type_name("FILE")
+        ->check(CLI::ExistingFile);
+    bench_command
+        .add_option("--samples", bench.samples, "bake: samples of a pixel, of the frames that are timed")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
+    bench_command
+        .add_option("--reference-size", bench.reference_size_px,
+                    "bake: width and height of the pictures whose errors are measured, against 1024 "
+                    "samples; from 384 on they have targets")
+        ->type_name("PX")
+        ->check(CLI::Range(16, 2048))
         ->capture_default_str();
     add_context_option(bench_command, bench.context);
     bench_command.add_flag("--json", bench.json, "Print JSON");

@@ -183,10 +183,13 @@ struct DisplayModeOptions {
 int run_display_mode(const DisplayModeOptions& options);
 
 struct BenchOptions {
-    std::string what;           ///< which benchmark
-    std::filesystem::path mesh; ///< measure on this one instead of the shipped sculptures
-    std::string up = "z";       ///< axis of the mesh file that points up
-    int size_px = 1024;         ///< width and height of the picture
+    std::string what;            ///< which benchmark
+    std::filesystem::path mesh;  ///< measure on this one instead of the shipped sculptures
+    std::string up = "z";        ///< axis of the mesh file that points up
+    int size_px = 1024;          ///< width and height of the picture
+    std::filesystem::path probe; ///< bake: surroundings other than the overcast sky
+    int samples = 16;            ///< bake: of a pixel, of the frames whose time is taken
+    int reference_size_px = 128; ///< bake: of the pictures whose errors are measured
     ContextChoice context;
     bool json = false;
 };

@@ -42,23 +42,6 @@ bool is_near_one(const std::vector<std::uint8_t>& any, glm::ivec2 place, glm::iv
     return false;
 }
 
-/// CIE 1976 L*a*b* against the white of light (1, 1, 1).
-glm::vec3 lab_of(glm::dvec3 xyz) {
-    static const glm::dvec3 white = [] {
-        std::array<float, spectral_bins> light{};
-        for (std::size_t bin = 0; bin < spectral_bins; ++bin)
-            light[bin] =
-                static_cast<float>(light_basis()[0][bin] + light_basis()[1][bin] + light_basis()[2][bin]);
-        return xyz_of_light(light);
-    }();
-    const auto f = [](double t) {
-        constexpr double knee = 216.0 / 24389.0;
-        return t > knee ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0;
-    };
-    const double x = f(xyz.x / white.x), y = f(xyz.y / white.y), z = f(xyz.z / white.z);
-    return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
-}
-
 glm::dvec3 xyz_of(const Bins& light) {
     return xyz_of_light(std::span<const float, spectral_bins>(light.value.data(), spectral_bins));
 }
@@ -98,17 +81,28 @@ const FilmPixel* Film::at(glm::ivec2 place) const {
     return index == untraced ? nullptr : &pixels_[index];
 }
 
-glm::vec3 Film::xyz_of_sum(std::size_t index) const { return glm::vec3(xyz_of(pixels_[index].light)); }
+void Film::begin_round(std::span<const std::uint32_t> active) {
+    for (const std::uint32_t index : active) {
+        FilmPixel& pixel = pixels_[index];
+        pixel.xyz_before = glm::vec3(xyz_of(pixel.light));
+        pixel.samples_before = pixel.samples;
+    }
+}
 
 std::vector<float> Film::evened_errors(double exposure) const {
-    std::vector<float> squared(count());
+    std::vector<float> squared(count(), 0.0f);
     for (std::size_t i = 0; i < count(); ++i) {
         const FilmPixel& pixel = pixels_[i];
-        // Both halves have as many samples; their difference is twice the error of their mean.
+        if (pixel.samples == pixel.samples_before || pixel.samples_before == 0)
+            continue;
+        // Two means of independent samples: their difference, times the root of the product of their shares,
+        // is the error of the mean of all.
+        const double all = pixel.samples, share = pixel.samples_before / all;
         const glm::dvec3 before(pixel.xyz_before), both = xyz_of(pixel.light);
-        const double factor = 2.0 * exposure / std::max(1u, pixel.samples);
-        const float difference = glm::distance(lab_of(factor * before), lab_of(factor * (both - before)));
-        squared[i] = 0.25f * difference * difference;
+        const glm::dvec3 lab_before = lab_of_xyz(exposure / (share * all) * before);
+        const glm::dvec3 lab_after = lab_of_xyz(exposure / ((1.0 - share) * all) * (both - before));
+        const double error = glm::distance(lab_before, lab_after) * std::sqrt(share * (1.0 - share));
+        squared[i] = static_cast<float>(error * error);
     }
     std::vector<float> errors(count());
     for (std::size_t i = 0; i < count(); ++i) {
@@ -127,7 +121,7 @@ std::vector<float> Film::evened_errors(double exposure) const {
     return errors;
 }
 
-std::vector<std::uint32_t> Film::noisier_than(double target_de, double exposure) {
+std::vector<std::uint32_t> Film::noisier_than(double target_de, double exposure, std::uint32_t samples) {
     const std::vector<float> errors = evened_errors(exposure);
     std::vector<std::uint32_t> noisy;
     for (std::size_t i = 0; i < count(); ++i) {
@@ -141,7 +135,8 @@ std::vector<std::uint32_t> Film::noisier_than(double target_de, double exposure)
                     static_cast<double>(errors[static_cast<std::size_t>(other - pixels_.data())]) > target_de;
             }
         }
-        if (is_noisy)
+        // Who has stopped stays so: its next samples would not follow on its last.
+        if (is_noisy && pixels_[i].samples == samples)
             noisy.push_back(static_cast<std::uint32_t>(i));
     }
     return noisy;

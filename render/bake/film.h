@@ -17,7 +17,9 @@ struct FilmPixel {
     Bins light{}; ///< sum over the samples that met the mesh
     std::uint32_t samples = 0;
     std::uint32_t met = 0;
-    glm::vec3 xyz_before{0.0f}; ///< sum before the last round
+    // Before the last round.
+    glm::vec3 xyz_before{0.0f}; ///< sum of the CIE XYZ
+    std::uint32_t samples_before = 0;
     float error_de =
         -1.0f; ///< of the mean, estimated from how the last round differs from those before; < 0: not yet
 };
@@ -37,12 +39,13 @@ class Film {
     /// By column and row; nullptr if it is not traced or outside.
     const FilmPixel* at(glm::ivec2 place) const;
 
-    /// CIE XYZ of the light gathered in a pixel.
-    glm::vec3 xyz_of_sum(std::size_t index) const;
+    /// Notes what some pixels have gathered so far.
+    void begin_round(std::span<const std::uint32_t> active);
 
     /// Estimates each pixel's error from its last round, evened out over 5 x 5 pixels since one alone may be
-    /// lucky, and gives the pixels of which one within 3 x 3 has more than `target_de`.
-    std::vector<std::uint32_t> noisier_than(double target_de, double exposure);
+    /// lucky, and gives those with so many samples around which, within 3 x 3, one has an error above the
+    /// target.
+    std::vector<std::uint32_t> noisier_than(double target_de, double exposure, std::uint32_t samples);
 
     /// The picture, its alpha after the law of SpectralFrame.
     SpectralFrame develop(std::span<const std::uint8_t> covered) const;

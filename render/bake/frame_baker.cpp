@@ -116,8 +116,7 @@ SpectralFrame bake_frame(const BakeScene& scene, const SpectralLight& light, con
     std::uint32_t first = 0;
     const std::vector<std::uint32_t> rounds = rounds_of(settings);
     for (const std::uint32_t last : rounds) {
-        for (const std::uint32_t index : active)
-            film.pixel(index).xyz_before = film.xyz_of_sum(index);
+        film.begin_round(active);
         constexpr std::size_t batch = 64;
         parallel_for(
             static_cast<int>((active.size() + batch - 1) / batch),
@@ -137,7 +136,7 @@ SpectralFrame bake_frame(const BakeScene& scene, const SpectralLight& light, con
             return {};
         first = last;
         if (rounds.size() > 1 && last > rounds.front())
-            active = film.noisier_than(settings.target_error_de, light.exposure());
+            active = film.noisier_than(settings.target_error_de, light.exposure(), last);
     }
     SpectralFrame frame = film.develop(covered);
     frame.rays = static_cast<double>(rays.load());

@@ -77,6 +77,16 @@ glm::dvec3 rec709_of_xyz(glm::dvec3 xyz) {
     return rec709_from_xyz * xyz / white;
 }
 
+glm::dvec3 lab_of_xyz(glm::dvec3 xyz) {
+    static const glm::dvec3 white = xyz_of(white_light());
+    const auto f = [](double t) {
+        constexpr double knee = 216.0 / 24389.0; // CIE 15: (6/29)^3
+        return t > knee ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0;
+    };
+    const double x = f(xyz.x / white.x), y = f(xyz.y / white.y), z = f(xyz.z / white.z);
+    return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
+}
+
 const std::array<Spectrum, 3>& absorbance_basis() {
     static const std::array<Spectrum, 3> bands = [] {
         std::array<Spectrum, 3> made{};

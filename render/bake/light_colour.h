@@ -19,6 +19,9 @@ glm::dvec3 xyz_of_light(std::span<const float, spectral_bins> light);
 /// matrix of IEC 61966-2-1 and, channel by channel, what its rounding and 31 coarse bins leave.
 glm::dvec3 rec709_of_xyz(glm::dvec3 xyz);
 
+/// CIE 1976 L*a*b* of XYZ against the white (1, 1, 1) of Rec.709. Nothing is cut off: L* may exceed 100.
+glm::dvec3 lab_of_xyz(glm::dvec3 xyz);
+
 /// Light of the colours (1, 0, 0), (0, 1, 0) and (0, 0, 1): three bands that share the spectrum, with soft
 /// edges at 495 and 590 nm (logistic, 9 nm), times D65, mixed so that each sum of them has the colour that it
 /// was made from. White gives D65 itself. Since it is linear, a probe may be filtered before or after. A bin

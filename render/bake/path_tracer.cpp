@@ -32,9 +32,10 @@ glm::vec3 above(glm::vec3 direction, glm::vec3 surface_normal) {
                : glm::normalize(direction + (2.0f * least - 2.0f * std::min(height, 0.0f)) * surface_normal);
 }
 
-/// Ends a path that carries little by chance, and lets it carry more if it goes on: right in the mean.
-bool goes_on(Bins& carried, SampleSequence& sequence) {
-    constexpr float little = 0.1f;
+/// Ends a path that carries little of what it set out with by chance, and lets it carry more if it goes on:
+/// right in the mean.
+bool goes_on(Bins& carried, float set_out, SampleSequence& sequence) {
+    const float little = 0.1f * set_out;
     const float most = carried.largest();
     if (most >= little)
         return true;
@@ -52,7 +53,7 @@ bool PathTracer::add_sample(const PathRay& from_eye, SampleSequence& sequence, B
     if (scene_->kind() == MaterialKind::coated_conductor) {
         if (scene_->body_tree().first_distance(from_eye, true) < 0.0f)
             return false;
-        CoatedPath path{from_eye, Bins::filled(1.0f), 0, false};
+        CoatedPath path{from_eye, Bins::filled(1.0f)};
         follow_coated(path, sequence, sum);
         return true;
     }
@@ -108,7 +109,7 @@ void PathTracer::follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, B
             }
             }
             ray.origin = hit.position + scene_->step_off() * surface_normal;
-            if (!goes_on(carried, sequence))
+            if (!goes_on(carried, 1.0f, sequence))
                 return;
         }
         ++rays_;
@@ -143,7 +144,7 @@ void PathTracer::follow_coated(CoatedPath& path, SampleSequence sequence, Bins& 
             path.ray.direction = above(glm::normalize(2.0f * cosine * normal - to_eye), hit.triangle_normal);
             path.ray.origin = hit.position + scene_->step_off() * hit.triangle_normal;
         }
-        if (!goes_on(path.carried, sequence))
+        if (!goes_on(path.carried, path.set_out, sequence))
             return;
     }
 }
@@ -166,7 +167,7 @@ bool PathTracer::meet_coat(CoatedPath& path, const SurfaceHit& hit, SampleSequen
     const float ior =
         static_cast<float>(enters ? scene_->material().coat_ior : 1.0 / scene_->material().coat_ior);
     glm::vec3 inward = glm::refract(path.ray.direction, normal, 1.0f / ior);
-    if (glm::dot(inward, surface_normal) > -1e-5f) {
+    if (inward != glm::vec3(0.0f) && glm::dot(inward, surface_normal) > -1e-5f) {
         // The shading normal would send it back: then the triangle's own normal has the say.
         normal = surface_normal;
         inward = glm::refract(path.ray.direction, normal, 1.0f / ior);
@@ -181,6 +182,7 @@ bool PathTracer::meet_coat(CoatedPath& path, const SurfaceHit& hit, SampleSequen
         CoatedPath mirrored = path;
         mirrored.ray = back;
         scale(mirrored.carried, reflected);
+        mirrored.set_out = reflected;
         follow_coated(mirrored, sequence, sum);
         scale(path.carried, 1.0f - reflected);
     } else if (sequence.next() < reflected) {

@@ -30,7 +30,8 @@ class PathTracer {
     struct CoatedPath {
         PathRay ray;
         Bins carried;
-        int layers = 0; ///< of coat that it is in: where the coat passes through itself, more than one
+        float set_out = 1.0f; ///< what it carried at first
+        int layers = 0;       ///< of coat that it is in: where the coat passes through itself, more than one
         bool has_split = false;
     };
 
