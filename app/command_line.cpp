@@ -47,12 +47,12 @@ CLI::App& add_command(CLI::App& app, const std::string& name, const std::string&
 
 void add_characterise_command(CLI::App& display, DisplayCharacteriseOptions& options,
                               std::function<void()> chosen) {
-    CLI::App& command = add_command(
-        display, "characterise",
-        "Measures the display with a photometer, fits its light and curves, and proves them",
-        "overt display characterise protocols/overt_2019.toml --out lab3.toml --warm-up 30\n"
-        "  overt display characterise --readings lab3_readings.csv --out lab3.toml\n"
-        "  overt display characterise --simulated 1 --context osmesa --out simulated.toml");
+    CLI::App& command =
+        add_command(display, "characterise",
+                    "Measures the display with a photometer, fits its light and curves, and proves them",
+                    "overt display characterise protocols/overt_2019.toml --out lab3.toml --warm-up 30\n"
+                    "  overt display characterise --readings lab3_readings.csv --out lab3.toml\n"
+                    "  overt display characterise --simulated 1 --context osmesa --out simulated.toml");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML): its screen and output");
     command.add_option("--out", options.out, "File to write; readings and report go beside it")
         ->type_name("FILE.toml")
@@ -64,11 +64,10 @@ void add_characterise_command(CLI::App& display, DisplayCharacteriseOptions& opt
                          ->type_name("FILE.csv");
     auto* typed = command.add_flag("--typed", options.typed,
                                    "Ask at the terminal for what an instrument shows, patch by patch");
-    auto* simulated =
-        command
-            .add_option("--simulated", options.simulated,
-                        "A simulated photometer before a simulated display: a rehearsal")
-            ->type_name("SEED");
+    auto* simulated = command
+                          .add_option("--simulated", options.simulated,
+                                      "A simulated photometer before a simulated display: a rehearsal")
+                          ->type_name("SEED");
     readings->excludes(typed)->excludes(simulated);
     typed->excludes(simulated);
     command.add_option("--port", options.port, "Serial port of the ColorCAL (default: the only one)")
@@ -126,11 +125,13 @@ void add_characterise_command(CLI::App& display, DisplayCharacteriseOptions& opt
 }
 
 void add_colour_command(CLI::App& display, DisplayColourOptions& options, std::function<void()> chosen) {
-    CLI::App& command = add_command(
-        display, "colour", "Which signal makes a colour on a characterised display, and which colour a light is",
-        "overt display colour lab3.toml --xyz 41.2 43.5 46.1\n"
-        "  overt display colour lab3.toml --spectra patches.csv --json");
-    command.add_option("CHARACTERISATION", options.characterisation, "Characterisation file (TOML)")->required();
+    CLI::App& command =
+        add_command(display, "colour",
+                    "Which signal makes a colour on a characterised display, and which colour a light is",
+                    "overt display colour lab3.toml --xyz 41.2 43.5 46.1\n"
+                    "  overt display colour lab3.toml --spectra patches.csv --json");
+    command.add_option("CHARACTERISATION", options.characterisation, "Characterisation file (TOML)")
+        ->required();
     auto* colours = command.add_option_group("one colour, or a table of them");
     colours->add_option("--xyz", options.xyz, "XYZ in cd/m2")->expected(3)->type_name("X Y Z");
     colours->add_option("--cones", options.cones, "Cone excitations in W/(sr m2), CIE 2006, 2 degrees")
@@ -145,8 +146,9 @@ void add_colour_command(CLI::App& display, DisplayColourOptions& options, std::f
         ->type_name("FILE.csv");
     colours->require_option(1);
     command
-        .add_option("--observer", options.observer,
-                    "For whom --xyz and --spectra are matched; all but cie1931 need the spectra of the display")
+        .add_option(
+            "--observer", options.observer,
+            "For whom --xyz and --spectra are matched; all but cie1931 need the spectra of the display")
         ->check(CLI::IsMember({"cie1931", "cie2006", "cie2006-cones"}))
         ->capture_default_str();
     command.add_flag("--json", options.json, "Print JSON");
@@ -234,9 +236,10 @@ int run_command_line(int argc, char** argv) {
                          "Decode every page before the first trial, compare it with its prediction, and "
                          "record the result with the hash of what is sent");
     run_command
-        .add_option("--faults", run.faults,
-                    "Rehearse on a display that does wrong what this file (TOML) says: late pictures, skipped "
-                    "refreshes, stalls, jitter and drift of time stamps")
+        .add_option(
+            "--faults", run.faults,
+            "Rehearse on a display that does wrong what this file (TOML) says: late pictures, skipped "
+            "refreshes, stalls, jitter and drift of time stamps")
         ->type_name("FILE");
     run_command.add_flag("--realtime", run.realtime,
                          "Ask for real-time priority and locked memory; goes on if they are refused");
@@ -269,6 +272,11 @@ int run_command_line(int argc, char** argv) {
     play_command.add_option("--duration", play.repeat_s, "How long to play")
         ->type_name("S")
         ->capture_default_str();
+    play_command.add_flag(
+        "--live", play.live,
+        "Draw it now, as an approximation, to be turned with the mouse: drag to turn and tilt, "
+        "wheel to go nearer, left and right for the material, up and down for the sculpture, "
+        "space for the animation, Escape to end");
     add_context_option(play_command, play.context);
     play_command.callback([&] { command = [&] { return run_play(play); }; });
 
@@ -319,12 +327,14 @@ int run_command_line(int argc, char** argv) {
     doctor_command.add_flag("--json", doctor.json, "Print JSON");
     doctor_command.add_flag("--window", doctor.window,
                             "Show a dark screen, measure its refreshes, and say what may spoil their times");
-    doctor_command.add_flag("--photodiode", doctor.photodiode,
-                            "Show a square in the top left corner that changes, and compare what a sensor sees "
-                            "with the times of the flips");
+    doctor_command.add_flag(
+        "--photodiode", doctor.photodiode,
+        "Show a square in the top left corner that changes, and compare what a sensor sees "
+        "with the times of the flips");
     doctor_command
-        .add_option("--sensor", doctor.sensor,
-                    "Serial port of a light sensor that sends 1 and 0, or `simulated` (5 ms late, 0.2 ms jitter)")
+        .add_option(
+            "--sensor", doctor.sensor,
+            "Serial port of a light sensor that sends 1 and 0, or `simulated` (5 ms late, 0.2 ms jitter)")
         ->type_name("PORT");
     add_context_option(doctor_command, doctor.context);
     doctor_command.add_flag("--windowed", doctor.windowed, "A window instead of the whole screen");
@@ -492,7 +502,8 @@ int run_command_line(int argc, char** argv) {
                              [&] { command = [&] { return run_display_characterise(characterise); }; });
 
     DisplayColourOptions colour;
-    add_colour_command(display_command, colour, [&] { command = [&] { return run_display_colour(colour); }; });
+    add_colour_command(display_command, colour,
+                       [&] { command = [&] { return run_display_colour(colour); }; });
 
     BenchOptions bench;
     auto& bench_command = add_command(app, "bench", "The program's own benchmarks",

@@ -57,6 +57,7 @@ struct PlayOptions {
     std::optional<int> frame;
     std::filesystem::path picture;
     double repeat_s = 8.0;
+    bool live = false; ///< drawn now, to be turned with the mouse, instead of the frames
 };
 int run_play(const PlayOptions& options);
 

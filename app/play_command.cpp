@@ -4,6 +4,7 @@
 
 #include "app/cache_folder.h"
 #include "app/commands.h"
+#include "app/live_play.h"
 #include "app/progress_bar.h"
 #include "app/protocol_file.h"
 #include "app/protocol_inputs.h"
@@ -15,14 +16,9 @@ namespace overt {
 
 namespace {
 
-void write_frame(const StimulusLibrary& library, const Condition& stimulus, const PlayOptions& options,
-                 const Protocol& protocol) {
-    const int frame = options.frame.value_or(0);
-    if (frame >= protocol.animation.frame_count) {
-        throw InputError(fmt::format("--frame {}: the animation has frames 0 to {}", frame,
-                                     protocol.animation.frame_count - 1));
-    }
-    const int page = library.page_of_frame(stimulus)[static_cast<std::size_t>(frame)];
+void write_frame(const StimulusLibrary& library, const Condition& stimulus, const PlayOptions& options) {
+    const auto frame = static_cast<std::size_t>(options.frame.value_or(0));
+    const int page = library.page_of_frame(stimulus)[frame];
     write_srgb_png(options.picture, library.page(stimulus, page));
     fmt::print("{}\n", options.picture.string());
 }
@@ -58,7 +54,13 @@ int run_play(const PlayOptions& options) {
     const Protocol& protocol = experiment.protocol;
     const std::vector<Sculpture>& sculptures = experiment.sculptures;
     const Condition stimulus = stimulus_called(protocol, options.stimulus);
+    if (options.frame.value_or(0) >= protocol.animation.frame_count) {
+        throw InputError(fmt::format("--frame {}: the animation has frames 0 to {}", *options.frame,
+                                     protocol.animation.frame_count - 1));
+    }
     const bool in_window = options.picture.empty();
+    if (options.live)
+        return play_live(protocol, sculptures, stimulus, options);
     if (in_window && !display_is_available())
         throw InputError("there is no display to play on: write a frame with --picture FILE instead");
 
@@ -80,7 +82,7 @@ int run_play(const PlayOptions& options) {
     if (in_window) {
         play_in_window(*window, library, stimulus, protocol, options.repeat_s);
     } else {
-        write_frame(library, stimulus, options, protocol);
+        write_frame(library, stimulus, options);
     }
     return 0;
 }

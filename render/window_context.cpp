@@ -5,6 +5,7 @@
 #include <chrono>
 #include <functional>
 #include <thread>
+#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -147,6 +148,8 @@ struct WindowContext::State {
     // A ring, so that a key pressed in the middle of a presentation allocates nothing.
     std::array<WindowKeyPress, 64> presses{};
     std::size_t first = 0, count = 0;
+    glm::dvec2 pointer_px{0.0};
+    Dragging dragging;
     // What is held still, and what became of it.
     bool held = false;
     glm::ivec2 held_framebuffer_px{0};
@@ -189,6 +192,17 @@ struct WindowContext::State {
         return std::find(monitors.begin(), monitors.end(), monitor) != monitors.end();
     }
 
+    static void on_pointer(GLFWwindow* window, double x, double y) {
+        auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+        if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS)
+            state.dragging.by_px += glm::dvec2(x, y) - state.pointer_px;
+        state.pointer_px = {x, y};
+    }
+
+    static void on_wheel(GLFWwindow* window, double, double steps) {
+        static_cast<State*>(glfwGetWindowUserPointer(window))->dragging.wheel_steps += steps;
+    }
+
     static void on_key(GLFWwindow* window, int key, int, int action, int) {
         if (action != GLFW_PRESS)
             return;
@@ -198,6 +212,10 @@ struct WindowContext::State {
         const WindowKey pressed = key == GLFW_KEY_SPACE    ? WindowKey::space
                                   : key == GLFW_KEY_ENTER  ? WindowKey::enter
                                   : key == GLFW_KEY_ESCAPE ? WindowKey::escape
+                                  : key == GLFW_KEY_LEFT   ? WindowKey::left
+                                  : key == GLFW_KEY_RIGHT  ? WindowKey::right
+                                  : key == GLFW_KEY_UP     ? WindowKey::up
+                                  : key == GLFW_KEY_DOWN   ? WindowKey::down
                                                            : WindowKey::other;
         state.presses[(state.first + state.count++) % state.presses.size()] = {pressed};
     }
@@ -237,6 +255,9 @@ WindowContext::WindowContext(const WindowRequest& request) : state_(std::make_un
     glfwSetFramebufferSizeCallback(state_->window, &State::on_size);
     glfwSetWindowPosCallback(state_->window, &State::on_position);
     glfwSetKeyCallback(state_->window, &State::on_key);
+    glfwGetCursorPos(state_->window, &state_->pointer_px.x, &state_->pointer_px.y);
+    glfwSetCursorPosCallback(state_->window, &State::on_pointer);
+    glfwSetScrollCallback(state_->window, &State::on_wheel);
     if (request.fullscreen)
         glfwSetInputMode(state_->window, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
     make_current();
@@ -280,6 +301,10 @@ bool WindowContext::next_key_press(WindowKeyPress& press) noexcept {
     state_->first = (state_->first + 1) % state_->presses.size();
     --state_->count;
     return true;
+}
+
+WindowContext::Dragging WindowContext::take_dragging() noexcept {
+    return std::exchange(state_->dragging, {});
 }
 
 bool WindowContext::close_requested() const noexcept { return glfwWindowShouldClose(state_->window) != 0; }

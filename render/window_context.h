@@ -25,7 +25,7 @@ struct WindowRequest {
 };
 
 /// Keys that a window reports.
-enum class WindowKey { space, enter, escape, other };
+enum class WindowKey { space, enter, escape, left, right, up, down, other };
 struct WindowKeyPress {
     WindowKey key;
 };
@@ -81,6 +81,14 @@ class WindowContext final : public GlContext {
     void poll_events() noexcept;
     bool next_key_press(WindowKeyPress& press) noexcept;
     bool close_requested() const noexcept;
+
+    /// What the mouse has done since the last call: its way in pixels while its left button was held (right
+    /// and down are positive), and the wheel's steps (away from the user is positive).
+    struct Dragging {
+        glm::dvec2 by_px{0.0};
+        double wheel_steps = 0.0;
+    };
+    Dragging take_dragging() noexcept;
 
     /// The window's own size, in the desktop's units.
     glm::ivec2 window_size() const;
