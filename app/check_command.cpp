@@ -34,7 +34,7 @@ DesignReport report_on(const Experiment& experiment, const CheckOptions& options
     }
     DesignAssumptions assumptions;
     assumptions.answer_s = options.answer_time_s;
-    DesignReport report = make_design_report(experiment.protocol, observers, 1, assumptions);
+    DesignReport report = make_design_report(experiment.protocol, observers, options.seed.value_or(1), assumptions, options.seed.has_value());
     for (const Sculpture& sculpture : experiment.sculptures) {
         if (sculpture.has_mesh())
             report.surfaces.push_back(surface_of(sculpture));

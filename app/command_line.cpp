@@ -178,6 +178,9 @@ int run_command_line(int argc, char** argv) {
                     "Seconds an answer is taken to last, for the session's length")
         ->type_name("S")
         ->capture_default_str();
+    check_command
+        .add_option("--seed", check.seed, "Show the orders that this seed gives, as the record of a session has it")
+        ->type_name("SEED");
     check_command.add_flag("--frames", check.frames,
                            "Read every frame, and say how much of its light the display cannot show");
     check_command.add_flag("--json", check.json, "Print JSON");
@@ -318,8 +321,22 @@ int run_command_line(int argc, char** argv) {
         .add_option("--plot", show.plot,
                     "Write an SVG of the presentations' timing: intervals of refreshes, trial by trial")
         ->type_name("FILE");
+    show_command.add_flag("--order", show.order,
+                          "The planned order of trials, made again from the recorded protocol and seed; exit code 1 "
+                          "if that gives another");
     show_command.add_flag("--json", show.json, "Print JSON");
     show_command.callback([&] { command = [&] { return run_show(show); }; });
+
+    NewOptions fresh;
+    auto& new_command = add_command(app, "new", "Writes a protocol to begin with, every key explained",
+                                    "overt new my_experiment.toml");
+    new_command.add_option("PROTOCOL", fresh.protocol, "File to write (TOML)")->required();
+    new_command.callback([&] { command = [&] { return run_new(fresh); }; });
+
+    auto& schema_command =
+        add_command(app, "schema", "Prints the JSON Schema of protocol files, for editors",
+                    "overt schema > protocol.schema.json");
+    schema_command.callback([&] { command = [] { return run_schema(); }; });
 
     DoctorOptions doctor;
     auto& doctor_command =

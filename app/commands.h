@@ -20,6 +20,7 @@ struct CheckOptions {
     std::string observer; ///< show this observer's order; empty: the first
     bool all_observers = false;
     double answer_time_s = 8.0;
+    std::optional<std::uint64_t> seed; ///< of the orders shown, where the protocol fixes none
     bool frames = false; ///< read every frame, and say what light of it the display cannot show
     bool json = false;
 };
@@ -50,6 +51,14 @@ struct RunOptions {
 };
 int run_session(const RunOptions& options);
 
+struct NewOptions {
+    std::filesystem::path protocol; ///< to write; never over a file that is there
+};
+int run_new(const NewOptions& options);
+
+/// Prints the JSON Schema of protocols.
+int run_schema();
+
 struct PlayOptions {
     std::filesystem::path protocol;
     std::string stimulus;
@@ -75,6 +84,7 @@ struct ShowOptions {
     std::optional<int> trial;
     std::filesystem::path picture;
     std::filesystem::path plot; ///< of the presentation's timing, SVG
+    bool order = false;         ///< the order that was planned, made again from protocol and seed
     bool json = false;
 };
 int run_show(const ShowOptions& options);

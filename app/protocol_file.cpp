@@ -11,11 +11,15 @@
 
 namespace overt {
 
-std::optional<Protocol> read_protocol_file(const std::filesystem::path& file, Diagnostics& diagnostics) {
-    std::vector<std::string_view> shipped;
+std::vector<std::string_view> shipped_sculpture_names() {
+    std::vector<std::string_view> names;
     for (const SculptureDescription& sculpture : shipped_sculptures())
-        shipped.push_back(sculpture.name);
-    return read_protocol(file, shipped, diagnostics);
+        names.push_back(sculpture.name);
+    return names;
+}
+
+std::optional<Protocol> read_protocol_file(const std::filesystem::path& file, Diagnostics& diagnostics) {
+    return read_protocol(file, shipped_sculpture_names(), diagnostics);
 }
 
 Protocol read_protocol_or_report(const std::filesystem::path& file) {

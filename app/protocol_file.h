@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 #include "experiment/diagnostics.h"
 #include "experiment/error.h"
@@ -16,6 +18,9 @@ class FindingsPrinted : public InputError {
   public:
     using InputError::InputError;
 };
+
+/// Names of the sculptures that overt makes itself.
+std::vector<std::string_view> shipped_sculpture_names();
 
 /// Reads a protocol, with the sculptures that overt makes itself as those it may name. See read_protocol().
 std::optional<Protocol> read_protocol_file(const std::filesystem::path& file, Diagnostics& diagnostics);

@@ -25,6 +25,13 @@ void copy_into(const std::filesystem::path& from, const std::filesystem::path& t
         throw RecordError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
 }
 
+void write_text(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream stream(file, std::ios::binary);
+    stream << text;
+    if (!stream.flush())
+        throw RecordError(fmt::format("{}: cannot be written", file.string()));
+}
+
 std::string map_name(const std::string& sculpture, PoseIndex pose) {
     return fmt::format("maps/{}/pose_{:02}.exr", sculpture, pose.value);
 }
@@ -89,7 +96,11 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
                                   const GlDescription& graphics, const TrackerDescription& tracker,
                                   ClockKind clock, bool with_prepared_maps) {
     SessionHeader header;
-    header.protocol = {protocol.name, protocol.title, protocol.text, hash_of_text(protocol.text)};
+    header.protocol = {protocol.name, protocol.title, protocol.text, hash_of_text(protocol.text), {}};
+    for (const IncludedText& file : protocol.included)
+        header.protocol.included.push_back({file.name, file.text, hash_of_text(file.text)});
+    for (const BlockSettings& block : protocol.blocks)
+        header.blocks.push_back(block.id);
     header.schedule = schedule;
     header.started_utc = utc_now();
     header.clock = clock;
@@ -135,11 +146,16 @@ void put_files(const SessionDirectory& directory, const SessionHeader& header,
         write_srgb_png(file,
                        library.page(stimulus.condition, library.page_of_frame(stimulus.condition).front()));
     }
-    std::ofstream protocol(directory.path() / "protocol.toml", std::ios::binary);
-    protocol << header.protocol.text;
-    if (!protocol.flush())
-        throw RecordError(
-            fmt::format("{}: cannot be written", (directory.path() / "protocol.toml").string()));
+    write_text(directory.path() / "protocol.toml", header.protocol.text);
+    for (const RecordedProtocol::Included& included : header.protocol.included) {
+        // Beside the copy of the protocol as it was beside the protocol. What lay outside of its folder is in
+        // the session file alone.
+        const std::filesystem::path name = included.name;
+        if (name.is_absolute() || included.name.starts_with(".."))
+            continue;
+        std::filesystem::create_directories((directory.path() / name).parent_path());
+        write_text(directory.path() / name, included.text);
+    }
     create_session_file(directory.session_file(), header);
 }
 

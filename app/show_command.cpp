@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/display_box_session.h"
+#include "app/recorded_order.h"
 #include "app/recorded_surface.h"
 #include "app/session_recording.h"
 #include "app/timing_plot.h"
@@ -153,6 +154,14 @@ int run_show(const ShowOptions& options) {
     if (!options.plot.empty()) {
         write_plot(record, options.plot);
         return 0;
+    }
+    if (options.order) {
+        const RecordedOrder order = recorded_order(record.header());
+        if (options.json)
+            fmt::print("{}\n", to_json(order, record.header()).dump(2));
+        else
+            fmt::print("{}", to_text(order, record.header()));
+        return order.is_same() ? 0 : 1;
     }
     if (options.json) {
         nlohmann::ordered_json json = session_json(record);

@@ -134,12 +134,28 @@ void Diagnostics::quote_from(const std::string& file, std::string_view text) {
     }
 }
 
+int Diagnostics::number_of_file(const std::string& file) {
+    const auto known = std::find(files_.begin(), files_.end(), file);
+    if (known != files_.end())
+        return static_cast<int>(known - files_.begin()) + 1;
+    files_.push_back(file);
+    return static_cast<int>(files_.size());
+}
+
+void Diagnostics::add(Severity severity, std::string file, Place place, std::string message,
+                      std::string hint) {
+    if (place.file > 0 && place.file <= static_cast<int>(files_.size()))
+        file = files_[static_cast<std::size_t>(place.file) - 1];
+    findings_.push_back(
+        {severity, std::move(file), {place.line, place.column}, std::move(message), std::move(hint)});
+}
+
 void Diagnostics::error(std::string file, Place place, std::string message, std::string hint) {
-    findings_.push_back({Severity::error, std::move(file), place, std::move(message), std::move(hint)});
+    add(Severity::error, std::move(file), place, std::move(message), std::move(hint));
 }
 
 void Diagnostics::warning(std::string file, Place place, std::string message, std::string hint) {
-    findings_.push_back({Severity::warning, std::move(file), place, std::move(message), std::move(hint)});
+    add(Severity::warning, std::move(file), place, std::move(message), std::move(hint));
 }
 
 void Diagnostics::take(const Diagnostics& other) {

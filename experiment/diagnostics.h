@@ -17,6 +17,7 @@ namespace overt {
 struct Place {
     int line = 0;
     int column = 0;
+    int file = 0; ///< 0: the file that is spoken of; else another, as Diagnostics::number_of_file has it
     friend constexpr auto operator<=>(const Place&, const Place&) = default;
 };
 
@@ -36,6 +37,10 @@ class Diagnostics {
   public:
     /// Keeps a file's text, so that print() can quote the lines of its findings.
     void quote_from(const std::string& file, std::string_view text);
+
+    /// A number by which places can name a file, from 1: a finding at such a place is that file's, whatever
+    /// file it is reported for.
+    int number_of_file(const std::string& file);
 
     void error(std::string file, Place place, std::string message, std::string hint = {});
     void warning(std::string file, Place place, std::string message, std::string hint = {});
@@ -59,9 +64,11 @@ class Diagnostics {
     nlohmann::ordered_json to_json() const;
 
   private:
+    void add(Severity severity, std::string file, Place place, std::string message, std::string hint);
     std::string quoted_line(const Finding& finding) const;
 
     std::vector<Finding> findings_;
+    std::vector<std::string> files_;                           ///< by number, from 1
     std::map<std::string, std::vector<std::string>> lines_of_; ///< by file
 };
 

@@ -128,7 +128,11 @@ class EyeTracker {
 
 /// A key or button with which the observer or the operator answers.
 struct ResponsePress {
-    enum class Key : std::uint8_t { next, abort };
+    enum class Key : std::uint8_t {
+        next,
+        abort, ///< the session ends
+        reject ///< the operator rejects the trial that is running
+    };
     Key key = Key::next;
     SessionTime pressed_at;
 };

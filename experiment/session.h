@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "experiment/design/trial_queue.h"
 #include "experiment/ports.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/timing/refresh_ledger.h"
@@ -39,15 +40,26 @@ class Session {
     Session(const Protocol& protocol, const Schedule& schedule, const ScreenPoint& screen_centre,
             SessionPorts ports);
 
-    /// Runs all trials in their order. Throws DeviceError, GraphicsError or RecordError for what breaks
-    /// between trials; what happens within one is in its outcome.
+    /// Runs all trials in their order, with practice, breaks and repeated attempts as the protocol has them.
+    /// An attempt that does not count is recorded as aborted. Throws DeviceError, GraphicsError or
+    /// RecordError for what breaks between trials; what happens within one is in its outcome.
     SessionResult run(const TrialDone& trial_done);
 
   private:
-    enum class Answer { pressed, timed_out, aborted };
+    enum class Answer { pressed, timed_out, rejected, aborted };
 
-    TrialOutcome run_trial(const Trial& trial);
-    void present(const Trial& trial, TrialOutcome& outcome);
+    /// What an attempt was like besides its outcome.
+    struct Attempt {
+        TrialOutcome outcome;
+        AttemptResult result;
+    };
+    void run_step(TrialQueue& queue, const SessionStep& step, SessionResult& result,
+                  const TrialDone& trial_done);
+    void run_practice(const SessionStep& step, const std::optional<Condition>& next);
+    void run_break();
+    Attempt run_trial(const Trial& trial, const std::optional<Condition>& next);
+    void judge(TrialQueue& queue, const Trial& trial, Attempt& attempt);
+    void present(const Trial& trial, Attempt& attempt);
     void check_drift(const Trial& trial, TrialOutcome& outcome);
     SessionTime show(const Screen& screen);
     Answer wait_for_press(SessionTime since, double min_s, double max_s, SessionTime& pressed_at);
@@ -64,7 +76,9 @@ class Session {
     SessionPorts ports_;
     PageCycle cycle_;
     RefreshLedger ledger_;
-    std::vector<GazeSample> samples_; ///< room for one poll
+    SessionLog* log_;                                ///< the record; in practice, one that keeps events only
+    std::vector<GazeSample> samples_;                ///< room for one poll
+    std::int64_t sample_count_ = 0, lost_count_ = 0; ///< samples taken, and those without gaze
     bool aborted_ = false;
 };
 

@@ -1,9 +1,15 @@
 #include "experiment/protocol/design_report.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
+#include "experiment/design/block_plan.h"
+#include "experiment/design/latin_square.h"
+#include "experiment/design/observer_groups.h"
+#include "experiment/design/trial_queue.h"
+#include "experiment/protocol/protocol_keys.h"
 #include "experiment/schedule.h"
 
 namespace overt {
@@ -54,20 +60,50 @@ VisualAngles visual_angles(const Protocol& protocol) {
     return angles;
 }
 
-SessionLength session_length(const Protocol& protocol, int trials, double animation_s,
+/// Of the observer with these trials, if nothing fails.
+SessionLength session_length(const Protocol& protocol, const Schedule& schedule, double animation_s,
                              const DesignAssumptions& assumptions) {
     const ScreenSettings& screens = protocol.screens;
+    const double question_s = std::max(screens.task_min_s, assumptions.question_s);
+    const double shown_s = animation_s + 2.0 * screens.recording_lead_s;
+    const double answer_s = std::clamp(assumptions.answer_s, screens.response_min_s, screens.response_max_s);
     SessionLength length;
     length.calibration_s = assumptions.calibration_s;
-    length.questions_s = trials * std::max(screens.task_min_s, assumptions.question_s);
-    length.drift_checks_s = trials * screens.drift_target_s;
-    length.animations_s = trials * (animation_s + 2.0 * screens.recording_lead_s);
-    length.answers_s =
-        trials * std::clamp(assumptions.answer_s, screens.response_min_s, screens.response_max_s);
+    TrialQueue queue(protocol, schedule);
+    while (const std::optional<SessionStep> step = queue.next()) {
+        switch (step->kind) {
+        case SessionStep::Kind::instructions:
+            length.instructions_s += assumptions.text_s;
+            break;
+        case SessionStep::Kind::practice:
+            length.practice_s += question_s + screens.drift_target_s + shown_s + answer_s;
+            if (!protocol.practice[static_cast<std::size_t>(step->trial.index)].feedback.empty())
+                length.practice_s += assumptions.question_s;
+            break;
+        case SessionStep::Kind::pause:
+            length.breaks_s += protocol.breaks.duration_s;
+            ++length.breaks;
+            break;
+        case SessionStep::Kind::trial:
+            length.questions_s += question_s;
+            length.drift_checks_s += screens.drift_target_s;
+            length.animations_s += shown_s;
+            length.answers_s += answer_s;
+            queue.tell({});
+            break;
+        }
+    }
     return length;
 }
 
-std::vector<IncidenceCell> incidence(const Protocol& protocol) {
+/// Whether which trials come is a matter of the seed, too.
+bool is_drawn(const Protocol& protocol) {
+    return std::any_of(protocol.blocks.begin(), protocol.blocks.end(), [](const BlockSettings& block) {
+        return block.order == OrderMethod::weighted && block.draws.has_value();
+    });
+}
+
+std::vector<IncidenceCell> incidence(const Protocol& protocol, ScheduleMaker& maker, std::uint64_t seed) {
     const int sculptures = static_cast<int>(protocol.sculptures.size());
     const int materials = static_cast<int>(protocol.materials.size());
     std::vector<IncidenceCell> cells;
@@ -77,8 +113,9 @@ std::vector<IncidenceCell> incidence(const Protocol& protocol) {
                 cells.push_back({task, {sculpture, material}, 0});
         }
     }
-    for (int observer = 1; observer <= protocol.schedule.observers; ++observer) {
-        for (const Trial& trial : trials_of(protocol, observer)) {
+    for (const Observer& observer : planned_observers(protocol)) {
+        for (const Trial& trial :
+             is_drawn(protocol) ? maker.make(observer, seed).trials : trials_of(protocol, observer.number)) {
             const int cell =
                 (trial.task * sculptures + trial.condition.sculpture) * materials + trial.condition.material;
             ++cells[static_cast<std::size_t>(cell)].presentations;
@@ -87,21 +124,95 @@ std::vector<IncidenceCell> incidence(const Protocol& protocol) {
     return cells;
 }
 
-std::vector<std::string> balance_warnings(const DesignReport& report) {
-    std::vector<std::string> warnings;
-    const std::size_t cells_per_task = report.incidence.size() / report.tasks.size();
-    for (std::size_t task = 0; task < report.tasks.size(); ++task) {
-        const auto begin = report.incidence.begin() + static_cast<std::ptrdiff_t>(task * cells_per_task);
-        const auto [least, most] = std::minmax_element(
-            begin, begin + static_cast<std::ptrdiff_t>(cells_per_task),
-            [](const IncidenceCell& a, const IncidenceCell& b) { return a.presentations < b.presentations; });
-        if (least->presentations != most->presentations) {
-            warnings.push_back(fmt::format(
-                "under task \"{}\" some stimuli are shown {} times and others {} times: let the "
-                "number of observers be a multiple of {}",
-                report.tasks[task], least->presentations, most->presentations, report.materials.size()));
+std::string order_in_words(const BlockSettings& block) {
+    std::string words(name_of(block.order));
+    if (block.order == OrderMethod::blocked)
+        words += fmt::format(" by {}, levels {}", name_of(block.by), name_of(block.levels));
+    if (block.order == OrderMethod::weighted)
+        words += fmt::format(" by {}{}", name_of(block.by), block.draws ? ", drawn with replacement" : "");
+    if (block.repetitions > 1)
+        words += fmt::format(", {} times{}", block.repetitions,
+                             block.repetition_order == RepetitionOrder::mixed ? ", mixed" : "");
+    if (block.continues)
+        words += ", with the block before";
+    return words;
+}
+
+/// What the planned observers have: trials, blocks, groups.
+void add_observers(DesignReport& report, const Protocol& protocol) {
+    for (const BlockSettings& block : protocol.blocks)
+        report.blocks.push_back(block.id);
+    for (int block = 0; block < block_count(protocol); ++block)
+        report.block_facts.push_back(
+            {block_at(protocol, block).id, order_in_words(block_at(protocol, block)), 0});
+    for (const GroupSettings& group : protocol.groups)
+        report.groups.push_back({group.id, group.cap, 0, 0});
+    report.fewest_trials = std::numeric_limits<int>::max();
+    for (const Observer& observer : planned_observers(protocol)) {
+        int trials = 0;
+        for (const BlockPlan& plan : block_plans(protocol, observer.number, 0)) {
+            const int length = length_of(protocol, plan);
+            BlockFacts& facts = report.block_facts[static_cast<std::size_t>(plan.block)];
+            facts.trials = std::max(facts.trials, length);
+            trials += length;
+        }
+        report.trials_per_observer = std::max(report.trials_per_observer, trials);
+        report.fewest_trials = std::min(report.fewest_trials, trials);
+        if (const int group = group_place(protocol, observer.number).group; group >= 0) {
+            GroupFacts& facts = report.groups[static_cast<std::size_t>(group)];
+            ++facts.observers;
+            facts.trials = trials;
         }
     }
+}
+
+/// The observer who sits longest, among those who differ.
+SessionLength longest_session(const Protocol& protocol, ScheduleMaker& maker, std::uint64_t seed,
+                              double animation_s, const DesignAssumptions& assumptions) {
+    SessionLength longest;
+    const std::size_t different = std::max<std::size_t>(1, protocol.groups.size());
+    std::vector<Observer> observers = planned_observers(protocol);
+    observers.resize(std::min(observers.size(), different));
+    for (const Observer& observer : observers) {
+        const SessionLength length =
+            session_length(protocol, maker.make(observer, seed), animation_s, assumptions);
+        if (length.total_s() > longest.total_s())
+            longest = length;
+    }
+    return longest;
+}
+
+std::vector<std::string> balance_warnings(const DesignReport& report, const Protocol& protocol) {
+    std::vector<std::string> warnings;
+    const std::size_t cells_per_task = report.incidence.size() / report.tasks.size();
+    // Blocks and groups may leave out stimuli on purpose, or show some more often: then only the numbers of
+    // those that are shown at all are compared, and nothing is said of what would fill them.
+    const bool is_plain = protocol.blocks.empty() && protocol.groups.empty();
+    for (std::size_t task = 0; task < report.tasks.size(); ++task) {
+        int least = std::numeric_limits<int>::max(), most = 0;
+        for (std::size_t cell = task * cells_per_task; cell < (task + 1) * cells_per_task; ++cell) {
+            const int presentations = report.incidence[cell].presentations;
+            if (presentations > 0 || is_plain)
+                least = std::min(least, presentations);
+            most = std::max(most, presentations);
+        }
+        if (least >= most)
+            continue;
+        std::string warning =
+            fmt::format("under task \"{}\" some stimuli are shown {} times and others {} times",
+                        report.tasks[task], least, most);
+        if (is_plain)
+            warning += fmt::format(": let the number of observers be a multiple of {}",
+                                   rows_of_square(protocol.schedule.material_rotation,
+                                                  static_cast<int>(report.materials.size())));
+        warnings.push_back(std::move(warning));
+    }
+    if (std::any_of(report.schedules.begin(), report.schedules.end(),
+                    [](const Schedule& schedule) { return !schedule.is_even; }))
+        warnings.push_back(
+            "the limits leave too many orders to count and too few to meet by chance: they are "
+            "kept, but orders come from a chain of random exchanges and are only nearly equally "
+            "probable");
     return warnings;
 }
 
@@ -109,20 +220,25 @@ std::vector<std::string> balance_warnings(const DesignReport& report) {
 
 std::vector<Observer> planned_observers(const Protocol& protocol) {
     std::vector<Observer> observers;
-    for (int number = 1; number <= protocol.schedule.observers; ++number)
+    // More than the caps of the groups take there cannot be.
+    const int count =
+        std::min(protocol.schedule.observers, group_capacity(protocol).value_or(protocol.schedule.observers));
+    for (int number = 1; number <= count; ++number)
         observers.push_back({fmt::format("{:02}", number), number});
     return observers;
 }
 
 DesignReport make_design_report(const Protocol& protocol, const std::vector<Observer>& observers,
-                                std::uint64_t example_seed, const DesignAssumptions& assumptions) {
+                                std::uint64_t example_seed, const DesignAssumptions& assumptions,
+                                bool takes_seed) {
     DesignReport report;
     report.name = protocol.name;
     report.title = protocol.title;
     report.tasks = ids_of(protocol.tasks);
     report.sculptures = ids_of(protocol.sculptures);
     report.materials = ids_of(protocol.materials);
-    report.trials_per_observer = static_cast<int>(trials_of(protocol, 1).size());
+    add_observers(report, protocol);
+    report.practice_trials = static_cast<int>(protocol.practice.size());
     report.observers = protocol.schedule.observers;
     report.display = protocol.display;
     report.view = protocol.view;
@@ -130,17 +246,21 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     report.animation = animation_facts(protocol);
     report.angles = visual_angles(protocol);
     report.assumptions = assumptions;
-    report.session =
-        session_length(protocol, report.trials_per_observer, report.animation.duration_s, assumptions);
+    report.is_seed_fixed = protocol.schedule.seed.has_value() && !takes_seed;
+    report.is_seed_given = takes_seed;
+    const std::uint64_t seed = takes_seed ? example_seed : protocol.schedule.seed.value_or(example_seed);
+    ScheduleMaker maker(protocol);
+    report.session = longest_session(protocol, maker, seed, report.animation.duration_s, assumptions);
     const double pose_px = static_cast<double>(report.animation.distinct_poses) * protocol.view.width_px *
                            protocol.view.height_px;
     report.memory = {pose_px * assumptions.bytes_per_page_px, pose_px * assumptions.bytes_per_map_px};
-    report.incidence = incidence(protocol);
-    report.is_seed_fixed = protocol.schedule.seed.has_value();
-    for (const Observer& observer : observers)
-        report.schedules.push_back(
-            make_schedule(protocol, observer, protocol.schedule.seed.value_or(example_seed)));
-    report.warnings = balance_warnings(report);
+    report.incidence = incidence(protocol, maker, seed);
+    for (const Observer& observer : observers) {
+        report.schedules.push_back(maker.make(observer, seed));
+        if (const int group = group_place(protocol, observer.number).group; group >= 0)
+            report.schedule_groups.push_back(protocol.groups[static_cast<std::size_t>(group)].id);
+    }
+    report.warnings = balance_warnings(report, protocol);
     return report;
 }
 

@@ -17,6 +17,7 @@ namespace overt {
 /// What a protocol does not say, but a session's length and size depend on.
 struct DesignAssumptions {
     double calibration_s = 180.0;   ///< calibrating and validating once a session
+    double text_s = 20.0;           ///< reading the instructions of a block
     double question_s = 4.0;        ///< reading a question; screens.task_min_s if that is longer
     double answer_s = 10.0;         ///< answering aloud, kept within response_min_s … response_max_s
     double bytes_per_page_px = 4.0; ///< a page of the frame store: the four bytes that are sent
@@ -43,7 +44,14 @@ struct VisualAngles {
 /// Of one session, by what is on the screen.
 struct SessionLength {
     double calibration_s = 0.0, questions_s = 0.0, drift_checks_s = 0.0, animations_s = 0.0, answers_s = 0.0;
-    double total_s() const { return calibration_s + questions_s + drift_checks_s + animations_s + answers_s; }
+    double practice_s = 0.0; ///< whole practice trials with their feedback
+    double breaks_s = 0.0;
+    double instructions_s = 0.0; ///< of blocks
+    int breaks = 0;
+    double total_s() const {
+        return calibration_s + questions_s + drift_checks_s + animations_s + answers_s + practice_s +
+               breaks_s + instructions_s;
+    }
 };
 
 /// One page and one map per distinct pose.
@@ -59,6 +67,21 @@ struct IncidenceCell {
     int presentations = 0;
 };
 
+/// A block of the protocol, or the only one.
+struct BlockFacts {
+    std::string id;    ///< empty if the protocol has no blocks
+    std::string order; ///< «random», «blocked by task, levels balanced», …
+    int trials = 0;    ///< of the observer who has most
+};
+
+/// A group of observers.
+struct GroupFacts {
+    std::string id;
+    int cap = 0;       ///< 0: no limit
+    int observers = 0; ///< of the planned ones
+    int trials = 0;    ///< of each
+};
+
 /// A sculpture's surface, as statistics will have it.
 struct SurfaceFacts {
     std::string sculpture; ///< id
@@ -70,8 +93,13 @@ struct SurfaceFacts {
 struct DesignReport {
     std::string name, title;
     std::vector<std::string> tasks, sculptures, materials; ///< ids
-    int trials_per_observer = 0;
-    int observers = 0; ///< planned
+    int trials_per_observer = 0;                           ///< of the planned observer who has most
+    int fewest_trials = 0;                                 ///< of the one who has fewest
+    int observers = 0;                                     ///< planned
+    std::vector<std::string> blocks;                       ///< ids; empty if the protocol has none
+    std::vector<BlockFacts> block_facts;
+    std::vector<GroupFacts> groups;
+    int practice_trials = 0;
 
     DisplaySettings display;
     ViewSettings view;
@@ -86,15 +114,19 @@ struct DesignReport {
 
     std::vector<IncidenceCell> incidence; ///< task by task, sculpture by sculpture, material by material
     std::vector<Schedule> schedules;
+    std::vector<std::string> schedule_groups; ///< of each of their observers; empty without groups
     bool is_seed_fixed = false; ///< otherwise the schedules are examples: each session draws its own
+    bool is_seed_given = false; ///< somebody asked for the orders of this seed
 
     std::vector<std::string> warnings; ///< where cells of a task are not filled equally
 };
 
 /// Reckons all of it. `observers` are those whose order is shown; if the protocol fixes no seed, the orders
-/// are the ones that `example_seed` gives. Throws InputError as make_schedule does.
+/// are the ones that `example_seed` gives; with `takes_seed` they are so in any case. Throws InputError as
+/// make_schedule does.
 DesignReport make_design_report(const Protocol& protocol, const std::vector<Observer>& observers,
-                                std::uint64_t example_seed = 1, const DesignAssumptions& assumptions = {});
+                                std::uint64_t example_seed = 1, const DesignAssumptions& assumptions = {},
+                                bool takes_seed = false);
 
 /// The planned observers, 1 … schedule.observers, labelled "01", "02", ….
 std::vector<Observer> planned_observers(const Protocol& protocol);

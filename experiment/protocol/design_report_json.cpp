@@ -11,19 +11,45 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json order_json(const DesignReport& report, const Schedule& schedule) {
+Json order_json(const DesignReport& report, std::size_t index) {
+    const Schedule& schedule = report.schedules[index];
     Json trials = Json::array();
     for (const Trial& trial : schedule.trials) {
-        trials.push_back(
-            {{"trial", trial.index + 1},
-             {"task", report.tasks.at(static_cast<std::size_t>(trial.task))},
-             {"sculpture", report.sculptures.at(static_cast<std::size_t>(trial.condition.sculpture))},
-             {"material", report.materials.at(static_cast<std::size_t>(trial.condition.material))}});
+        Json item{{"trial", trial.index + 1}};
+        if (!report.blocks.empty())
+            item["block"] = report.blocks.at(static_cast<std::size_t>(trial.block));
+        item["task"] = report.tasks.at(static_cast<std::size_t>(trial.task));
+        item["sculpture"] = report.sculptures.at(static_cast<std::size_t>(trial.condition.sculpture));
+        item["material"] = report.materials.at(static_cast<std::size_t>(trial.condition.material));
+        trials.push_back(std::move(item));
     }
-    return {{"observer", schedule.observer.label},
-            {"number", schedule.observer.number},
-            {"seed", schedule.seed},
-            {"trials", std::move(trials)}};
+    Json order{{"observer", schedule.observer.label},
+               {"number", schedule.observer.number},
+               {"seed", schedule.seed},
+               {"evenly_drawn", schedule.is_even}};
+    if (!report.schedule_groups.empty())
+        order["group"] = report.schedule_groups.at(index);
+    order["trials"] = std::move(trials);
+    return order;
+}
+
+Json blocks_json(const DesignReport& report) {
+    Json blocks = Json::array();
+    if (report.blocks.empty())
+        return blocks;
+    for (const BlockFacts& block : report.block_facts)
+        blocks.push_back({{"block", block.id}, {"order", block.order}, {"trials", block.trials}});
+    return blocks;
+}
+
+Json groups_json(const DesignReport& report) {
+    Json groups = Json::array();
+    for (const GroupFacts& group : report.groups) {
+        groups.push_back({{"group", group.id}, {"observers", group.observers}, {"trials", group.trials}});
+        if (group.cap > 0)
+            groups.back()["cap"] = group.cap;
+    }
+    return groups;
 }
 
 } // namespace
@@ -32,10 +58,17 @@ Json to_json(const DesignReport& report) {
     const AnimationFacts& animation = report.animation;
     const VisualAngles& angles = report.angles;
     const SessionLength& session = report.session;
-    Json json{{"name", report.name},           {"title", report.title},
-              {"tasks", report.tasks},         {"sculptures", report.sculptures},
-              {"materials", report.materials}, {"trials_per_observer", report.trials_per_observer},
-              {"observers", report.observers}};
+    Json json{{"name", report.name},
+              {"title", report.title},
+              {"tasks", report.tasks},
+              {"sculptures", report.sculptures},
+              {"materials", report.materials},
+              {"trials_per_observer", report.trials_per_observer},
+              {"fewest_trials", report.fewest_trials},
+              {"observers", report.observers},
+              {"practice_trials", report.practice_trials}};
+    json["blocks"] = blocks_json(report);
+    json["groups"] = groups_json(report);
     json["animation"] = {{"frames", animation.frames},
                          {"distinct_poses", animation.distinct_poses},
                          {"shown_frames", animation.shown_frames},
@@ -66,9 +99,16 @@ Json to_json(const DesignReport& report) {
         if (std::isfinite(light->contrast()))
             json["light"]["contrast"] = light->contrast();
     }
-    json["session"] = {{"calibration_s", session.calibration_s},   {"questions_s", session.questions_s},
-                       {"drift_checks_s", session.drift_checks_s}, {"animations_s", session.animations_s},
-                       {"answers_s", session.answers_s},           {"total_s", session.total_s()}};
+    json["session"] = {{"calibration_s", session.calibration_s},
+                       {"questions_s", session.questions_s},
+                       {"drift_checks_s", session.drift_checks_s},
+                       {"animations_s", session.animations_s},
+                       {"answers_s", session.answers_s},
+                       {"practice_s", session.practice_s},
+                       {"instructions_s", session.instructions_s},
+                       {"breaks_s", session.breaks_s},
+                       {"breaks", session.breaks},
+                       {"total_s", session.total_s()}};
     json["memory"] = {{"pages_per_stimulus_bytes", report.memory.pages_per_stimulus_bytes},
                       {"maps_per_stimulus_bytes", report.memory.maps_per_stimulus_bytes}};
     json["surfaces"] = Json::array();
@@ -90,8 +130,8 @@ Json to_json(const DesignReport& report) {
     }
     json["is_seed_fixed"] = report.is_seed_fixed;
     json["orders"] = Json::array();
-    for (const Schedule& schedule : report.schedules)
-        json["orders"].push_back(order_json(report, schedule));
+    for (std::size_t i = 0; i < report.schedules.size(); ++i)
+        json["orders"].push_back(order_json(report, i));
     json["warnings"] = report.warnings;
     return json;
 }

@@ -38,18 +38,38 @@ void add_facts(std::string& text, std::string_view heading, const std::vector<st
         text += fmt::format("  {:<11}{}\n", i == 0 ? heading : "", lines[i]);
 }
 
+void add_blocks(std::string& text, const DesignReport& report) {
+    std::vector<std::string> lines;
+    if (!report.blocks.empty()) {
+        for (const BlockFacts& block : report.block_facts)
+            lines.push_back(fmt::format("{}: {}, {}", block.id, counted(block.trials, "trial"), block.order));
+        add_facts(text, "Blocks", lines);
+    }
+    lines.clear();
+    for (const GroupFacts& group : report.groups)
+        lines.push_back(fmt::format("{}: {}{}, {} each", group.id, counted(group.observers, "observer"),
+                                    group.cap > 0 ? fmt::format(" of {}", group.cap) : "",
+                                    counted(group.trials, "trial")));
+    add_facts(text, "Groups", lines);
+}
+
 void add_overview(std::string& text, const DesignReport& report) {
     const int sculptures = static_cast<int>(report.sculptures.size());
     const int materials = static_cast<int>(report.materials.size());
     const int tasks = static_cast<int>(report.tasks.size()), stimuli = sculptures * materials;
     const AnimationFacts& animation = report.animation;
     const VisualAngles& angles = report.angles;
-    add_facts(text, "Design",
-              {fmt::format("{} x {} = {}; {}: {}", counted(sculptures, "sculpture"),
-                           counted(materials, "material"), counted(stimuli, "stimulus", "stimuli"),
-                           counted(tasks, "task"), counted(tasks * stimuli, "map")),
-               fmt::format("{} for each of {}", counted(report.trials_per_observer, "trial"),
-                           counted(report.observers, "observer"))});
+    add_facts(
+        text, "Design",
+        {fmt::format("{} x {} = {}; {}: {}", counted(sculptures, "sculpture"), counted(materials, "material"),
+                     counted(stimuli, "stimulus", "stimuli"), counted(tasks, "task"),
+                     counted(tasks * stimuli, "map")),
+         fmt::format("{}{} for each of {}",
+                     report.fewest_trials < report.trials_per_observer
+                         ? fmt::format("{} to ", report.fewest_trials)
+                         : "",
+                     counted(report.trials_per_observer, "trial"), counted(report.observers, "observer"))});
+    add_blocks(text, report);
     add_facts(text, "Animation",
               {fmt::format("{} ({}), {}, {} deg to each side", counted(animation.frames, "frame"),
                            name_of(report.motion.playback),
@@ -107,6 +127,11 @@ void add_session(std::string& text, const DesignReport& report) {
              minutes(session.drift_checks_s), minutes(session.animations_s), minutes(session.answers_s)),
          fmt::format("if reading takes {} s and answering {} s", report.assumptions.question_s,
                      report.assumptions.answer_s)});
+    if (session.practice_s + session.breaks_s + session.instructions_s > 0.0)
+        add_facts(text, "",
+                  {fmt::format("with {} of practice, {} of instructions, and {} in {}",
+                               minutes(session.practice_s), minutes(session.instructions_s),
+                               minutes(session.breaks_s), counted(session.breaks, "break"))});
 }
 
 void add_balance(std::string& text, const DesignReport& report) {
@@ -143,6 +168,12 @@ void add_balance(std::string& text, const DesignReport& report) {
 void add_order_of_one(std::string& text, const DesignReport& report, const Schedule& schedule) {
     const std::size_t task_width = longest(report.tasks), sculpture_width = longest(report.sculptures);
     for (const Trial& trial : schedule.trials) {
+        const bool begins_block =
+            !report.blocks.empty() &&
+            (trial.index == 0 ||
+             schedule.trials[static_cast<std::size_t>(trial.index) - 1].block != trial.block);
+        if (begins_block)
+            text += fmt::format("  block {}\n", at(report.blocks, trial.block));
         text += fmt::format("  {:>4}  {:<{}}  {:<{}}  {}\n", trial.index + 1, at(report.tasks, trial.task),
                             task_width, at(report.sculptures, trial.condition.sculpture), sculpture_width,
                             at(report.materials, trial.condition.material));
@@ -170,20 +201,29 @@ void add_orders_of_many(std::string& text, const DesignReport& report) {
     for (const Schedule& schedule : report.schedules) {
         std::string line;
         for (const Trial& trial : schedule.trials) {
+            const bool begins_block =
+                trial.index > 0 &&
+                schedule.trials[static_cast<std::size_t>(trial.index) - 1].block != trial.block;
+            if (begins_block)
+                line += " |";
             if (trial.index > 0 && trial.index % codes_per_line == 0)
                 line += "\n          ";
             line += fmt::format(" {}{}{}", trial.task + 1, letter('A', trial.condition.sculpture),
                                 letter('a', trial.condition.material));
         }
-        text += fmt::format("  {:>6}: {}\n", schedule.observer.label, line);
+        const auto index = static_cast<std::size_t>(&schedule - report.schedules.data());
+        const std::string group =
+            report.schedule_groups.empty() ? "" : fmt::format("  ({})", report.schedule_groups[index]);
+        text += fmt::format("  {:>6}: {}{}\n", schedule.observer.label, line, group);
     }
 }
 
 void add_orders(std::string& text, const DesignReport& report) {
     if (report.schedules.empty())
         return;
-    const std::string seed = report.is_seed_fixed
-                                 ? fmt::format("seed {}", report.schedules.front().seed)
+    const std::string seed = report.is_seed_fixed ? fmt::format("seed {}", report.schedules.front().seed)
+                             : report.is_seed_given
+                                 ? fmt::format("as from seed {}", report.schedules.front().seed)
                                  : fmt::format("an example, from seed {}: each session draws its own",
                                                report.schedules.front().seed);
     if (report.schedules.size() == 1) {

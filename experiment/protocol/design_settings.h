@@ -75,7 +75,8 @@ struct BlockSettings {
     std::optional<int> draws;               ///< trials drawn with replacement, of a weighted order
     int repetitions = 1;
     RepetitionOrder repetition_order = RepetitionOrder::in_turn;
-    bool continues = false; ///< limits count the trials of the block before, too
+    std::string instructions; ///< shown before it; empty: nothing
+    bool continues = false;   ///< limits count the trials of the block before, too
     std::optional<int> max_task_run, max_sculpture_run, max_material_run, max_stimulus_run;
     std::optional<int> min_task_distance, min_sculpture_distance, min_material_distance,
         min_stimulus_distance;
@@ -87,6 +88,38 @@ struct GroupSettings {
     int cap = 0; ///< most observers; 0: no limit
     // Left out: all.
     std::vector<std::string> blocks, tasks, sculptures, materials;
+};
+
+/// [[practice]]: a trial that does not count. Ids.
+struct PracticeSettings {
+    std::string task, sculpture, material;
+    std::string block;    ///< that it comes before; empty: the first
+    std::string feedback; ///< shown after the answer; empty: nothing
+};
+
+enum class BreakPace : std::uint8_t { self, timed };
+
+/// [breaks]
+struct BreakSettings {
+    int every_trials = 0; ///< 0: none
+    bool between_blocks = false;
+    BreakPace pace = BreakPace::self;
+    double duration_s = 60.0;
+    double min_s = 5.0;
+    std::string text = "Time for a rest.\nPress a key to go on.";
+};
+
+/// When a trial that failed comes again.
+enum class RepeatWhen : std::uint8_t { never, now, end_of_block };
+
+/// [repeat]
+struct RepeatSettings {
+    RepeatWhen missed_refreshes = RepeatWhen::never;
+    int missed_refreshes_limit = 0; ///< more than these fail
+    RepeatWhen gaze_lost = RepeatWhen::never;
+    double gaze_lost_limit = 0.3; ///< a larger share of samples without gaze fails
+    RepeatWhen rejected = RepeatWhen::end_of_block;
+    int most_attempts = 3;
 };
 
 } // namespace overt

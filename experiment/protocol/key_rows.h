@@ -27,6 +27,11 @@ Section<Task> task();
 Section<BlockSettings> block();
 Section<GroupSettings> group();
 
+// How a session goes besides its trials (practice_keys.cpp).
+Section<PracticeSettings> practice();
+Section<BreakSettings> breaks();
+Section<RepeatSettings> repeat();
+
 // Names of enumerations, in the order of their values.
 inline constexpr std::string_view output_modes[] = {"native-8bit", "native-10bit", "mono++",   "color++",
                                                     "bits++",      "vpixx-m16",    "vpixx-c48"};
@@ -42,6 +47,8 @@ inline constexpr std::string_view order_methods[] = {"random", "sequential", "bl
 inline constexpr std::string_view trial_factors[] = {"task", "sculpture", "material", "stimulus"};
 inline constexpr std::string_view level_orders[] = {"random", "fixed", "cyclic", "balanced", "random-square"};
 inline constexpr std::string_view square_kinds[] = {"cyclic", "balanced", "random-square"};
+inline constexpr std::string_view break_paces[] = {"self", "timed"};
+inline constexpr std::string_view repeat_whens[] = {"never", "now", "end-of-block"};
 inline constexpr std::string_view repetition_orders[] = {"in-turn", "mixed"};
 inline constexpr std::string_view material_kinds[] = {"smooth-conductor", "rough-conductor",
                                                       "coated-conductor", "diffuse"};

@@ -86,6 +86,10 @@ Section<BlockSettings> block() {
                   .choices = repetition_orders,
                   .explanation = "One repetition is over before the next begins, or all are mixed."},
                  &B::repetition_order},
+                {{.name = "instructions",
+                  .if_left_out = "none",
+                  .explanation = "What the observer reads before the block, until a key is pressed."},
+                 &B::instructions},
                 {{.name = "continues",
                   .explanation =
                       "The limits count the trials of the block before, too, and both are drawn "

@@ -16,6 +16,7 @@
 #include "experiment/colour/display_characterisation.h"
 #include "experiment/protocol/design_settings.h"
 #include "experiment/protocol/key_places.h"
+#include "experiment/protocol/protocol_sources.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/units.h"
 
@@ -216,12 +217,16 @@ struct Protocol {
     std::vector<Task> tasks;
     std::vector<BlockSettings> blocks; ///< none: all trials are one block in random order
     std::vector<GroupSettings> groups; ///< none: all observers see the same
+    std::vector<PracticeSettings> practice;
+    BreakSettings breaks;
+    RepeatSettings repeat;
     std::vector<SculptureSettings> sculptures;
     std::vector<MaterialSettings> materials;
     std::vector<FrameSequenceSettings> frames;
 
     std::filesystem::path file; ///< where it was read
     std::string text;           ///< the file, byte for byte
+    std::vector<IncludedText> included; ///< the files that it includes
     KeyPlaces places;           ///< where each key stands in it, for findings that come later
 };
 

@@ -52,6 +52,8 @@ void check_schedule(ProtocolExamination& examination);
 /// Blocks and groups: what they name, and what belongs together in one.
 void check_blocks(ProtocolExamination& examination);
 void check_groups(ProtocolExamination& examination);
+void check_practice(ProtocolExamination& examination);
+void check_breaks(ProtocolExamination& examination);
 
 /// Reads the characterisation of the display, if the protocol names one and `look_at_files`, and finds what
 /// in the protocol contradicts it or asks for it. Turns luminances into linear light.

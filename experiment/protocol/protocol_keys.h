@@ -37,10 +37,11 @@ using KeyMember =
                  std::optional<glm::dvec3> Struct::*, std::array<double, 3> Struct::*, bool Struct::*,
                  std::vector<double> Struct::*, std::vector<std::string> Struct::*,
                  std::vector<std::array<double, 4>> Struct::*, std::vector<std::array<double, 6>> Struct::*,
-                 OutputMode Struct::*, Dithering Struct::*, PairFilter Struct::*, PatchCorner Struct::*, TrackerKind Struct::*,
-                 Playback Struct::*, WhenLate Struct::*, TaskCoverage Struct::*, MaterialKind Struct::*,
-                 FrameEncoding Struct::*, std::optional<TaskCoverage> Struct::*, OrderMethod Struct::*,
-                 TrialFactor Struct::*, SquareKind Struct::*, LevelOrder Struct::*, RepetitionOrder Struct::*>;
+                 OutputMode Struct::*, Dithering Struct::*, PairFilter Struct::*, PatchCorner Struct::*,
+                 TrackerKind Struct::*, Playback Struct::*, WhenLate Struct::*, TaskCoverage Struct::*,
+                 MaterialKind Struct::*, FrameEncoding Struct::*, std::optional<TaskCoverage> Struct::*,
+                 OrderMethod Struct::*, TrialFactor Struct::*, SquareKind Struct::*, LevelOrder Struct::*,
+                 RepetitionOrder Struct::*, BreakPace Struct::*, RepeatWhen Struct::*>;
 
 template <class Struct> struct Key {
     KeyRule rule;
@@ -61,8 +62,9 @@ template <class Struct> struct Section {
 using ProtocolSections =
     std::tuple<Section<Protocol>, Section<DisplaySettings>, Section<TrackerSettings>, Section<ViewSettings>,
                Section<LightSettings>, Section<Animation>, Section<ScheduleSettings>, Section<ScreenSettings>,
-               Section<Task>, Section<BlockSettings>, Section<GroupSettings>, Section<SculptureSettings>, Section<MaterialSettings>,
-               Section<FrameSequenceSettings>>;
+               Section<Task>, Section<BlockSettings>, Section<GroupSettings>, Section<PracticeSettings>,
+               Section<BreakSettings>, Section<RepeatSettings>, Section<SculptureSettings>,
+               Section<MaterialSettings>, Section<FrameSequenceSettings>>;
 
 /// All sections, in the order of the documentation. Made once; safe from any thread.
 const ProtocolSections& protocol_sections();

@@ -10,6 +10,7 @@
 
 #include "experiment/protocol/protocol_checks.h"
 #include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/protocol_sources.h"
 #include "experiment/protocol/toml_tree.h"
 #include "experiment/protocol/value_reader.h"
 #include "experiment/scene/metal_table.h"
@@ -165,6 +166,8 @@ class ProtocolWalk {
                     home = fmt::format("\"{}\" belongs to [{}]", key, other.name);
             }
         });
+        if (key == "include")
+            return "\"include\" stands before the first section";
         return home.empty() || nearest_name(key, names) ? suggest_name(key, names) : home;
     }
 
@@ -197,12 +200,25 @@ void require_lists(ProtocolExamination& examination) {
         examination.error({"material"}, "there is no [[material]]", "add [[material]] with id and kind");
 }
 
+/// The folder that a path counts from: that of the file in which it stands.
+std::filesystem::path folder_of(const Protocol& protocol, std::string_view key_path) {
+    if (protocol.places.is_written(key_path)) {
+        const int number = protocol.places.of(key_path).file;
+        for (const IncludedText& included : protocol.included) {
+            if (number != 0 && included.number == number)
+                return included.file.parent_path();
+        }
+    }
+    return protocol.file.parent_path();
+}
+
 /// Titles left out take the ids; paths become independent of the working directory of whoever reads on.
 void complete(Protocol& protocol) {
-    const std::filesystem::path folder = protocol.file.parent_path();
     if (protocol.title.empty())
         protocol.title = protocol.name;
-    for (SculptureSettings& sculpture : protocol.sculptures) {
+    for (std::size_t i = 0; i < protocol.sculptures.size(); ++i) {
+        SculptureSettings& sculpture = protocol.sculptures[i];
+        const auto folder = folder_of(protocol, fmt::format("sculpture[{}]", i));
         if (sculpture.title.empty())
             sculpture.title = sculpture.id;
         if (!sculpture.mesh.empty())
@@ -210,31 +226,36 @@ void complete(Protocol& protocol) {
         if (!sculpture.lut.empty())
             sculpture.lut = (folder / sculpture.lut).string();
     }
-    for (MaterialSettings& material : protocol.materials) {
+    for (std::size_t i = 0; i < protocol.materials.size(); ++i) {
+        MaterialSettings& material = protocol.materials[i];
         if (material.title.empty())
             material.title = material.id;
         if (is_metal_file(material.metal))
-            material.metal = (folder / material.metal).string();
+            material.metal = (folder_of(protocol, fmt::format("material[{}]", i)) / material.metal).string();
     }
-    for (FrameSequenceSettings& sequence : protocol.frames) {
+    for (std::size_t i = 0; i < protocol.frames.size(); ++i) {
+        FrameSequenceSettings& sequence = protocol.frames[i];
         if (!sequence.files.empty())
-            sequence.files = (folder / sequence.files).string();
+            sequence.files = (folder_of(protocol, fmt::format("frames[{}]", i)) / sequence.files).string();
     }
     if (!protocol.display.characterisation_file.empty())
-        protocol.display.characterisation_file = folder / protocol.display.characterisation_file;
+        protocol.display.characterisation_file =
+            folder_of(protocol, "display.characterisation") / protocol.display.characterisation_file;
     if (protocol.light.probe != "overcast")
-        protocol.light.probe = (folder / protocol.light.probe).string();
+        protocol.light.probe = (folder_of(protocol, "light.probe") / protocol.light.probe).string();
 }
 
 std::optional<Protocol> read_text(std::string_view text, const std::filesystem::path& file,
                                   std::span<const std::string_view> shipped_sculptures, bool look_at_files,
-                                  Diagnostics& diagnostics) {
+                                  const IncludeReader& reader, Diagnostics& diagnostics) {
     const int errors_before = diagnostics.error_count();
     Protocol protocol;
     protocol.file = file;
     protocol.text = text;
     diagnostics.quote_from(file.string(), text);
-    const TomlFile toml = parse_toml(text, file.string(), diagnostics);
+    JoinedToml joined = read_joined_toml(text, file, reader, diagnostics);
+    const TomlFile& toml = joined.toml;
+    protocol.included = std::move(joined.included);
     ProtocolExamination examination(protocol, diagnostics);
     ProtocolWalk(examination, toml, diagnostics).read();
     complete(protocol);
@@ -249,6 +270,8 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_ids(examination);
         check_blocks(examination);
         check_groups(examination);
+        check_practice(examination);
+        check_breaks(examination);
         check_sculptures(examination, shipped_sculptures);
         check_materials(examination);
         check_frames(examination);
@@ -262,16 +285,13 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
     return protocol;
 }
 
-} // namespace
-
-std::optional<Protocol> read_protocol(const std::filesystem::path& file,
-                                      std::span<const std::string_view> shipped_sculptures,
-                                      Diagnostics& diagnostics) {
+/// The whole of a file, or nothing with the reason.
+std::optional<std::string> text_of(const std::filesystem::path& file, std::string& why_not) {
     // Far more than anyone writes by hand: someone gave a mesh or a picture for the protocol.
     constexpr std::size_t largest_bytes = 1 << 20;
     std::error_code ignored;
     if (std::filesystem::is_directory(file, ignored)) {
-        diagnostics.error(file.string(), {}, "this is a folder, not a protocol file");
+        why_not = "this is a folder, not a protocol file";
         return std::nullopt;
     }
     errno = 0;
@@ -279,21 +299,43 @@ std::optional<Protocol> read_protocol(const std::filesystem::path& file,
     std::string text(largest_bytes + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     if (!stream.eof() && stream.gcount() == 0) {
-        diagnostics.error(file.string(), {}, fmt::format("cannot be read: {}", std::strerror(errno)));
+        why_not = fmt::format("cannot be read: {}", std::strerror(errno));
         return std::nullopt;
     }
     text.resize(static_cast<std::size_t>(stream.gcount()));
     if (text.size() > largest_bytes) {
-        diagnostics.error(file.string(), {}, "larger than 1 MiB: this is no protocol file");
+        why_not = "larger than 1 MiB: this is no protocol file";
         return std::nullopt;
     }
-    return read_text(text, file, shipped_sculptures, true, diagnostics);
+    return text;
+}
+
+} // namespace
+
+std::optional<Protocol> read_protocol(const std::filesystem::path& file,
+                                      std::span<const std::string_view> shipped_sculptures,
+                                      Diagnostics& diagnostics) {
+    std::string why_not;
+    const std::optional<std::string> text = text_of(file, why_not);
+    if (!text) {
+        diagnostics.error(file.string(), {}, why_not);
+        return std::nullopt;
+    }
+    return read_text(*text, file, shipped_sculptures, true, text_of, diagnostics);
 }
 
 std::optional<Protocol> read_protocol_text(std::string_view text, const std::filesystem::path& file,
                                            std::span<const std::string_view> shipped_sculptures,
-                                           Diagnostics& diagnostics) {
-    return read_text(text, file, shipped_sculptures, false, diagnostics);
+                                           Diagnostics& diagnostics, const IncludedTexts& included) {
+    const IncludeReader from_record = [&](const std::filesystem::path& wanted,
+                                          std::string& why_not) -> std::optional<std::string> {
+        const auto known = included.find(wanted.lexically_proximate(file.parent_path()).string());
+        if (known != included.end())
+            return known->second;
+        why_not = "it is not among the texts that are kept";
+        return std::nullopt;
+    };
+    return read_text(text, file, shipped_sculptures, false, from_record, diagnostics);
 }
 
 } // namespace overt

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -18,10 +19,13 @@ std::optional<Protocol> read_protocol(const std::filesystem::path& file,
                                       std::span<const std::string_view> shipped_sculptures,
                                       Diagnostics& diagnostics);
 
+/// Texts of included files, by IncludedText::name.
+using IncludedTexts = std::map<std::string, std::string>;
+
 /// The same from a text, as a recorded session holds it: `file` says where it was, and nothing there is
-/// looked at.
+/// looked at; what it includes is taken from `included`.
 std::optional<Protocol> read_protocol_text(std::string_view text, const std::filesystem::path& file,
                                            std::span<const std::string_view> shipped_sculptures,
-                                           Diagnostics& diagnostics);
+                                           Diagnostics& diagnostics, const IncludedTexts& included = {});
 
 } // namespace overt

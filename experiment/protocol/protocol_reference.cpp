@@ -27,12 +27,18 @@ id = "first"
 experiment amounts to. To begin with, read [protocols/overt_2019.toml](../protocols/overt_2019.toml), which
 is the experiment of the 2019 paper with every choice explained;
 [protocols/quick_look.toml](../protocols/quick_look.toml) is the smallest that runs. How to use laser scans
-and other meshes of your own is in [laser_scans.md](laser_scans.md).
+and other meshes of your own is in [laser_scans.md](laser_scans.md); blocks, limits, squares, groups, breaks and repeated
+trials are shown by examples in [design.md](design.md). `overt new FILE` writes a protocol to begin with, and
+`overt schema` a JSON Schema by which editors complete and check protocols as they are written.
 
 - A key that is left out has its default.
+- `include = "rig.toml"`, or a list of files, before the first section completes a protocol by other files, say that of
+  the rig. Keys of the same section are put together, and those of the including file hold; two files included side by
+  side may not set the same key. Entries of lists are put together, included ones first. Includes may be nested; a file
+  that is included twice counts once, and one that includes itself is refused. A session keeps the texts of all files.
 - Units are part of the names: `_mm`, `_deg` (degrees of visual angle or of turn), `_px`, `_hz`, `_s`, `_ms`.
 - A whole number may stand where a number is expected, never the other way round.
-- Paths count from the folder of the protocol file.
+- Paths count from the folder of the file that they stand in.
 - The stimulus is shown pixel for pixel, in the middle of the screen unless `[view]` says where.
 
 This page is written from the program's own table of keys.

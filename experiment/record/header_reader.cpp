@@ -27,7 +27,7 @@ glm::ivec2 read_pixels(Query& row) {
 }
 
 void read_session(Query& row, SessionHeader& header) {
-    header.protocol = {row.text(), row.text(), row.text(), row.text()};
+    header.protocol = {row.text(), row.text(), row.text(), row.text(), {}};
     header.schedule.observer = {row.text(), row.small()};
     header.session_number = row.small();
     header.schedule.seed = seed_from(row.text());
@@ -55,10 +55,16 @@ void read_session(Query& row, SessionHeader& header) {
     header.animation.when_late = row.text() == "stretch" ? WhenLate::stretch : WhenLate::drop;
 }
 
+bool has_table(const SQLite::Database& database, const char* name) {
+    const std::string sql =
+        fmt::format("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = '{}'", name);
+    Query table(database, sql.c_str());
+    return table.step();
+}
+
 void read_characterisation(const SQLite::Database& database, SessionHeader& header) {
     // Sessions of earlier programs have no such table.
-    Query table(database, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'characterisation'");
-    if (!table.step())
+    if (!has_table(database, "characterisation"))
         return;
     Query row(database, "SELECT display, date, instrument, sha256, black_x, black_y, black_z, red_x, red_y, "
                         "red_z, green_x, green_y, green_z, blue_x, blue_y, blue_z FROM characterisation");
@@ -79,10 +85,24 @@ void read_characterisation(const SQLite::Database& database, SessionHeader& head
     header.characterisation = std::move(light);
 }
 
+/// Sessions of earlier programs have neither blocks nor included files.
+void read_blocks(const SQLite::Database& database, SessionHeader& header) {
+    if (!has_table(database, "block"))
+        return;
+    for (Query row(database, "SELECT id FROM block ORDER BY block"); row.step();)
+        header.blocks.push_back(row.text());
+    std::size_t trial = 0;
+    for (Query row(database, "SELECT block FROM schedule ORDER BY trial"); row.step(); ++trial)
+        header.schedule.trials.at(trial).block = row.small();
+    for (Query row(database, "SELECT name, text, sha256 FROM protocol_file ORDER BY n"); row.step();)
+        header.protocol.included.push_back({row.text(), row.text(), row.text()});
+}
+
 void read_design(const SQLite::Database& database, SessionHeader& header) {
     for (Query row(database, "SELECT trial, task, sculpture, material FROM schedule ORDER BY trial");
          row.step();)
         header.schedule.trials.push_back({row.small(), row.small(), {row.small(), row.small()}});
+    read_blocks(database, header);
     for (Query row(database, "SELECT id, question FROM task ORDER BY task"); row.step();)
         header.tasks.push_back({row.text(), row.text()});
     for (Query row(database, "SELECT id, title FROM material ORDER BY material"); row.step();)

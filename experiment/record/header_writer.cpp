@@ -48,9 +48,16 @@ void insert_characterisation(SQLite::Database& database, const RecordedCharacter
 
 void insert_design(SQLite::Database& database, const SessionHeader& header) {
     for (const Trial& trial : header.schedule.trials)
-        insert(database, "INSERT INTO schedule VALUES (?,?,?,?)", trial.index, trial.task,
-               trial.condition.sculpture, trial.condition.material);
+        insert(database, "INSERT INTO schedule VALUES (?,?,?,?,?)", trial.index, trial.task,
+               trial.condition.sculpture, trial.condition.material, trial.block);
     int index = 0;
+    for (const std::string& block : header.blocks)
+        insert(database, "INSERT INTO block VALUES (?,?)", index++, block);
+    index = 0;
+    for (const RecordedProtocol::Included& file : header.protocol.included)
+        insert(database, "INSERT INTO protocol_file VALUES (?,?,?,?)", index++, file.name, file.text,
+               file.sha256);
+    index = 0;
     for (const RecordedTask& task : header.tasks)
         insert(database, "INSERT INTO task VALUES (?,?,?)", index++, task.id, task.question);
     index = 0;

@@ -30,6 +30,15 @@ struct RecordedProtocol {
     std::string title;
     std::string text;
     ContentHash sha256; ///< of text
+
+    /// A file that it includes, by its path as seen from the protocol's folder.
+    struct Included {
+        std::string name;
+        std::string text;
+        ContentHash sha256; ///< of text
+        bool operator==(const Included&) const = default;
+    };
+    std::vector<Included> included = {};
 };
 
 /// The program that ran the session.
@@ -129,6 +138,7 @@ struct SessionHeader {
     std::optional<RecordedCharacterisation> characterisation; ///< of the display, if the protocol names one
     Animation animation;
     PoseTable poses;
+    std::vector<std::string> blocks; ///< ids; none: the protocol has no blocks
     std::vector<RecordedTask> tasks;
     std::vector<RecordedSculpture> sculptures;
     std::vector<RecordedMaterial> materials;

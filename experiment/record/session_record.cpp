@@ -151,6 +151,11 @@ SessionRecord::SessionRecord(const std::filesystem::path& session)
     reading(file_, [&] {
         header_ = read_session_header(*database_);
         trials_ = read_trials(*database_);
+        for (TrialRecord& trial : trials_) {
+            const auto planned = static_cast<std::size_t>(trial.trial.index);
+            if (trial.trial.index >= 0 && planned < header_.schedule.trials.size())
+                trial.trial.block = header_.schedule.trials[planned].block;
+        }
     });
     check_indices(header_, trials_, file_);
 }

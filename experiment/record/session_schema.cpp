@@ -38,7 +38,10 @@ CREATE TABLE characterisation (
 ) STRICT;
 CREATE TABLE characterisation_file (n INTEGER PRIMARY KEY, name TEXT NOT NULL, text TEXT NOT NULL) STRICT;
 CREATE TABLE schedule (trial INTEGER PRIMARY KEY, task INTEGER NOT NULL, sculpture INTEGER NOT NULL,
-                       material INTEGER NOT NULL) STRICT;
+                       material INTEGER NOT NULL, block INTEGER NOT NULL DEFAULT 0) STRICT;
+CREATE TABLE block (block INTEGER PRIMARY KEY, id TEXT NOT NULL) STRICT;
+CREATE TABLE protocol_file (n INTEGER PRIMARY KEY, name TEXT NOT NULL, text TEXT NOT NULL,
+                            sha256 TEXT NOT NULL) STRICT;
 CREATE TABLE task (task INTEGER PRIMARY KEY, id TEXT NOT NULL, question TEXT NOT NULL) STRICT;
 CREATE TABLE sculpture (
     sculpture INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEXT NOT NULL,

@@ -99,12 +99,14 @@ void TsvExport::angle(TsvWriter& writer, PoseIndex pose) const {
 
 void TsvExport::begin_trial_row(const TrialRecord& trial) {
     trials_.integer(number_of(trial.trial)).integer(trial.attempt).integer(trial.sitting);
+    const std::string* const block = item(header_.blocks, trial.trial.block);
+    block ? trials_.ready(tsv_cell(*block)) : trials_.missing();
     trials_.ready(condition_cells(trial.trial), 3).ready(name_of(trial.status)).seconds(trial.started);
 }
 
 void TsvExport::write_attempt_without_rows(const TrialRecord& trial) {
     begin_trial_row(trial);
-    trials_.missing(static_cast<int>(tables_.trials.columns.size()) - 8).end_row();
+    trials_.missing(static_cast<int>(tables_.trials.columns.size()) - 9).end_row();
 }
 
 void TsvExport::write_trial(const TrialRecord& trial, const SurfaceLookup* lookup) {

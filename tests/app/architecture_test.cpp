@@ -33,7 +33,10 @@ const std::vector<Layer> layers{
      opengl + "|" + usb + "|" + drawing + "|" + database},
     {"experiment/timing/", "^experiment/([^/]+|timing/.*)$",
      opengl + "|" + usb + "|" + drawing + "|" + database},
-    {"experiment/protocol/", "^experiment/([^/]+|(colour|timing|protocol)/.*)$",
+    // The checks and the report of a protocol reckon with its design, and a design is one of a protocol.
+    {"experiment/design/", "^experiment/([^/]+|(protocol|design)/.*)$",
+     opengl + "|" + usb + "|" + drawing + "|" + database},
+    {"experiment/protocol/", "^experiment/([^/]+|(colour|timing|protocol|design)/.*|scene/metal_table\\.h)$",
      opengl + "|" + usb + "|" + drawing + "|" + database},
     {"experiment/analysis/", "^experiment/([^/]+|(scene|timing|analysis)/.*)$",
      opengl + "|" + usb + "|" + database},
@@ -41,8 +44,9 @@ const std::vector<Layer> layers{
     {"experiment/record/", "^experiment/([^/]+|(scene|timing|analysis|record)/.*)$",
      opengl + "|" + usb + "|" + drawing},
     // These three are rules about protocols, the rest of the folder is words that everybody uses.
-    {"experiment/session.", "^experiment/([^/]+|(timing|protocol)/.*)$", opengl + "|" + usb + "|" + drawing},
-    {"experiment/schedule.", "^experiment/([^/]+|protocol/.*)$", opengl + "|" + usb + "|" + drawing},
+    {"experiment/session.", "^experiment/([^/]+|(timing|protocol|design)/.*)$",
+     opengl + "|" + usb + "|" + drawing},
+    {"experiment/schedule.", "^experiment/([^/]+|(protocol|design)/.*)$", opengl + "|" + usb + "|" + drawing},
     {"experiment/sculpture.", "^experiment/([^/]+|(protocol|scene)/.*)$", opengl + "|" + usb + "|" + drawing},
     {"experiment/", "^experiment/[^/]+$", opengl + "|" + usb + "|" + drawing + "|" + database},
     {"render/", "^(experiment/([^/]+|(colour|scene|timing|protocol|analysis)/.*)|render/.*)$",

@@ -1,0 +1,82 @@
+/// What comes next in a session: trials in their order, practice before them, texts and breaks between them,
+/// and trials that failed once more.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "experiment/protocol/protocol.h"
+#include "experiment/trial.h"
+
+namespace overt {
+
+struct SessionStep {
+    enum class Kind : std::uint8_t {
+        instructions, ///< the text of a block that begins
+        practice,     ///< a trial that does not count, with feedback
+        trial,
+        pause
+    };
+    Kind kind = Kind::trial;
+    Trial trial;     ///< of practice, its index is that of the entry in the protocol's practice
+    int attempt = 1; ///< at the trial
+    int block = 0;   ///< that begins, or that the trial is of
+};
+
+/// How an attempt went, as far as it matters to whether it counts.
+struct AttemptResult {
+    int missed_refreshes = 0;
+    double gaze_lost_share = 0.0; ///< of the samples taken during the presentation, 0 … 1
+    bool is_rejected = false;     ///< by the operator
+};
+
+enum class TrialFailure : std::uint8_t { none, missed_refreshes, gaze_lost, rejected };
+std::string_view name_of(TrialFailure failure);
+
+/// What is made of an attempt.
+struct AttemptVerdict {
+    TrialFailure failure = TrialFailure::none;
+    RepeatWhen comes_again = RepeatWhen::never;
+    /// The attempt counts: it did not fail, or fails by nothing that it would be repeated for, or all
+    /// attempts are used up. An attempt that was rejected never counts.
+    bool counts = true;
+};
+
+/// Plans a session step by step. It ends for any outcomes: no trial is attempted more than
+/// repeat.most_attempts times.
+class TrialQueue {
+  public:
+    /// Both must outlive the queue.
+    TrialQueue(const Protocol& protocol, const Schedule& schedule);
+
+    /// Nothing when the session is over. After a trial, tell() must come first; practice needs no telling.
+    std::optional<SessionStep> next();
+
+    /// How the trial went that next() gave last.
+    AttemptVerdict tell(const AttemptResult& result);
+
+    /// The stimulus that will be shown next if nothing fails.
+    std::optional<Condition> expected() const;
+
+    int trials_left() const { return static_cast<int>(waiting_.size()); } ///< attempts planned, at least
+
+  private:
+    struct Attempt {
+        Trial trial;
+        int number = 1;
+    };
+    AttemptVerdict judge(const AttemptResult& result) const;
+    void begin_block(int block);
+    bool needs_pause(bool is_new_block) const;
+
+    const Protocol& protocol_;
+    std::deque<Attempt> waiting_;
+    std::deque<SessionStep> before_; ///< what comes before the next trial
+    std::optional<Attempt> running_;
+    int block_ = -1; ///< of the last trial
+    int attempts_since_pause_ = 0;
+};
+
+} // namespace overt
