@@ -12,8 +12,9 @@ namespace overt {
 namespace {
 
 constexpr int shuffles = 2000;
-constexpr int more_shuffles = 60'000;
-constexpr int guided_tries = 20'000;
+// Trials placed at most, in as many tries.
+constexpr int more_shuffled_trials = 10'000'000;
+constexpr int guided_trials = 1'000'000;
 
 int draw_by_weight(const OrderSegment& segment, RandomStream& random) {
     double chance = random.uniform() * std::accumulate(segment.weights.begin(), segment.weights.end(), 0.0);
@@ -106,7 +107,6 @@ class OrderDraw::Work {
   public:
     explicit Work(OrderProblem problem) : problem_(std::move(problem)), prepared_(problem_) {}
     Work(const Work&) = delete;
-    Work& operator=(const Work&) = delete;
 
     Existence existence() {
         if (!existence_)
@@ -123,6 +123,7 @@ class OrderDraw::Work {
             return draw_counted(random);
         if (std::optional<ItemSequence> guided = draw_guided(random))
             return DrawnOrder{*std::move(guided)};
+        const int more_shuffles = more_shuffled_trials / problem_.length();
         if (std::optional<ItemSequence> shuffled = draw_by_shuffling(random, more_shuffles))
             return DrawnOrder{*std::move(shuffled)};
         if (count(most_counted_states))
@@ -148,7 +149,7 @@ class OrderDraw::Work {
         Shuffler shuffler(problem_);
         for (int attempt = 0; attempt < tries; ++attempt) {
             ItemSequence sequence = shuffler.next(random);
-            if (keeps_to_limits(problem_, sequence))
+            if (keeps(sequence))
                 return sequence;
         }
         return std::nullopt;
@@ -195,9 +196,9 @@ class OrderDraw::Work {
         if (guides_->empty() || !guides_->front()->ways || guides_->front()->ways->is_zero())
             return std::nullopt;
         Guide& guide = *guides_->front();
-        for (int attempt = 0; attempt < guided_tries; ++attempt) {
+        for (int attempt = 0; attempt < guided_trials / problem_.length(); ++attempt) {
             ItemSequence sequence = fill_in(guide.prepared, guide.counter.draw(random), random);
-            if (keeps_to_limits(problem_, sequence))
+            if (keeps(sequence))
                 return sequence;
         }
         return std::nullopt;
@@ -237,11 +238,11 @@ class OrderDraw::Work {
             reach = std::max(reach, static_cast<std::size_t>(limit.amount));
         const std::size_t begin = place - std::min(place, reach);
         const std::size_t end = std::min(sequence.items.size(), place + reach + 1);
-        const auto piece = [&](const std::vector<int>& whole) {
-            return std::vector<int>(whole.begin() + static_cast<std::ptrdiff_t>(begin),
-                                    whole.begin() + static_cast<std::ptrdiff_t>(end));
-        };
-        return keeps_to_limits(problem_, {piece(sequence.items), piece(sequence.parts)});
+        return keeps_to_limits(problem_, prepared_.reach, sequence, begin, end);
+    }
+
+    bool keeps(const ItemSequence& sequence) const {
+        return keeps_to_limits(problem_, prepared_.reach, sequence, 0, sequence.items.size());
     }
 
     /// The problem with the limits of one factor only.

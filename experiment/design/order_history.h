@@ -55,4 +55,8 @@ class OrderHistory {
     std::vector<std::uint16_t> memory_; ///< by factor: the last level and one, its run, and since() of each
 };
 
+/// Whether the places begin … end-1 of a sequence keep to all limits, seen by themselves.
+bool keeps_to_limits(const OrderProblem& problem, const OrderHistory::Reach& reach,
+                     const ItemSequence& sequence, std::size_t begin, std::size_t end);
+
 } // namespace overt

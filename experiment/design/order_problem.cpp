@@ -13,13 +13,13 @@ int OrderProblem::length() const {
     return length;
 }
 
-bool keeps_to_limits(const OrderProblem& problem, const ItemSequence& sequence) {
+bool keeps_to_limits(const OrderProblem& problem, const OrderHistory::Reach& reach,
+                     const ItemSequence& sequence, std::size_t begin, std::size_t end) {
     if (problem.limits.empty())
         return true;
-    const OrderHistory::Reach reach(problem);
     OrderHistory history(reach);
     std::vector<int> levels(problem.levels.size());
-    for (std::size_t i = 0; i < sequence.items.size(); ++i) {
+    for (std::size_t i = begin; i < end; ++i) {
         for (std::size_t factor = 0; factor < levels.size(); ++factor)
             levels[factor] = problem.levels[factor][static_cast<std::size_t>(sequence.items[i])];
         if (!history.allows(levels, sequence.parts[i]))
@@ -27,6 +27,10 @@ bool keeps_to_limits(const OrderProblem& problem, const ItemSequence& sequence) 
         history.push(levels);
     }
     return true;
+}
+
+bool keeps_to_limits(const OrderProblem& problem, const ItemSequence& sequence) {
+    return keeps_to_limits(problem, OrderHistory::Reach(problem), sequence, 0, sequence.items.size());
 }
 
 } // namespace overt
