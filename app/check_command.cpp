@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/bake_outlook.h"
 #include "app/cache_folder.h"
 #include "app/commands.h"
 #include "app/frame_light.h"
 #include "app/protocol_file.h"
 #include "app/protocol_inputs.h"
 #include "app/session_outlook.h"
+#include "app/silhouette_check.h"
 #include "experiment/protocol/design_report.h"
 #include "experiment/schedule.h"
 
@@ -23,6 +25,18 @@ SurfaceFacts surface_of(const Sculpture& sculpture) {
     for (std::size_t part = 0; part < areas.size(); ++part)
         facts.part_shares.emplace_back(sculpture.mesh.part_names[part], areas[part] / area);
     return facts;
+}
+
+/// What only a look at the stimuli themselves tells.
+struct StimulusFacts {
+    std::vector<SequenceSilhouette> silhouettes;
+    BakeOutlook rendering;
+};
+
+StimulusFacts look_at_stimuli(const Experiment& experiment, Diagnostics& diagnostics) {
+    const auto context = make_headless_context(std::nullopt);
+    StimulusLibrary library(*context, experiment.protocol, experiment.sculptures, cache_folder());
+    return {check_silhouettes(experiment, library, diagnostics), bake_outlook(experiment, library)};
 }
 
 DesignReport report_on(const Experiment& experiment, const CheckOptions& options) {
@@ -48,11 +62,17 @@ int run_check(const CheckOptions& options) {
     Diagnostics diagnostics;
     const std::optional<Experiment> experiment =
         read_experiment(options.protocol, cache_folder(), InputDepth::everything, diagnostics);
+    const std::optional<StimulusFacts> stimuli =
+        experiment ? std::optional(look_at_stimuli(*experiment, diagnostics)) : std::nullopt;
     std::string text;
     if (options.json) {
         nlohmann::ordered_json json = diagnostics.to_json();
         if (experiment)
             json["design"] = to_json(report_on(*experiment, options));
+        if (experiment) {
+            json["rendering"] = to_json(stimuli->rendering);
+            json["silhouettes"] = to_json(stimuli->silhouettes);
+        }
         if (experiment)
             json["on_this_machine"] = to_json(session_outlook(experiment->protocol));
         if (experiment && options.frames)
@@ -61,7 +81,8 @@ int run_check(const CheckOptions& options) {
     } else {
         print_findings(diagnostics);
         if (experiment)
-            text = to_text(report_on(*experiment, options)) + to_text(session_outlook(experiment->protocol));
+            text = to_text(report_on(*experiment, options)) + to_text(stimuli->silhouettes) +
+                   to_text(stimuli->rendering) + to_text(session_outlook(experiment->protocol));
         if (experiment && options.frames)
             text += to_text(measure_light(*experiment));
     }

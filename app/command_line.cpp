@@ -28,6 +28,21 @@ const std::map<std::string, ContextChoice> context_names{{"auto", std::nullopt},
 const std::map<std::string, MapTime> map_times{
     {"auto", MapTime::automatic}, {"live", MapTime::live}, {"prepared", MapTime::prepared}};
 
+const std::map<std::string, BakeQuality> qualities{{"live", BakeQuality::live},
+                                                   {"preview", BakeQuality::preview},
+                                                   {"draft", BakeQuality::draft},
+                                                   {"standard", BakeQuality::standard},
+                                                   {"reference", BakeQuality::reference}};
+
+CLI::Option* add_quality_option(CLI::App& command, std::optional<BakeQuality>& quality, const std::string& what,
+                                const std::vector<std::string>& names) {
+    return command
+        .add_option_function<std::string>(
+            "--quality", [&quality](const std::string& name) { quality = qualities.at(name); }, what)
+        ->check(CLI::IsMember(names))
+        ->type_name("QUALITY");
+}
+
 void add_context_option(CLI::App& command, ContextChoice& context) {
     command
         .add_option_function<std::string>(
@@ -43,6 +58,59 @@ CLI::App& add_command(CLI::App& app, const std::string& name, const std::string&
     CLI::App& command = *app.add_subcommand(name, what);
     command.footer("Example:\n  " + example + "\n");
     return command;
+}
+
+void add_bake_command(CLI::App& app, BakeOptions& options, std::function<void()> chosen) {
+    CLI::App& command = add_command(
+        app, "bake", "Renders the stimuli by spectral path tracing, and keeps each frame",
+        "overt bake protocols/overt_2019.toml --quality standard\n"
+        "  overt bake protocols/overt_2019.toml --only muse/rough --frames 0-30 --out frames --as spectra\n"
+        "  overt bake protocols/overt_2019.toml --shard 3/16");
+    command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
+    add_quality_option(command, options.quality,
+                       "preview, draft, standard or reference (default: the protocol's, or standard if it asks "
+                       "for no more than a preview)",
+                       {"preview", "draft", "standard", "reference"});
+    command.add_option("--samples", options.samples, "Light paths through each pixel, instead of the usual")
+        ->type_name("N")
+        ->check(CLI::Range(1, 65536));
+    command
+        .add_option("--target-error", options.target_error_de,
+                    "Leave a pixel when its standard error is below this colour difference")
+        ->type_name("DE")
+        ->check(CLI::Range(0.01, 100.0));
+    command
+        .add_option("--only", options.only,
+                    "This stimulus, SCULPTURE/MATERIAL by their ids; may be given several times")
+        ->type_name("ID");
+    command.add_option("--frames", options.frames, "Frames of the animation: K, A-B or all")
+        ->type_name("RANGE")
+        ->capture_default_str();
+    command
+        .add_option("--shard", options.shard,
+                    "The part of machine I of N, I from 1; they share the cache, or join their caches later")
+        ->type_name("I/N");
+    command
+        .add_option("--out", options.out,
+                    "Also write numbered frames: DIR/SCULPTURE_MATERIAL/frame_0000.exr, half floats")
+        ->type_name("DIR");
+    command
+        .add_option("--as", options.as,
+                    "What is in those files: the display's linear light, XYZ, or 31 bins of radiance")
+        ->check(CLI::IsMember({"display", "xyz", "spectra"}))
+        ->capture_default_str();
+    command.add_flag("--png16", options.png16,
+                     "16-bit PNG of linear display light over the background, clipped, each with a JSON file, "
+                     "instead of EXR");
+    command.add_flag("--force", options.force, "Replace files that are there and were made otherwise");
+    command.add_option("--sheet", options.sheet, "Also write a picture of all stimuli side by side")
+        ->type_name("FILE.png");
+    command.add_option("--strip", options.strip, "Also write a picture of frames of one stimulus side by side")
+        ->type_name("FILE.png");
+    command.add_flag("--dry-run", options.dry_run, "Only say what is to be done and how long it will take");
+    add_context_option(command, options.context);
+    command.add_flag("--json", options.json, "Print JSON");
+    command.callback(std::move(chosen));
 }
 
 void add_characterise_command(CLI::App& display, DisplayCharacteriseOptions& options,
@@ -256,6 +324,9 @@ int run_command_line(int argc, char** argv) {
         ->type_name("SECONDS")
         ->check(CLI::Range(0.0, 600.0))
         ->capture_default_str();
+    add_quality_option(run_command, run.quality,
+                       "What the stimuli have at least, instead of what the protocol asks for",
+                       {"live", "preview", "draft", "standard", "reference"});
     add_context_option(run_command, run.context);
     run_command.callback([&] { command = [&] { return run_session(run); }; });
 
@@ -282,6 +353,9 @@ int run_command_line(int argc, char** argv) {
         "space for the animation, Escape to end");
     add_context_option(play_command, play.context);
     play_command.callback([&] { command = [&] { return run_play(play); }; });
+
+    BakeOptions bake;
+    add_bake_command(app, bake, [&] { command = [&] { return run_bake(bake); }; });
 
     ExportOptions exporting;
     auto& export_command =

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/protocol/protocol.h"
 #include "render/gl_context.h"
 
 namespace overt {
@@ -46,8 +47,9 @@ struct RunOptions {
     bool realtime = false;        ///< ask for priority and locked memory
     std::optional<int> processor; ///< the only one for the session's thread
     std::filesystem::path print_session_to;
-    std::optional<int> monitor;   ///< from 1
-    double refresh_check_s = 5.0; ///< measure a real screen's refresh for so long; 0: take its word
+    std::optional<int> monitor;         ///< from 1
+    double refresh_check_s = 5.0;       ///< measure a real screen's refresh for so long; 0: take its word
+    std::optional<BakeQuality> quality; ///< that the frames have at least; nothing: the protocol's
 };
 int run_session(const RunOptions& options);
 
@@ -69,6 +71,26 @@ struct PlayOptions {
     bool live = false; ///< drawn now, to be turned with the mouse, instead of the frames
 };
 int run_play(const PlayOptions& options);
+
+struct BakeOptions {
+    std::filesystem::path protocol;
+    std::optional<BakeQuality>
+        quality; ///< nothing: the protocol's, if it is better than a preview, else standard
+    std::optional<int> samples;
+    std::optional<double> target_error_de;
+    std::vector<std::string> only; ///< SCULPTURE/MATERIAL; empty: all that are not given as frames
+    std::string frames = "all";    ///< "7", "0-30"
+    std::string shard;             ///< "1/4"
+    std::filesystem::path out;     ///< folder for numbered frames, or empty
+    std::string as = "display";    ///< or xyz, spectra
+    bool png16 = false;
+    bool force = false;
+    std::filesystem::path sheet, strip; ///< pictures to look at, or empty
+    bool dry_run = false;
+    bool json = false;
+    ContextChoice context;
+};
+int run_bake(const BakeOptions& options);
 
 struct ExportOptions {
     std::vector<std::filesystem::path> sessions;

@@ -218,7 +218,9 @@ void verify_stimuli(ContextKind kind, const Experiment& experiment, const Displa
     Stage stage(kind, geometry.screen_px, protocol.display.output);
     StimulusLibrary library(*stage.context, protocol, experiment.sculptures, cache_folder());
     ProgressBar bar;
-    const Progress show = [&](std::string_view what, int done, int total) { bar.update(what, done, total); };
+    const Progress show = [&](std::string_view what, int done, int total, double share) {
+        bar.update(what, done, total, share);
+    };
     std::vector<Condition> stimuli;
     if (!options.stimulus.empty()) {
         stimuli.push_back(stimulus_called(protocol, options.stimulus));

@@ -17,11 +17,19 @@ std::vector<StimulusLight> measure_light(const Experiment& experiment) {
     const auto context = make_headless_context(std::nullopt);
     StimulusLibrary library(*context, protocol, experiment.sculptures, cache_folder());
     ProgressBar bar;
-    library.prepare_frames(
-        [&](std::string_view what, int done, int total) { bar.update(what, done, total); });
+    const Progress show = [&](std::string_view what, int done, int total, double share) {
+        bar.update(what, done, total, share);
+    };
     std::vector<StimulusLight> stimuli;
     const int materials = static_cast<int>(protocol.materials.size()),
               count = materials * static_cast<int>(protocol.sculptures.size());
+    // What a session would show; where it would be refused, the best that there is.
+    if (const std::optional<FrameGrade> grade = library.grade_of_session()) {
+        library.take_frames(*grade);
+    } else {
+        for (int i = 0; i < count; ++i)
+            library.prepare_frames({i / materials, i % materials}, show);
+    }
     for (int i = 0; i < count; ++i) {
         bar.update("light of stimuli", i, count);
         const Condition condition{i / materials, i % materials};

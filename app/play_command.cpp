@@ -76,8 +76,9 @@ int run_play(const PlayOptions& options) {
     const GlContext& context = window ? static_cast<const GlContext&>(*window) : *headless;
     StimulusLibrary library(context, protocol, sculptures, cache_folder());
     ProgressBar bar;
-    library.prepare_frames(
-        stimulus, [&](std::string_view what, int done, int total) { bar.update(what, done, total); });
+    library.prepare_frames(stimulus, [&](std::string_view what, int done, int total, double share) {
+        bar.update(what, done, total, share);
+    });
     bar.finish();
     if (in_window) {
         play_in_window(*window, library, stimulus, protocol, options.repeat_s);

@@ -7,8 +7,8 @@
 
 namespace overt {
 
-/// A bar that is redrawn in place on a terminal; elsewhere one line when a piece of work is done. Written to
-/// standard error.
+/// A bar that is redrawn in place on a terminal; elsewhere one line when a piece of work is done, and every
+/// five minutes until then. Written to standard error.
 class ProgressBar {
   public:
     ProgressBar();
@@ -18,6 +18,9 @@ class ProgressBar {
 
     /// `done` of `total` pieces of `what` are finished. A new `what` begins a new bar.
     void update(std::string_view what, int done, int total);
+
+    /// The same for pieces that take unequal times: `share` of all the time is over, 0 … 1.
+    void update(std::string_view what, int done, int total, double share);
 
     /// Ends the bar that stands, so that something else can be printed.
     void finish();

@@ -69,6 +69,12 @@ void say_before(const Protocol& protocol, const Schedule& schedule, const GlDesc
         fmt::print("tracker: simulated; the gaze in this session is nobody's\n");
 }
 
+void say_frames(const StimulusLibrary& library) {
+    const std::vector<Condition> rendered = library.rendered_stimuli();
+    if (!rendered.empty())
+        fmt::print("frames: {}\n", library.source_of(rendered.front()));
+}
+
 void say_risks(const std::vector<ScreenFinding>& findings) {
     for (const ScreenFinding& finding : findings)
         if (finding.weight == ScreenFinding::Weight::risk)
@@ -165,14 +171,15 @@ int run_session(const RunOptions& options) {
     say_risks(rig.screen_findings());
     {
         ProgressBar bar;
-        const Progress show = [&](std::string_view what, int done, int total) {
-            bar.update(what, done, total);
+        const Progress show = [&](std::string_view what, int done, int total, double share) {
+            bar.update(what, done, total, share);
         };
         if (!rig.maps_are_live())
             rig.library().prepare_maps(show);
         rig.library().prepare_given_maps(show);
-        rig.library().prepare_frames(show);
+        rig.library().prepare_frames(show, options.quality);
     }
+    say_frames(rig.library());
     const Interruption interruption;
     rig.open(faults);
     if (rig.is_on_a_real_screen() && options.refresh_check_s > 0.0)

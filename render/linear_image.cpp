@@ -4,10 +4,10 @@
 #include <array>
 #include <span>
 
-#include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include "experiment/analysis/picture_file.h"
 #include "experiment/error.h"
 #include "render/stored_values.h"
 
@@ -23,15 +23,19 @@ struct ChannelPlaces {
     bool are_rgba() const { return channels == 4 && of[3] == 3; }
 };
 
+/// Number of the alpha channel, or -1.
+int alpha_channel_of(const OIIO::ImageSpec& spec) {
+    if (spec.alpha_channel >= 0)
+        return spec.alpha_channel;
+    return spec.nchannels == 4 || spec.nchannels == 2 ? spec.nchannels - 1 : -1;
+}
+
 ChannelPlaces places_in(const OIIO::ImageSpec& spec, const std::filesystem::path& file) {
     ChannelPlaces places;
     places.channels = std::min(spec.nchannels, 4);
     if (spec.nchannels < 3)
         places.of = {0, 0, 0, -1};
-    if (spec.alpha_channel >= 0)
-        places.of[3] = spec.alpha_channel;
-    else if (spec.nchannels == 4 || spec.nchannels == 2)
-        places.of[3] = spec.nchannels - 1;
+    places.of[3] = alpha_channel_of(spec);
     if (places.of[3] >= places.channels) {
         throw InputError(fmt::format("{}: alpha is its channel {}; it has to be among the first four",
                                      file.string(), places.of[3] + 1));
@@ -80,32 +84,13 @@ void decode_srgb(LinearImage& image, bool of_codes) {
 }
 
 std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file) {
-    auto input = OIIO::ImageInput::open(file.string());
+    // Colours as they stand in the file: multiplied by alpha too early, an encoding could not be undone.
+    OIIO::ImageSpec wish;
+    wish.attribute("oiio:UnassociatedAlpha", 1);
+    auto input = OIIO::ImageInput::open(file.string(), &wish);
     if (!input)
         throw InputError(fmt::format("{}: cannot be read as a picture: {}", file.string(), OIIO::geterror()));
     return input;
-}
-
-/// Opens a writer for `file` under a temporary name and gives that name.
-std::filesystem::path temporary_name_of(const std::filesystem::path& file) {
-    std::filesystem::path temporary = file;
-    temporary.replace_filename("." + file.stem().string() + ".partial" + file.extension().string());
-    return temporary;
-}
-
-void write_picture(const std::filesystem::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
-                   const void* pixels) {
-    const std::filesystem::path temporary = temporary_name_of(file);
-    auto output = OIIO::ImageOutput::create(temporary.string());
-    const bool written = output && output->open(temporary.string(), spec) &&
-                         output->write_image(type, pixels) && output->close();
-    if (!written) {
-        const std::string reason = output ? output->geterror() : OIIO::geterror();
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw RecordError(fmt::format("{}: cannot be written: {}", file.string(), reason));
-    }
-    std::filesystem::rename(temporary, file);
 }
 
 } // namespace
@@ -151,12 +136,18 @@ void read_linear_image(const std::filesystem::path& file, FrameEncoding encoding
     }
     if (encoding == FrameEncoding::srgb)
         decode_srgb(into, facts.are_codes);
+    if (places.of[3] >= 0 && spec.get_int_attribute("oiio:UnassociatedAlpha") != 0) {
+        for (glm::vec4& pixel : into.pixels)
+            pixel = glm::vec4(glm::vec3(pixel) * pixel.w, pixel.w);
+    }
 }
 
 glm::ivec2 image_size_px(const std::filesystem::path& file) {
     const auto input = open_image(file);
     return {input->spec().width, input->spec().height};
 }
+
+bool has_alpha(const std::filesystem::path& file) { return alpha_channel_of(open_image(file)->spec()) >= 0; }
 
 void write_linear_exr(const std::filesystem::path& file, const LinearImage& image,
                       const ImageAttributes& attributes) {

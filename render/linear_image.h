@@ -33,8 +33,9 @@ struct LinearImage {
 using ImageAttributes = std::vector<std::pair<std::string, std::string>>;
 
 /// Reads EXR, PNG, TIFF, HDR … of 8, 16 or 32 bits. Grey is spread over the three channels; without an alpha
-/// channel alpha is 1. `srgb` encoding is undone after IEC 61966-2-1. Throws InputError if the file cannot be
-/// read, holds no picture or a value that is not finite.
+/// channel alpha is 1. `srgb` encoding is undone after IEC 61966-2-1; then straight colours (PNG) are
+/// multiplied by alpha. Throws InputError if the file cannot be read, holds no picture or a value that is not
+/// finite.
 LinearImage read_linear_image(const std::filesystem::path& file,
                               FrameEncoding encoding = FrameEncoding::linear);
 
@@ -43,6 +44,9 @@ void read_linear_image(const std::filesystem::path& file, FrameEncoding encoding
 
 /// Size of a picture without reading its pixels. Throws InputError as read_linear_image does.
 glm::ivec2 image_size_px(const std::filesystem::path& file);
+
+/// Whether a picture has an alpha channel. Throws likewise.
+bool has_alpha(const std::filesystem::path& file);
 
 /// Writes an EXR of floats rounded to 24 bits (relative error below 2^-16, compression PXR24), at once or not
 /// at all: under another name first, then renamed. Throws RecordError.

@@ -1,223 +1,230 @@
 #include "render/stimulus_library.h"
 
-#include <future>
-#include <limits>
-
 #include <fmt/format.h>
 
-#include "experiment/colour/display_colour.h"
 #include "experiment/error.h"
-#include "experiment/parallel.h"
-#include "render/given_maps.h"
+#include "experiment/protocol/protocol_keys.h"
+#include "render/frame_description.h"
+#include "render/frame_key.h"
+#include "render/observed_colours.h"
 #include "render/ready_made_frames.h"
 
 namespace overt {
 
-namespace {
-
-/// Changes whenever the same inputs would give other maps.
-constexpr int coordinate_pass_version = 1;
-
-ContentHasher& add_view(ContentHasher& hasher, const SceneView& scene) {
-    const Camera& camera = scene.view.camera;
-    for (const glm::dvec3& vector : {camera.position, camera.target})
-        hasher.add(vector.x).add(vector.y).add(vector.z);
-    return hasher.add(camera.vertical_fov.value).add(scene.view.image_px.x).add(scene.view.image_px.y);
-}
-
-ContentHasher& add_material(ContentHasher& hasher, const MaterialSettings& material) {
-    hasher.add(static_cast<int>(material.kind)).add(std::string_view(material.metal));
-    for (const double number : {material.roughness, material.coat_ior, material.coat_bump})
-        hasher.add(number);
-    for (const double number : material.coat_absorbance)
-        hasher.add(number);
-    for (const double number : material.reflectance)
-        hasher.add(number);
-    return hasher;
-}
-
-ContentHash hash_of_light(const LightSettings& light) {
-    ContentHasher hasher;
-    hasher.add(std::string_view(light.probe == "overcast" ? light.probe : hash_of_file(light.probe)));
-    hasher.add(light.exposure).add(light.rotation_deg).add(stimulus_renderer_version);
-    return hasher.finish();
-}
-
-} // namespace
-
 StimulusLibrary::StimulusLibrary(const GlContext& context, const Protocol& protocol,
                                  std::span<const Sculpture> sculptures, std::filesystem::path cache)
     : context_(&context), protocol_(&protocol), sculptures_(sculptures), cache_(std::move(cache)),
-      poses_(distinct_poses(protocol.animation)), light_hash_(hash_of_light(protocol.light)) {}
+      poses_(distinct_poses(protocol.animation)), surroundings_(hash_of_surroundings(protocol.light)),
+      grades_(sculptures.size() * protocol.materials.size(), grade_of(protocol.bake.quality, protocol.bake)),
+      tracer_(protocol, sculptures) {}
 
-void StimulusLibrary::prepare_frames(const Progress& progress) {
-    for (int sculpture = 0; sculpture < static_cast<int>(sculptures_.size()); ++sculpture) {
-        for (int material = 0; material < static_cast<int>(protocol_->materials.size()); ++material) {
-            prepare_frames({sculpture, material}, progress);
-        }
+void StimulusLibrary::prepare_frames(const Progress& progress, std::optional<BakeQuality> least) {
+    for (const FrameSequenceSettings& sequence : protocol_->frames)
+        check_frame_sizes(sequence, protocol_->animation.frame_count,
+                          {protocol_->view.width_px, protocol_->view.height_px});
+    const std::vector<Condition> stimuli = rendered_stimuli();
+    for (const Condition& stimulus : stimuli)
+        require_mesh(stimulus);
+    const BakeQuality wanted = least.value_or(protocol_->bake.quality);
+    if (const std::optional<FrameGrade> best = best_grade(stimuli, wanted)) {
+        take_frames(*best);
+        return;
     }
+    const FrameGrade grade = grade_of(wanted, protocol_->bake);
+    if (wanted > BakeQuality::preview) {
+        std::size_t missing = 0;
+        for (const Condition& stimulus : stimuli)
+            missing += missing_frames(stimulus, grade).size();
+        throw InputError(fmt::format("{}: [bake] asks for {} quality, and {} of {} frames are not baked yet: "
+                                     "run `overt bake {}`, or be content with --quality preview",
+                                     protocol_->file.string(), describe(grade), missing,
+                                     stimuli.size() * poses_.angles.size(), protocol_->file.string()));
+    }
+    make_frames(stimuli, grade, progress);
 }
 
 void StimulusLibrary::prepare_frames(const Condition& condition, const Progress& progress) {
-    const Sculpture& sculpture = sculptures_[static_cast<std::size_t>(condition.sculpture)];
-    const MaterialSettings& material = protocol_->materials[static_cast<std::size_t>(condition.material)];
-    const std::string name = fmt::format("{}, {}", sculpture.id, material.id);
     if (const FrameSequenceSettings* sequence = sequence_of(condition)) {
         check_frame_sizes(*sequence, protocol_->animation.frame_count,
                           {protocol_->view.width_px, protocol_->view.height_px});
         return;
     }
-    if (!sculpture.has_mesh()) {
-        throw InputError(fmt::format("{}: there is neither a mesh to draw nor [[frames]] to show", name));
-    }
-    const int count = static_cast<int>(poses_.angles.size());
-    std::vector<int> missing;
-    for (int pose = 0; pose < count; ++pose) {
-        if (!std::filesystem::exists(page_file(condition, pose)))
-            missing.push_back(pose);
-    }
-    if (missing.empty())
+    require_mesh(condition);
+    const std::span<const Condition> one(&condition, 1);
+    const BakeQuality least = std::min(protocol_->bake.quality, BakeQuality::preview);
+    if (const std::optional<FrameGrade> best = best_grade(one, least)) {
+        grades_[index_of(condition)] = *best;
         return;
-    std::filesystem::create_directories(page_file(condition, 0).parent_path());
+    }
+    make_frames(one, grade_of(least, protocol_->bake), progress);
+}
+
+bool StimulusLibrary::is_complete(std::span<const Condition> conditions, const FrameGrade& grade) const {
+    return std::all_of(conditions.begin(), conditions.end(),
+                       [&](const Condition& condition) { return missing_frames(condition, grade).empty(); });
+}
+
+std::optional<FrameGrade> StimulusLibrary::best_grade(std::span<const Condition> conditions,
+                                                      BakeQuality least) const {
+    std::vector<BakeQuality> qualities{BakeQuality::reference, BakeQuality::standard, BakeQuality::draft,
+                                       BakeQuality::preview};
+    // Who asks for live frames gets live frames.
+    if (least == BakeQuality::live)
+        qualities = {BakeQuality::live};
+    for (const BakeQuality quality : qualities) {
+        const FrameGrade grade = grade_of(quality, protocol_->bake);
+        if (quality >= least && is_complete(conditions, grade))
+            return grade;
+    }
+    return std::nullopt;
+}
+
+void StimulusLibrary::make_frames(std::span<const Condition> conditions, const FrameGrade& grade,
+                                  const Progress& progress) {
+    double all = 0.0, done = 0.0;
+    int count = 0, frames = 0;
+    const auto cost_of = [&](const Condition& condition) {
+        return grade.is_live() ? 1.0 : expected_cost(grade, *protocol_, material_of(condition).kind);
+    };
+    for (const Condition& condition : conditions) {
+        grades_[index_of(condition)] = grade;
+        const auto missing = static_cast<int>(missing_frames(condition, grade).size());
+        all += missing * cost_of(condition);
+        count += missing;
+    }
+    const std::string what = grade.is_live() ? "drawing frames" : "rendering previews";
+    // While one frame is compressed and written, the next is made.
+    std::future<void> writing;
+    for (const Condition& condition : conditions) {
+        for (const PoseIndex pose : missing_frames(condition, grade)) {
+            const double cost = cost_of(condition);
+            const auto tell = [&](double share_of_frame) {
+                if (progress)
+                    progress(what, frames, count, (done + share_of_frame * cost) / all);
+                return true;
+            };
+            tell(0.0);
+            if (grade.is_live()) {
+                draw_live_frame(condition, pose, writing);
+            } else {
+                SpectralFrame frame = trace(condition, pose, grade, tell);
+                if (writing.valid())
+                    writing.get();
+                writing =
+                    std::async(std::launch::async, [this, condition, pose, grade, frame = std::move(frame)] {
+                        store(condition, pose, grade, frame);
+                    });
+            }
+            done += cost;
+            ++frames;
+        }
+    }
+    if (writing.valid())
+        writing.get();
+    if (progress && count > 0)
+        progress(what, count, count, 1.0);
+}
+
+void StimulusLibrary::draw_live_frame(const Condition& condition, PoseIndex pose,
+                                      std::future<void>& writing) {
+    const Sculpture& sculpture = sculptures_[static_cast<std::size_t>(condition.sculpture)];
+    const MaterialSettings& material = material_of(condition);
+    const std::filesystem::path file = frame_file_of(condition, grades_[index_of(condition)], pose);
+    std::filesystem::create_directories(file.parent_path());
     if (!renderer_)
         renderer_.emplace(*context_, protocol_->light, sculpture.scene.view.image_px);
-    renderer_->set_material(material);
-    int done = count - static_cast<int>(missing.size());
-    // While one frame is compressed and written, the next is drawn.
-    std::future<void> writing;
-    for (const int pose : missing) {
-        if (progress)
-            progress("drawing " + name, done++, count);
-        const Degrees angle = poses_.angles[static_cast<std::size_t>(pose)];
-        LinearImage image = renderer_->draw(buffers_of(condition.sculpture, true), sculpture.scene, angle);
-        if (writing.valid())
-            writing.get();
-        ImageAttributes attributes{{"overt:sculpture", sculpture.id},
-                                   {"overt:material", material.id},
-                                   {"overt:mesh_sha256", sculpture.mesh_hash},
-                                   {"overt:angle_deg", fmt::format("{}", angle.value)},
-                                   {"overt:renderer", "OpenGL preview"}};
-        writing = std::async(std::launch::async, [file = page_file(condition, pose), image = std::move(image),
-                                                  attributes = std::move(attributes)] {
+    if (live_material_ != condition.material)
+        renderer_->set_material(material);
+    live_material_ = condition.material;
+    const Degrees angle = poses_.angles[static_cast<std::size_t>(pose.value)];
+    LinearImage image = renderer_->draw(buffers_of(condition.sculpture, true), sculpture.scene, angle);
+    if (writing.valid())
+        writing.get();
+    ImageAttributes attributes = describe_stimulus(*protocol_, sculpture, material, angle);
+    attributes.emplace_back("overt:renderer", "OpenGL");
+    writing =
+        std::async(std::launch::async, [file, image = std::move(image), attributes = std::move(attributes)] {
             write_linear_exr(file, image, attributes);
         });
-    }
-    writing.get();
-    if (progress)
-        progress("drawing " + name, count, count);
 }
 
-bool StimulusLibrary::has_given_maps(int sculpture) const {
-    return !protocol_->sculptures[static_cast<std::size_t>(sculpture)].lut.empty();
+SpectralFrame StimulusLibrary::trace(const Condition& condition, PoseIndex pose, const FrameGrade& grade,
+                                     const BakeProgress& progress) {
+    draw_missing_map(condition.sculpture, pose);
+    return tracer_.trace(condition, poses_.angles[static_cast<std::size_t>(pose.value)],
+                         read_triangle_map(map_file(condition.sculpture, pose)),
+                         bake_settings(grade, protocol_->bake, material_of(condition).kind), progress);
 }
 
-void StimulusLibrary::prepare_given_maps(const Progress& progress) {
-    const int count = static_cast<int>(poses_.angles.size());
+void StimulusLibrary::store(const Condition& condition, PoseIndex pose, const FrameGrade& grade,
+                            const SpectralFrame& frame) const {
+    OVERT_EXPECTS(frame.is_complete);
+    const std::filesystem::path file = frame_file_of(condition, grade, pose);
+    std::filesystem::create_directories(file.parent_path());
+    const Degrees angle = poses_.angles[static_cast<std::size_t>(pose.value)];
+    const MaterialSettings& material = material_of(condition);
+    ImageAttributes attributes = describe_stimulus(
+        *protocol_, sculptures_[static_cast<std::size_t>(condition.sculpture)], material, angle);
+    for (auto& attribute : describe_tracing(grade, *protocol_, material.kind))
+        attributes.push_back(std::move(attribute));
+    attributes.emplace_back("overt:key", frame_key(condition, grade));
+    write_linear_exr(file, seen_by(protocol_->bake.observer, frame), attributes);
+}
+
+const FrameGrade& StimulusLibrary::grade_of_frames(const Condition& condition) const {
+    return grades_[index_of(condition)];
+}
+
+std::vector<Condition> StimulusLibrary::rendered_stimuli() const {
+    std::vector<Condition> stimuli;
     for (int sculpture = 0; sculpture < static_cast<int>(sculptures_.size()); ++sculpture) {
-        if (!has_given_maps(sculpture))
-            continue;
-        const std::string what = "reading the maps of " + sculptures_[static_cast<std::size_t>(sculpture)].id;
-        if (progress)
-            progress(what, 0, count);
-        parallel_for(count, [&](int pose) {
-            const std::filesystem::path file = map_file(sculpture, {pose});
-            if (std::filesystem::exists(file))
-                return;
-            const CoordinateImageFile map =
-                read_given_map(*protocol_, sculpture, first_frame_of(poses_, PoseIndex{pose}));
-            std::filesystem::create_directories(file.parent_path());
-            write_coordinate_exr(file, map.image, map.description);
-        });
-        if (progress)
-            progress(what, count, count);
+        for (int material = 0; material < static_cast<int>(protocol_->materials.size()); ++material) {
+            if (!is_ready_made({sculpture, material}))
+                stimuli.push_back({sculpture, material});
+        }
+    }
+    return stimuli;
+}
+
+void StimulusLibrary::require_mesh(const Condition& condition) const {
+    const Sculpture& sculpture = sculptures_[static_cast<std::size_t>(condition.sculpture)];
+    if (!sculpture.has_mesh()) {
+        throw InputError(fmt::format("{}, {}: there is neither a mesh to render nor [[frames]] to show",
+                                     protocol_->sculptures[static_cast<std::size_t>(condition.sculpture)].id,
+                                     material_of(condition).id));
     }
 }
 
-SceneView StimulusLibrary::scene_of_given_maps(int sculpture) const {
-    SceneView scene;
-    scene.view.camera.vertical_fov.value = 0.0;
-    scene.view.image_px = {protocol_->view.width_px, protocol_->view.height_px};
-    const MapDescription first = read_map_description(map_file(sculpture, {0}));
-    if (first.camera)
-        scene.view.camera = *first.camera;
-    if (first.bounds) {
-        scene.bounds = *first.bounds;
-        return scene;
-    }
-    // Coordinates that need no box to be read: it is as large as what is seen.
-    scene.bounds = {glm::dvec3(std::numeric_limits<double>::infinity()),
-                    glm::dvec3(-std::numeric_limits<double>::infinity())};
+std::vector<PoseIndex> StimulusLibrary::missing_frames(const Condition& condition,
+                                                       const FrameGrade& grade) const {
+    std::vector<PoseIndex> missing;
+    const ContentHash key = frame_key(condition, grade);
     for (int pose = 0; pose < static_cast<int>(poses_.angles.size()); ++pose) {
-        for (const glm::vec4& pixel : read_coordinate_image(map_file(sculpture, {pose})).image.pixels) {
-            if (pixel.w == 0.0f)
-                continue;
-            scene.bounds.min = glm::min(scene.bounds.min, glm::dvec3(pixel));
-            scene.bounds.max = glm::max(scene.bounds.max, glm::dvec3(pixel));
-        }
+        if (!std::filesystem::exists(cached("frames", key, pose)))
+            missing.push_back({pose});
     }
-    return scene;
+    return missing;
 }
 
-void StimulusLibrary::prepare_maps(const Progress& progress) {
-    for (int sculpture = 0; sculpture < static_cast<int>(sculptures_.size()); ++sculpture) {
-        if (sculptures_[static_cast<std::size_t>(sculpture)].has_mesh())
-            prepare_maps(sculpture, progress);
-    }
+std::filesystem::path StimulusLibrary::frame_file_of(const Condition& condition, const FrameGrade& grade,
+                                                     PoseIndex pose) const {
+    return cached("frames", frame_key(condition, grade), pose.value);
 }
 
-void StimulusLibrary::prepare_maps(int sculpture, const Progress& progress) {
-    const Sculpture& figure = sculptures_[static_cast<std::size_t>(sculpture)];
-    const int count = static_cast<int>(poses_.angles.size());
-    bool drew = false;
-    for (int pose = 0; pose < count; ++pose) {
-        const std::filesystem::path file = map_file(sculpture, {pose});
-        if (std::filesystem::exists(file))
-            continue;
-        std::filesystem::create_directories(file.parent_path());
-        if (progress)
-            progress("mapping " + figure.id, pose, count);
-        const TriangleMap map = draw_map(sculpture, {pose});
-        if (map.covered_pixels() == 0) {
-            throw InputError(fmt::format(
-                "sculpture «{}» is nowhere in the picture at {:.3g} degrees: correct the camera under [view]",
-                figure.id, poses_.angles[static_cast<std::size_t>(pose)].value));
-        }
-        const Camera& camera = figure.scene.view.camera;
-        write_triangle_map(
-            file, map,
-            {{"mesh_sha256", figure.mesh_hash},
-             {"angle_deg", fmt::format("{}", poses_.angles[static_cast<std::size_t>(pose)].value)},
-             {"camera_position",
-              fmt::format("{} {} {}", camera.position.x, camera.position.y, camera.position.z)},
-             {"camera_target", fmt::format("{} {} {}", camera.target.x, camera.target.y, camera.target.z)},
-             {"camera_vertical_fov_deg", fmt::format("{}", camera.vertical_fov.value)}});
-        drew = true;
-    }
-    if (drew && progress)
-        progress("mapping " + figure.id, count, count);
+ContentHash StimulusLibrary::frame_key(const Condition& condition, const FrameGrade& grade) const {
+    const Sculpture& sculpture = sculptures_[static_cast<std::size_t>(condition.sculpture)];
+    const MaterialSettings& material = material_of(condition);
+    if (grade.is_live())
+        return live_key(sculpture, material, surroundings_, protocol_->light.exposure);
+    return traced_key(sculpture, material, surroundings_, protocol_->light.exposure,
+                      bake_settings(grade, protocol_->bake, material.kind), protocol_->bake.observer);
 }
 
-const MeshBuffers& StimulusLibrary::buffers_of(int sculpture, bool for_light) {
-    if (buffered_sculpture_ != sculpture || (for_light && !buffered_for_light_)) {
-        const Mesh& mesh = sculptures_[static_cast<std::size_t>(sculpture)].mesh;
-        buffers_.reset();
-        if (for_light) {
-            buffers_.emplace(*context_, mesh, openness_of_vertices(mesh));
-        } else {
-            buffers_.emplace(*context_, mesh);
-        }
-        buffered_sculpture_ = sculpture;
-        buffered_for_light_ = for_light;
-    }
-    return *buffers_;
-}
-
-TriangleMap StimulusLibrary::draw_map(int sculpture, PoseIndex pose) {
-    const SceneView& scene = sculptures_[static_cast<std::size_t>(sculpture)].scene;
-    if (!coordinate_pass_)
-        coordinate_pass_.emplace(*context_, scene.view.image_px);
-    return {scene.view.image_px, coordinate_pass_->draw(buffers_of(sculpture, false), scene,
-                                                        poses_.angles[static_cast<std::size_t>(pose.value)])};
+glm::dmat3 StimulusLibrary::display_from_frame(const FrameGrade& grade) const {
+    if (grade.is_live())
+        return display_from(PictureColours::rec709, protocol_->display);
+    return protocol_->light.exposure *
+           display_from(rendered_colours(protocol_->bake.observer), protocol_->display);
 }
 
 std::vector<int> StimulusLibrary::page_of_frame(const Condition& condition) const {
@@ -238,42 +245,41 @@ LinearImage StimulusLibrary::page(const Condition& condition, int page) const {
 void StimulusLibrary::read_page(const Condition& condition, int page, LinearImage& into) const {
     if (const FrameSequenceSettings* sequence = sequence_of(condition)) {
         read_linear_image(frame_file(*sequence, {page}), sequence->encoding, into);
+        transform(into, display_from(colours_of(*sequence), protocol_->display));
         return;
     }
-    read_linear_image(page_file(condition, page), FrameEncoding::linear, into);
-    if (protocol_->display.characterisation) {
-        const glm::mat3 to_display(display_from_rec709(*protocol_->display.characterisation));
-        for (glm::vec4& pixel : into.pixels)
-            pixel = glm::vec4(to_display * glm::vec3(pixel), pixel.w);
-    }
+    const FrameGrade& grade = grades_[index_of(condition)];
+    read_linear_image(frame_file_of(condition, grade, {page}), FrameEncoding::linear, into);
+    transform(into, display_from_frame(grade));
 }
 
 std::string StimulusLibrary::source_of(const Condition& condition) const {
     if (const FrameSequenceSettings* sequence = sequence_of(condition))
         return "frames " + sequence->files;
-    return "OpenGL preview";
+    const FrameGrade& grade = grades_[index_of(condition)];
+    if (grade.is_live())
+        return "OpenGL preview";
+    const BakeSettings settings = bake_settings(grade, protocol_->bake, material_of(condition).kind);
+    return fmt::format("path traced, {}: {} samples, {}", name_of(grade.quality), settings.samples,
+                       protocol_->bake.observer == StandardObserver::cie2006 ? "CIE 2006" : "CIE 1931");
 }
 
 ContentHash StimulusLibrary::frames_hash(const Condition& condition) const {
     ContentHasher hasher;
+    const auto& light = protocol_->display.characterisation;
     if (const FrameSequenceSettings* sequence = sequence_of(condition)) {
         for (int frame = 0; frame < protocol_->animation.frame_count; ++frame) {
             hasher.add(std::string_view(hash_of_file(frame_file(*sequence, {frame}))));
         }
-        return hasher.finish();
+        if (sequence->colour_space == FrameColours::display)
+            return hasher.finish();
+        hasher.add(static_cast<int>(sequence->colour_space));
+    } else {
+        hasher.add(std::string_view(frame_key(condition, grades_[index_of(condition)])));
+        hasher.add(protocol_->light.exposure);
     }
-    hasher.add(std::string_view(drawn_hash(condition)));
-    if (protocol_->display.characterisation)
-        hasher.add(std::string_view(protocol_->display.characterisation->sha256));
-    return hasher.finish();
-}
-
-ContentHash StimulusLibrary::drawn_hash(const Condition& condition) const {
-    ContentHasher hasher;
-    const Sculpture& sculpture = sculptures_[static_cast<std::size_t>(condition.sculpture)];
-    hasher.add(std::string_view(sculpture.mesh_hash)).add(std::string_view(light_hash_));
-    add_view(hasher, sculpture.scene);
-    add_material(hasher, protocol_->materials[static_cast<std::size_t>(condition.material)]);
+    if (light)
+        hasher.add(std::string_view(light->sha256));
     return hasher.finish();
 }
 
@@ -283,33 +289,17 @@ std::filesystem::path StimulusLibrary::cached(std::string_view kind, const Conte
            fmt::format("{:+010.5f}deg.exr", poses_.angles[static_cast<std::size_t>(pose)].value);
 }
 
-std::filesystem::path StimulusLibrary::page_file(const Condition& condition, int page) const {
-    return cached("frames", drawn_hash(condition), page);
-}
-
-std::filesystem::path StimulusLibrary::map_file(int sculpture, PoseIndex pose) const {
-    if (has_given_maps(sculpture)) {
-        return cached("given_maps", hash_of_given_map(*protocol_, sculpture, first_frame_of(poses_, pose)),
-                      pose.value);
-    }
-    const Sculpture& figure = sculptures_[static_cast<std::size_t>(sculpture)];
-    ContentHasher hasher;
-    hasher.add(std::string_view(figure.mesh_hash)).add(coordinate_pass_version);
-    add_view(hasher, figure.scene);
-    return cached("maps", hasher.finish(), pose.value);
-}
-
-CoordinateMaps StimulusLibrary::maps_of(int sculpture) const {
-    const Sculpture& figure = sculptures_[static_cast<std::size_t>(sculpture)];
-    OVERT_EXPECTS(figure.has_mesh());
-    std::vector<TriangleMap> maps;
-    for (int pose = 0; pose < static_cast<int>(poses_.angles.size()); ++pose)
-        maps.push_back(read_triangle_map(map_file(sculpture, {pose})));
-    return {figure.mesh, figure.scene, poses_.angles, std::move(maps)};
-}
-
 const FrameSequenceSettings* StimulusLibrary::sequence_of(const Condition& condition) const {
     return find_frames(*protocol_, condition.sculpture, condition.material);
+}
+
+const MaterialSettings& StimulusLibrary::material_of(const Condition& condition) const {
+    return protocol_->materials[static_cast<std::size_t>(condition.material)];
+}
+
+std::size_t StimulusLibrary::index_of(const Condition& condition) const {
+    return static_cast<std::size_t>(condition.sculpture) * protocol_->materials.size() +
+           static_cast<std::size_t>(condition.material);
 }
 
 } // namespace overt

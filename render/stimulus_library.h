@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <span>
 #include <string>
 
@@ -11,13 +12,17 @@
 #include "experiment/content_hash.h"
 #include "experiment/sculpture.h"
 #include "render/coordinate_pass.h"
+#include "render/display_light.h"
+#include "render/frame_grade.h"
+#include "render/frame_tracer.h"
 #include "render/page_presenter.h"
 #include "render/stimulus_renderer.h"
 
 namespace overt {
 
-/// Told how far a longer piece of work is.
-using Progress = std::function<void(std::string_view what, int done, int total)>;
+/// Told how far a longer piece of work is: `done` of `total` pieces, and which share of the time they are
+/// thought to take.
+using Progress = std::function<void(std::string_view what, int done, int total, double share)>;
 
 class StimulusLibrary final : public FrameSource {
   public:
@@ -26,10 +31,50 @@ class StimulusLibrary final : public FrameSource {
     StimulusLibrary(const GlContext& context, const Protocol& protocol, std::span<const Sculpture> sculptures,
                     std::filesystem::path cache);
 
-    /// Draws whatever frames the cache lacks, and checks the size of ready-made ones. Throws InputError,
-    /// GraphicsError, RecordError.
-    void prepare_frames(const Progress& progress);
+    /// For a session: finds the best quality of which the cache has all frames of all stimuli, and is content
+    /// with no less than `least`, or else than [bake] asks for. If there is none, previews and live frames
+    /// are made now; what should be better is an InputError that says how to bake it. Checks the size of
+    /// ready-made frames. Throws InputError, GraphicsError, RecordError.
+    void prepare_frames(const Progress& progress, std::optional<BakeQuality> least = {});
+
+    /// For a look at one stimulus: the best there is of it, or else a preview. Throws likewise.
     void prepare_frames(const Condition& condition, const Progress& progress);
+
+    /// Has page() give frames of this grade of all stimuli that are not ready-made. They have to be there.
+    void take_frames(const FrameGrade& grade) { grades_.assign(grades_.size(), grade); }
+
+    /// The best grade of which the cache has every frame of every stimulus, no less than [bake] asks for.
+    std::optional<FrameGrade> grade_of_session() const {
+        return best_grade(rendered_stimuli(), protocol_->bake.quality);
+    }
+
+    /// The frames that page() gives of a stimulus that is not ready-made.
+    const FrameGrade& grade_of_frames(const Condition& condition) const;
+
+    /// All stimuli that are rendered.
+    std::vector<Condition> rendered_stimuli() const;
+
+    /// Poses of which the cache has no frame of that grade.
+    std::vector<PoseIndex> missing_frames(const Condition& condition, const FrameGrade& grade) const;
+
+    /// A frame in the cache: linear light without exposure, in rendered_colours(). Live ones are in Rec. 709
+    /// and have the exposure.
+    std::filesystem::path frame_file_of(const Condition& condition, const FrameGrade& grade,
+                                        PoseIndex pose) const;
+
+    /// Everything that makes a stimulus's frames but the angle.
+    ContentHash frame_key(const Condition& condition, const FrameGrade& grade) const;
+
+    /// What turns a cached frame into the display's light; the exposure is in it.
+    glm::dmat3 display_from_frame(const FrameGrade& grade) const;
+
+    /// Traces one frame, drawing its map before if the cache lacks it. Not complete if `progress` stopped it.
+    SpectralFrame trace(const Condition& condition, PoseIndex pose, const FrameGrade& grade,
+                        const BakeProgress& progress);
+
+    /// Puts a traced frame into the cache. From any thread.
+    void store(const Condition& condition, PoseIndex pose, const FrameGrade& grade,
+               const SpectralFrame& frame) const;
 
     /// Brings ready-made maps (see given_maps.h) into the cache as maps of coordinates. Throws as
     /// read_given_map does.
@@ -53,6 +98,9 @@ class StimulusLibrary final : public FrameSource {
     /// the files' bytes.
     ContentHash frames_hash(const Condition& condition) const;
 
+    /// Throws InputError if a stimulus has neither a mesh to render nor [[frames]].
+    void require_mesh(const Condition& condition) const;
+
     /// The sculpture has no mesh, but ready-made maps.
     bool has_given_maps(int sculpture) const;
 
@@ -70,9 +118,14 @@ class StimulusLibrary final : public FrameSource {
 
   private:
     const FrameSequenceSettings* sequence_of(const Condition& condition) const;
-    /// Of everything that made what was drawn, which is the same for all displays.
-    ContentHash drawn_hash(const Condition& condition) const;
-    std::filesystem::path page_file(const Condition& condition, int page) const;
+    const MaterialSettings& material_of(const Condition& condition) const;
+    std::size_t index_of(const Condition& condition) const;
+    bool is_complete(std::span<const Condition> conditions, const FrameGrade& grade) const;
+    std::optional<FrameGrade> best_grade(std::span<const Condition> conditions, BakeQuality least) const;
+    void make_frames(std::span<const Condition> conditions, const FrameGrade& grade,
+                     const Progress& progress);
+    void draw_live_frame(const Condition& condition, PoseIndex pose, std::future<void>& writing);
+    bool draw_missing_map(int sculpture, PoseIndex pose);
     std::filesystem::path cached(std::string_view kind, const ContentHash& hash, int pose) const;
     const MeshBuffers& buffers_of(int sculpture, bool for_light);
 
@@ -81,8 +134,11 @@ class StimulusLibrary final : public FrameSource {
     std::span<const Sculpture> sculptures_;
     std::filesystem::path cache_;
     PoseTable poses_;
-    ContentHash light_hash_;
+    ContentHash surroundings_;
+    std::vector<FrameGrade> grades_; ///< of each stimulus's frames
+    FrameTracer tracer_;
     std::optional<StimulusRenderer> renderer_;
+    int live_material_ = -1; ///< that the renderer is prepared for
     std::optional<CoordinatePass> coordinate_pass_;
     // The card holds one sculpture at a time.
     std::optional<MeshBuffers> buffers_;

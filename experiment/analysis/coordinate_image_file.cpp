@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiment/analysis/coordinate_codec.h"
+#include "experiment/analysis/picture_file.h"
 #include "experiment/error.h"
 
 namespace overt {
@@ -17,23 +18,6 @@ namespace {
 constexpr double full_coverage = 0.9999;
 
 constexpr OIIO::TypeDesc double_triple(OIIO::TypeDesc::DOUBLE, OIIO::TypeDesc::VEC3);
-
-void write_picture(const std::filesystem::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
-                   const void* pixels) {
-    std::filesystem::path temporary = file;
-    temporary.replace_filename("." + file.stem().string() + ".partial" + file.extension().string());
-    auto output = OIIO::ImageOutput::create(temporary.string());
-    std::error_code error;
-    if (!output || !output->open(temporary.string(), spec) || !output->write_image(type, pixels) ||
-        !output->close()) {
-        const std::string reason = output ? output->geterror() : OIIO::geterror();
-        std::filesystem::remove(temporary, error);
-        throw RecordError(fmt::format("{}: the map cannot be written: {}", file.string(), reason));
-    }
-    std::filesystem::rename(temporary, file, error);
-    if (error)
-        throw RecordError(fmt::format("{}: the map cannot be written: {}", file.string(), error.message()));
-}
 
 void put_triple(OIIO::ImageSpec& spec, const char* name, const glm::dvec3& vector) {
     const double values[] = {vector.x, vector.y, vector.z};

@@ -5,6 +5,7 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include "experiment/analysis/picture_file.h"
 #include "experiment/error.h"
 
 namespace overt {
@@ -21,17 +22,7 @@ void write_triangle_map(const std::filesystem::path& file, const TriangleMap& ma
     spec.attribute("compression", "zip");
     for (const auto& [name, value] : attributes)
         spec.attribute("overt:" + name, value);
-    std::filesystem::path temporary = file;
-    temporary.replace_filename("." + file.stem().string() + ".partial.exr");
-    auto output = OIIO::ImageOutput::create(temporary.string());
-    if (!output || !output->open(temporary.string(), spec) ||
-        !output->write_image(OIIO::TypeDesc::UINT32, map.codes.data()) || !output->close()) {
-        const std::string reason = output ? output->geterror() : OIIO::geterror();
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw RecordError(fmt::format("{}: the map cannot be written: {}", file.string(), reason));
-    }
-    std::filesystem::rename(temporary, file);
+    write_picture(file, spec, OIIO::TypeDesc::UINT32, map.codes.data());
 }
 
 TriangleMap read_triangle_map(const std::filesystem::path& file) {

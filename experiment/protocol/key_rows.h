@@ -16,6 +16,9 @@ Section<LightSettings> light();
 Section<Animation> animation();
 Section<SculptureSettings> sculpture();
 Section<MaterialSettings> material();
+
+// How it becomes pictures (frame_keys.cpp).
+Section<BakingSettings> bake();
 Section<FrameSequenceSettings> frames();
 
 // What is asked, and in which order (design_keys.cpp).
@@ -53,5 +56,9 @@ inline constexpr std::string_view repetition_orders[] = {"in-turn", "mixed"};
 inline constexpr std::string_view material_kinds[] = {"smooth-conductor", "rough-conductor",
                                                       "coated-conductor", "diffuse"};
 inline constexpr std::string_view frame_encodings[] = {"linear", "srgb"};
+inline constexpr std::string_view frame_colours[] = {"display", "rec709", "xyz"};
+inline constexpr std::string_view bake_qualities[] = {"live", "preview", "draft", "standard", "reference"};
+inline constexpr std::string_view pixel_filters[] = {"box", "gaussian", "blackman-harris"};
+inline constexpr std::string_view standard_observers[] = {"cie1931", "cie2006"};
 
 } // namespace overt::key_rows

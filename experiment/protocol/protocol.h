@@ -191,8 +191,33 @@ struct MaterialSettings {
     std::array<double, 3> reflectance{0.5, 0.5, 0.5}; ///< of diffuse
 };
 
+/// How carefully frames are rendered, in rising order. `live`: drawn by OpenGL, an approximation; the others
+/// are path traced.
+enum class BakeQuality : std::uint8_t { live, preview, draft, standard, reference };
+
+/// How the samples about a pixel's middle are weighed.
+enum class PixelFilter : std::uint8_t { box, gaussian, blackman_harris };
+
+/// Whose colour matching functions make three numbers of a spectrum, 2 degrees.
+enum class StandardObserver : std::uint8_t { cie1931, cie2006 };
+
+/// [bake]: how stimuli are rendered that are not given as [[frames]].
+struct BakingSettings {
+    BakeQuality quality = BakeQuality::preview; ///< that a session needs at least
+    std::optional<int> samples;                 ///< a pixel, instead of what is usual for the quality
+    std::optional<double> target_error_de;      ///< a pixel is left when its standard error is below this
+    PixelFilter filter = PixelFilter::box;
+    double filter_width_px = 1.0;
+    std::optional<std::uint64_t> seed; ///< of the samples; left out: 0
+    StandardObserver observer = StandardObserver::cie1931;
+};
+
 /// Encoding of ready-made frames.
 enum class FrameEncoding : std::uint8_t { linear, srgb };
+
+/// What the three numbers of a ready-made frame's pixel are: the display's own light, linear Rec. 709 of
+/// which white is the display's, or CIE 1931 XYZ of which Y = 1 is as bright as the display's white.
+enum class FrameColours : std::uint8_t { display, rec709, xyz };
 
 /// [[frames]]: a ready-made animation for one sculpture in one material, instead of rendering it.
 struct FrameSequenceSettings {
@@ -202,6 +227,10 @@ struct FrameSequenceSettings {
         files; ///< path with # for the digits of the frame number; resolved against the protocol's folder
     int first_number = 0; ///< number of animation frame 0
     FrameEncoding encoding = FrameEncoding::linear;
+    FrameColours colour_space = FrameColours::display;
+    /// Of files without alpha: the colour, as it stands in them, that is not the object.
+    std::optional<glm::dvec3> background_colour;
+    double background_tolerance = 0.004; ///< largest difference from it, in each channel
 };
 
 struct Protocol {
@@ -211,6 +240,7 @@ struct Protocol {
     TrackerSettings tracker;
     ViewSettings view;
     LightSettings light;
+    BakingSettings bake;
     Animation animation;
     ScheduleSettings schedule;
     ScreenSettings screens;

@@ -64,6 +64,8 @@ void check_ids(ProtocolExamination& examination);
 void check_sculptures(ProtocolExamination& examination, std::span<const std::string_view> shipped_sculptures);
 void check_materials(ProtocolExamination& examination);
 void check_frames(ProtocolExamination& examination);
+/// After take_characterisation().
+void check_bake(ProtocolExamination& examination);
 
 /// Whether meshes, probe and frames are there. Looks at the file system.
 void check_files(ProtocolExamination& examination);

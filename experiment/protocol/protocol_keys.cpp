@@ -10,12 +10,12 @@
 namespace overt {
 
 const ProtocolSections& protocol_sections() {
-    static const ProtocolSections sections{key_rows::protocol(), key_rows::display(), key_rows::tracker(),
-                                           key_rows::view(),     key_rows::light(),   key_rows::animation(),
-                                           key_rows::schedule(), key_rows::screens(), key_rows::task(),
-                                           key_rows::block(),    key_rows::group(),   key_rows::practice(),
-                                           key_rows::breaks(),   key_rows::repeat(),  key_rows::sculpture(),
-                                           key_rows::material(), key_rows::frames()};
+    static const ProtocolSections sections{key_rows::protocol(),  key_rows::display(),  key_rows::tracker(),
+                                           key_rows::view(),      key_rows::light(),    key_rows::bake(),
+                                           key_rows::animation(), key_rows::schedule(), key_rows::screens(),
+                                           key_rows::task(),      key_rows::block(),    key_rows::group(),
+                                           key_rows::practice(),  key_rows::breaks(),   key_rows::repeat(),
+                                           key_rows::sculpture(), key_rows::material(), key_rows::frames()};
     return sections;
 }
 
@@ -35,6 +35,12 @@ std::string_view name_of(LevelOrder order) { return key_rows::level_orders[stati
 std::string_view name_of(MaterialKind kind) { return key_rows::material_kinds[static_cast<int>(kind)]; }
 std::string_view name_of(FrameEncoding encoding) {
     return key_rows::frame_encodings[static_cast<int>(encoding)];
+}
+std::string_view name_of(FrameColours colours) { return key_rows::frame_colours[static_cast<int>(colours)]; }
+std::string_view name_of(BakeQuality quality) { return key_rows::bake_qualities[static_cast<int>(quality)]; }
+std::string_view name_of(PixelFilter filter) { return key_rows::pixel_filters[static_cast<int>(filter)]; }
+std::string_view name_of(StandardObserver observer) {
+    return key_rows::standard_observers[static_cast<int>(observer)];
 }
 
 std::string range_text(const KeyRule& rule) {

@@ -275,6 +275,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_sculptures(examination, shipped_sculptures);
         check_materials(examination);
         check_frames(examination);
+        check_bake(examination);
         if (look_at_files)
             check_files(examination);
         if (diagnostics.error_count() == errors_before)

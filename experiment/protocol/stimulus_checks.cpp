@@ -108,6 +108,18 @@ void check_shapeless(ProtocolExamination& examination, std::size_t index) {
     }
 }
 
+/// What the numbers of ready-made frames mean.
+void check_frame_colours(ProtocolExamination& examination, std::size_t index) {
+    const auto path = [&](std::string_view key) { return entry_path("frames", index, key); };
+    const FrameSequenceSettings& sequence = examination.protocol.frames[index];
+    if (sequence.colour_space == FrameColours::xyz && sequence.encoding == FrameEncoding::srgb)
+        examination.error({path("encoding"), path("colour_space")}, "XYZ are not encoded as sRGB",
+                          "encoding = \"linear\"");
+    if (!sequence.background_colour && examination.is_written(path("background_tolerance")))
+        examination.warning({path("background_tolerance")},
+                            "\"background_tolerance\" has no effect without \"background_colour\"");
+}
+
 } // namespace
 
 void check_ids(ProtocolExamination& examination) {
@@ -215,7 +227,37 @@ void check_frames(ProtocolExamination& examination) {
         }
         check_numbered_path(examination, entry_path("frames", i, "files"), sequence.files,
                             "such as \"gold/frame_####.exr\"");
+        check_frame_colours(examination, i);
     }
+}
+
+void check_bake(ProtocolExamination& examination) {
+    const BakingSettings& bake = examination.protocol.bake;
+    const DisplaySettings& display = examination.protocol.display;
+    if (bake.quality == BakeQuality::live) {
+        for (const std::string_view key :
+             {"bake.samples", "bake.target_error_de", "bake.filter", "bake.filter_width_px", "bake.seed"}) {
+            if (examination.is_written(key))
+                examination.warning({key, "bake.quality"},
+                                    fmt::format("\"{}\" has no effect on frames that OpenGL draws",
+                                                key.substr(key.find('.') + 1)));
+        }
+    }
+    if (bake.observer == StandardObserver::cie1931)
+        return;
+    if (display.characterisation_file.empty()) {
+        examination.error({"bake.observer"},
+                          "how CIE 2006 sees the display's light is not known without its spectra",
+                          "name a characterisation with spectra with display.characterisation");
+    } else if (display.characterisation && !display.characterisation->spectra) {
+        examination.error({"bake.observer", "display.characterisation"},
+                          fmt::format("{} has no spectra, without which nobody knows how CIE 2006 sees it",
+                                      display.characterisation_file.filename().string()),
+                          "measure them, and name the table with [light] spectra in that file");
+    }
+    if (bake.quality == BakeQuality::live)
+        examination.error({"bake.observer", "bake.quality"}, "OpenGL draws for CIE 1931 only",
+                          "choose another quality, such as \"preview\"");
 }
 
 } // namespace overt

@@ -303,33 +303,4 @@ Section<MaterialSettings> material() {
         .many = &Protocol::materials};
 }
 
-Section<FrameSequenceSettings> frames() {
-    using F = FrameSequenceSettings;
-    return {.name = "frames",
-            .explanation = "A ready-made animation of one sculpture in one material, shown instead of "
-                           "rendering it.",
-            .keys =
-                {
-                    {{.name = "sculpture", .is_required = true, .explanation = "Id of a `[[sculpture]]`."},
-                     &F::sculpture},
-                    {{.name = "material", .is_required = true, .explanation = "Id of a `[[material]]`."},
-                     &F::material},
-                    {{.name = "files",
-                      .is_required = true,
-                      .explanation = "Path of the pictures from the protocol's folder, with # for the digits "
-                                     "of the number: \"gold/frame_####.exr\"."},
-                     &F::files},
-                    {{.name = "first_number",
-                      .low = 0,
-                      .high = 1e6,
-                      .explanation = "Number of the first frame's file."},
-                     &F::first_number},
-                    {{.name = "encoding",
-                      .choices = frame_encodings,
-                      .explanation = "What the numbers in the pictures mean: linear light, or sRGB."},
-                     &F::encoding},
-                },
-            .many = &Protocol::frames};
-}
-
 } // namespace overt::key_rows

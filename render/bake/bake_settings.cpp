@@ -1,11 +1,16 @@
 #include "render/bake/bake_settings.h"
 
+#include "experiment/error.h"
+
 namespace overt {
 
 BakeSettings settings_of(BakeQuality quality, MaterialKind material) {
     const bool scatters = material == MaterialKind::rough_conductor || material == MaterialKind::diffuse;
     BakeSettings settings;
     switch (quality) {
+    case BakeQuality::live:
+        OVERT_EXPECTS(quality != BakeQuality::live);
+        break;
     case BakeQuality::preview:
         settings.samples = 4;
         settings.pixel_step = 2;

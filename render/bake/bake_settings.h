@@ -7,13 +7,6 @@
 
 namespace overt {
 
-/// preview: a look within seconds; draft: a run of the protocol; standard: an experiment; reference: to judge
-/// the others by.
-enum class BakeQuality : std::uint8_t { preview, draft, standard, reference };
-
-/// Over which places of the picture a pixel is the mean, and with what weight.
-enum class PixelFilter : std::uint8_t { box, gaussian, blackman_harris };
-
 struct BakeSettings {
     int samples = 64; ///< of each pixel, 1 … 65536; powers of two are spread best
     /// A pixel gets no more samples once its error (CIE 1976 Delta-E ab of the light times the light's
@@ -29,7 +22,7 @@ struct BakeSettings {
 };
 
 /// Samples and step of a quality: preview 4 at half the resolution, draft 16, standard 64 (256 where the
-/// noise of a rough or matt surface needs them), reference 256.
+/// noise of a rough or matt surface needs them), reference 256. Not of `live`, which is not baked.
 BakeSettings settings_of(BakeQuality quality, MaterialKind material);
 
 } // namespace overt

@@ -30,6 +30,9 @@ output = "color++"
 latency_ms = 3.5
 background = 0.1
 
+[bake]
+quality = "live"
+
 [tracker]
 rate_hz = 1000
 
