@@ -1,0 +1,66 @@
+#include "app/command_line_groups.h"
+
+#include <utility>
+
+namespace overt {
+
+namespace {
+
+const std::map<std::string, ContextChoice> context_names{{"auto", std::nullopt},
+                                                         {"window", ContextKind::window},
+                                                         {"egl", ContextKind::egl},
+                                                         {"osmesa", ContextKind::osmesa}};
+
+const std::map<std::string, BakeQuality> qualities{{"live", BakeQuality::live},
+                                                   {"preview", BakeQuality::preview},
+                                                   {"draft", BakeQuality::draft},
+                                                   {"standard", BakeQuality::standard},
+                                                   {"reference", BakeQuality::reference}};
+
+} // namespace
+
+CLI::Option* add_quality_option(CLI::App& command, std::optional<BakeQuality>& quality,
+                                const std::string& what, const std::vector<std::string>& names) {
+    return command
+        .add_option_function<std::string>(
+            "--quality", [&quality](const std::string& name) { quality = qualities.at(name); }, what)
+        ->check(CLI::IsMember(names))
+        ->type_name("QUALITY");
+}
+
+void add_context_option(CLI::App& command, ContextChoice& context) {
+    command
+        .add_option_function<std::string>(
+            "--context", [&context](const std::string& name) { context = context_names.at(name); },
+            "OpenGL through auto (a window where there is a display, else EGL with a graphics processor, "
+            "else OSMesa), window, egl or osmesa")
+        ->check(CLI::IsMember({"auto", "window", "egl", "osmesa"}))
+        ->type_name("KIND");
+}
+
+CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& what,
+                      const std::string& example) {
+    CLI::App& command = *app.add_subcommand(name, what);
+    command.footer("Example:\n  " + example + "\n");
+    return command;
+}
+
+void run_when_chosen(CLI::App& command, ChosenCommand& chosen, ChosenCommand run) {
+    command.callback([&chosen, run = std::move(run)] { chosen = run; });
+}
+
+void add_frame_option(CLI::App& command, std::optional<int>& frame, const std::string& what) {
+    command
+        .add_option_function<std::string>(
+            "--frame",
+            [&frame](const std::string& given) {
+                if (given != "all")
+                    frame = std::stoi(given);
+            },
+            what)
+        ->required()
+        ->check(CLI::IsMember({"all"}) | CLI::Range(0, 9999))
+        ->type_name("K|all");
+}
+
+} // namespace overt

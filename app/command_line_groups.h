@@ -1,0 +1,45 @@
+/// The commands of the command line, a file of them for each group. Options live as long as the command that
+/// reads them.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "app/commands.h"
+
+namespace overt {
+
+/// What is to be run once the whole line has been read; gives the exit code.
+using ChosenCommand = std::function<int()>;
+
+/// Each adds its commands to `app`; the one on the line puts itself into `chosen`, which must outlive
+/// parsing.
+void add_session_commands(CLI::App& app, ChosenCommand& chosen);  // check, run, new, schema
+void add_record_commands(CLI::App& app, ChosenCommand& chosen);   // export, show
+void add_stimulus_commands(CLI::App& app, ChosenCommand& chosen); // play, bake, lut, reconstruct
+void add_display_commands(CLI::App& app, ChosenCommand& chosen);  // display …
+void add_machine_commands(CLI::App& app, ChosenCommand& chosen);  // doctor, bench
+
+/// A command with its example under its help.
+CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& what,
+                      const std::string& example);
+
+/// `run` is what `command` does.
+void run_when_chosen(CLI::App& command, ChosenCommand& chosen, ChosenCommand run);
+
+/// --context
+void add_context_option(CLI::App& command, ContextChoice& context);
+
+/// --quality, one of `names`.
+CLI::Option* add_quality_option(CLI::App& command, std::optional<BakeQuality>& quality,
+                                const std::string& what, const std::vector<std::string>& names);
+
+/// --frame K or all, required; `what` says what becomes of either.
+void add_frame_option(CLI::App& command, std::optional<int>& frame, const std::string& what);
+
+} // namespace overt

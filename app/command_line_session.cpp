@@ -1,0 +1,139 @@
+#include "app/command_line_groups.h"
+
+namespace overt {
+
+namespace {
+
+const std::map<std::string, MapTime> map_times{
+    {"auto", MapTime::automatic}, {"live", MapTime::live}, {"prepared", MapTime::prepared}};
+
+void add_check(CLI::App& app, ChosenCommand& chosen) {
+    const auto given = std::make_shared<CheckOptions>();
+    CheckOptions& options = *given;
+    CLI::App& command = add_command(app, "check", "Everything that can be known before an observer sits down",
+                                    "overt check protocols/overt_2019.toml --observer 07");
+    command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
+    command.add_option("--observer", options.observer, "Show this observer's order of trials")
+        ->type_name("ID");
+    command.add_flag("--all-observers", options.all_observers, "Show the order of each planned observer");
+    command
+        .add_option("--answer-time", options.answer_time_s,
+                    "Seconds an answer is taken to last, for the session's length")
+        ->type_name("S")
+        ->capture_default_str();
+    command
+        .add_option("--seed", options.seed,
+                    "Show the orders that this seed gives, as the record of a session has it")
+        ->type_name("SEED");
+    command.add_flag("--frames", options.frames,
+                     "Read every frame, and say how much of its light the display cannot show");
+    command.add_flag("--json", options.json, "Print JSON");
+    run_when_chosen(command, chosen, [given] { return run_check(*given); });
+}
+
+void add_run(CLI::App& app, ChosenCommand& chosen) {
+    const auto given = std::make_shared<RunOptions>();
+    RunOptions& options = *given;
+    CLI::App& command = add_command(app, "run", "Runs a session",
+                                    "overt run protocols/overt_2019.toml --observer 07\n"
+                                    "  overt run protocols/overt_2019.toml --observer 07 --simulate-observer "
+                                    "1 --virtual-time --context osmesa");
+    command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
+    command
+        .add_option(
+            "--observer", options.observer,
+            "Who sits there: letters, digits and hyphens; the digits at the end are the observer's number")
+        ->required()
+        ->type_name("ID");
+    command
+        .add_option("--session", options.session_number,
+                    "Number of this sitting (default: the next free one)")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
+    command
+        .add_option("--seed", options.seed,
+                    "Seed of the order and of all that is simulated (default: the protocol's, or a new one)")
+        ->type_name("N");
+    command
+        .add_option("--simulate-observer", options.simulate_observer,
+                    "Let a simulated observer look and answer")
+        ->type_name("SEED");
+    command.add_flag("--virtual-time", options.virtual_time,
+                     "Run as fast as the machine can, on a clock of its own");
+    command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
+    command
+        .add_option("--monitor", options.monitor,
+                    "The screen to take, as `overt doctor` numbers them (default: the first that has the "
+                    "protocol's resolution)")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--sessions", options.sessions, "Folder for sessions")
+        ->type_name("DIR")
+        ->capture_default_str();
+    command.add_option("--trials", options.trials, "Only the first N trials, for a rehearsal")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
+    command
+        .add_option("--print-session-to", options.print_session_to,
+                    "Write the session's path to this file, for scripts")
+        ->type_name("FILE");
+    command
+        .add_option_function<std::string>(
+            "--maps", [&options](const std::string& time) { options.maps = map_times.at(time); },
+            "Draw the hidden maps live while their frames are shown, or prepared before (auto: live on a "
+            "graphics processor)")
+        ->check(CLI::IsMember({"auto", "live", "prepared"}))
+        ->type_name("WHEN");
+    command.add_flag("--verify-output", options.verify_output,
+                     "Decode every page before the first trial, compare it with its prediction, and "
+                     "record the result with the hash of what is sent");
+    command
+        .add_option(
+            "--faults", options.faults,
+            "Rehearse on a display that does wrong what this file (TOML) says: late pictures, skipped "
+            "refreshes, stalls, jitter and drift of time stamps")
+        ->type_name("FILE");
+    command.add_flag("--realtime", options.realtime,
+                     "Ask for real-time priority and locked memory; goes on if they are refused");
+    command.add_option("--pin", options.processor, "Run the session's thread on this processor only")
+        ->type_name("CPU")
+        ->check(CLI::NonNegativeNumber);
+    command
+        .add_option("--refresh-check", options.refresh_check_s,
+                    "How long the refresh of a real screen is measured before the session; less for a "
+                    "rehearsal, 0 not at all")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.0, 600.0))
+        ->capture_default_str();
+    add_quality_option(command, options.quality,
+                       "What the stimuli have at least, instead of what the protocol asks for",
+                       {"live", "preview", "draft", "standard", "reference"});
+    add_context_option(command, options.context);
+    run_when_chosen(command, chosen, [given] { return run_session(*given); });
+}
+
+void add_new(CLI::App& app, ChosenCommand& chosen) {
+    const auto given = std::make_shared<NewOptions>();
+    NewOptions& options = *given;
+    CLI::App& command = add_command(app, "new", "Writes a protocol to begin with, every key explained",
+                                    "overt new my_experiment.toml");
+    command.add_option("PROTOCOL", options.protocol, "File to write (TOML)")->required();
+    run_when_chosen(command, chosen, [given] { return run_new(*given); });
+}
+
+void add_schema(CLI::App& app, ChosenCommand& chosen) {
+    CLI::App& command = add_command(app, "schema", "Prints the JSON Schema of protocol files, for editors",
+                                    "overt schema > protocol.schema.json");
+    run_when_chosen(command, chosen, [] { return run_schema(); });
+}
+
+} // namespace
+
+void add_session_commands(CLI::App& app, ChosenCommand& chosen) {
+    add_check(app, chosen);
+    add_run(app, chosen);
+    add_new(app, chosen);
+    add_schema(app, chosen);
+}
+
+} // namespace overt
