@@ -9,7 +9,7 @@
 
 #include "app/bench_command.h"
 #include "app/picture_error.h"
-#include "app/temporary_folder.h"
+#include "experiment/temporary_folder.h"
 #include "experiment/error.h"
 #include "render/bake/eye_rays.h"
 #include "render/bake/frame_baker.h"

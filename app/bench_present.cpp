@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -32,35 +33,35 @@ double processor_s() {
     return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-/// 61 pages that differ in every pixel: the same random light, begun at another place.
+/// 61 pages of random light, in memory: the picture of each is another than that of the pages before it.
 class RandomPages final : public FrameSource {
   public:
-    explicit RandomPages(int size_px) : light_(glm::ivec2(size_px)) {
-        RandomStream random(1, "pages");
-        for (glm::vec4& pixel : light_.pixels) {
-            pixel = {static_cast<float>(random.uniform()), static_cast<float>(random.uniform()),
-                     static_cast<float>(random.uniform()), 1.0f};
+    explicit RandomPages(int size_px) {
+        for (std::uint64_t i = 0; i < 4; ++i) {
+            RandomStream random(1, "pages", i);
+            pictures_.emplace_back(glm::ivec2(size_px));
+            for (glm::vec4& pixel : pictures_.back().pixels) {
+                pixel = {static_cast<float>(random.uniform()), static_cast<float>(random.uniform()),
+                         static_cast<float>(random.uniform()), 1.0f};
+            }
         }
     }
     std::vector<int> page_of_frame(const Condition&) const override {
-        std::vector<int> pages;
-        for (int frame = 0; frame < frames; ++frame)
-            pages.push_back(frame);
+        std::vector<int> pages(frames);
+        std::iota(pages.begin(), pages.end(), 0);
         return pages;
     }
-    LinearImage page(const Condition& condition, int page) const override {
-        LinearImage turned;
-        read_page(condition, page, turned);
-        return turned;
-    }
-    void read_page(const Condition&, int page, LinearImage& turned) const override {
-        turned = light_;
-        std::rotate(turned.pixels.begin(), turned.pixels.begin() + 9973 * page % light_.size_px.x,
-                    turned.pixels.end());
+    LinearImage page(const Condition&, int page) const override { return picture(page); }
+    const LinearImage& read_page(const Condition&, int page, LinearImage&) const override {
+        return picture(page);
     }
 
   private:
-    LinearImage light_;
+    const LinearImage& picture(int page) const {
+        return pictures_[static_cast<std::size_t>(page) % pictures_.size()];
+    }
+
+    std::vector<LinearImage> pictures_;
 };
 
 DisplaySettings color_plus_plus(double gamma = 1.0) {

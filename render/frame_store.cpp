@@ -64,8 +64,8 @@ void FrameStore::begin(const Condition& condition, int threads) {
     expected_ = condition;
     loader_.emplace(
         *staging_, stimulus.pages,
-        [this, condition](int page, LinearImage& picture, std::span<std::byte> into) {
-            source_->read_page(condition, page, picture);
+        [this, condition](int page, LinearImage& room, std::span<std::byte> into) {
+            const LinearImage& picture = source_->read_page(condition, page, room);
             OVERT_EXPECTS(picture.size_px == image_px_);
             encoder_->encode(picture, origin_px_, into);
         },

@@ -23,9 +23,10 @@ class FrameSource {
     virtual std::vector<int> page_of_frame(const Condition& condition) const = 0;
     /// The picture for one page. May be called from several threads at once. Throws InputError.
     virtual LinearImage page(const Condition& condition, int page) const = 0;
-    /// The same into a picture whose memory is used again, for those who read many.
-    virtual void read_page(const Condition& condition, int page, LinearImage& into) const {
-        into = this->page(condition, page);
+    /// The same for those who read many: put into `room`, whose memory is used again, or the source's own
+    /// picture if it keeps one.
+    virtual const LinearImage& read_page(const Condition& condition, int page, LinearImage& room) const {
+        return room = this->page(condition, page);
     }
 };
 

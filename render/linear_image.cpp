@@ -51,28 +51,46 @@ struct ValueFacts {
     bool are_finite = true;
 };
 
+/// Rows that are read at once: few enough to be still in the processor's cache when they are made floats, and
+/// a multiple of what the usual compressions of EXR join.
+constexpr int rows_in_band = 64;
+
 /// Reads the channels of all pixels as floats.
 ValueFacts read_values(OIIO::ImageInput& input, const ChannelPlaces& places, std::span<float> into,
                        const std::filesystem::path& file) {
     const OIIO::ImageSpec& spec = input.spec();
-    const auto read = [&](OIIO::TypeDesc type, void* values) {
-        if (!input.read_image(0, 0, 0, places.channels, type, values))
+    const auto check = [&](bool was_read) {
+        if (!was_read)
             throw InputError(
                 fmt::format("{}: reading the picture failed: {}", file.string(), input.geterror()));
     };
     const bool halves = spec.format == OIIO::TypeDesc::HALF, codes = spec.format == OIIO::TypeDesc::UINT16;
     if ((!halves && !codes) || !spec.channelformats.empty()) {
-        read(OIIO::TypeDesc::FLOAT, into.data());
+        check(input.read_image(0, 0, 0, places.channels, OIIO::TypeDesc::FLOAT, into.data()));
         return {spec.format == OIIO::TypeDesc::UINT8, all_finite(into)};
     }
     // Kept for the next file that this thread reads.
     thread_local std::vector<std::uint16_t> stored;
-    stored.resize(into.size());
-    read(OIIO::TypeDesc::UNKNOWN, stored.data()); // as they are
-    if (halves)
-        return {false, floats_of_halves(stored, into)};
-    floats_of_codes(stored, into);
-    return {true, true};
+    const bool in_tiles = spec.tile_width > 0;
+    const int rows_at_once = in_tiles ? spec.height : std::min(rows_in_band, spec.height);
+    const auto row_values = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(places.channels);
+    stored.resize(row_values * static_cast<std::size_t>(rows_at_once));
+    ValueFacts facts{codes, true};
+    for (int row = 0; row < spec.height; row += rows_at_once) {
+        const int end = std::min(row + rows_at_once, spec.height);
+        const OIIO::TypeDesc as_they_are = OIIO::TypeDesc::UNKNOWN;
+        check(in_tiles ? input.read_image(0, 0, 0, places.channels, as_they_are, stored.data())
+                       : input.read_scanlines(0, 0, spec.y + row, spec.y + end, spec.z, 0, places.channels,
+                                              as_they_are, stored.data()));
+        const auto count = row_values * static_cast<std::size_t>(end - row);
+        const std::span from(stored.data(), count);
+        const auto floats = into.subspan(row_values * static_cast<std::size_t>(row), count);
+        if (codes)
+            floats_of_codes(from, floats);
+        else
+            facts.are_finite = floats_of_halves(from, floats) && facts.are_finite;
+    }
+    return facts;
 }
 
 void decode_srgb(LinearImage& image, bool of_codes) {

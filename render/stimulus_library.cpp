@@ -242,15 +242,16 @@ LinearImage StimulusLibrary::page(const Condition& condition, int page) const {
     return image;
 }
 
-void StimulusLibrary::read_page(const Condition& condition, int page, LinearImage& into) const {
+const LinearImage& StimulusLibrary::read_page(const Condition& condition, int page, LinearImage& room) const {
     if (const FrameSequenceSettings* sequence = sequence_of(condition)) {
-        read_linear_image(frame_file(*sequence, {page}), sequence->encoding, into);
-        transform(into, display_from(colours_of(*sequence), protocol_->display));
-        return;
+        read_linear_image(frame_file(*sequence, {page}), sequence->encoding, room);
+        transform(room, display_from(colours_of(*sequence), protocol_->display));
+        return room;
     }
     const FrameGrade& grade = grades_[index_of(condition)];
-    read_linear_image(frame_file_of(condition, grade, {page}), FrameEncoding::linear, into);
-    transform(into, display_from_frame(grade));
+    read_linear_image(frame_file_of(condition, grade, {page}), FrameEncoding::linear, room);
+    transform(room, display_from_frame(grade));
+    return room;
 }
 
 std::string StimulusLibrary::source_of(const Condition& condition) const {

@@ -87,7 +87,7 @@ class StimulusLibrary final : public FrameSource {
 
     std::vector<int> page_of_frame(const Condition& condition) const override;
     LinearImage page(const Condition& condition, int page) const override;
-    void read_page(const Condition& condition, int page, LinearImage& into) const override;
+    const LinearImage& read_page(const Condition& condition, int page, LinearImage& room) const override;
 
     const PoseTable& poses() const { return poses_; }
     bool is_ready_made(const Condition& condition) const { return sequence_of(condition) != nullptr; }
