@@ -11,12 +11,12 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
         add_command(app, "export", "Writes sessions as tables for other tools",
                     "overt export sessions/overt_2019/sub-07_ses-01 --format tsv --out tables");
     command.add_option("SESSION", options.sessions, "Folders of sessions")->required();
-    command.add_option("--format", options.format, "tsv: tables with a dictionary of their columns")
-        ->check(CLI::IsMember({"tsv"}))
+    command.add_option("--format", options.format, "tsv, csv: tables with a dictionary of their columns")
+        ->check(CLI::IsMember({"tsv", "csv"}))
         ->capture_default_str();
     command
         .add_option("--out", options.out,
-                    "Folder to write to (default: export_tsv in the session; for several sessions a folder "
+                    "Folder to write to (default: export_FORMAT in the session; for several sessions a folder "
                     "each is made in it)")
         ->type_name("DIR");
     command

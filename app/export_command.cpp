@@ -3,27 +3,29 @@
 #include "app/commands.h"
 #include "app/progress_bar.h"
 #include "app/recorded_surface.h"
-#include "experiment/record/tsv_export.h"
+#include "experiment/record/table_export.h"
 
 namespace overt {
 
 int run_export(const ExportOptions& options) {
     for (const std::filesystem::path& session : options.sessions) {
         const SessionRecord record(session);
-        std::filesystem::path out = options.out.empty() ? record.directory() / "export_tsv" : options.out;
+        std::filesystem::path out =
+            options.out.empty() ? record.directory() / ("export_" + options.format) : options.out;
         if (!options.out.empty() && options.sessions.size() > 1)
             out /= record.directory().filename();
         RecordedSurfaces surfaces(record);
         ProgressBar bar;
-        TsvExportOptions tsv;
-        tsv.overwrite = options.overwrite;
+        TableExportOptions tables;
+        tables.format = options.format == "csv" ? TableFormat::csv : TableFormat::tsv;
+        tables.overwrite = options.overwrite;
         if (options.cone_deg)
-            tsv.cone_accuracy = Degrees{*options.cone_deg};
-        tsv.progress = [&](int done, int all) {
+            tables.cone_accuracy = Degrees{*options.cone_deg};
+        tables.progress = [&](int done, int all) {
             bar.update("exporting " + record.directory().filename().string(), done, all);
         };
-        const TsvExportCounts counts = export_tsv(
-            record, [&](int sculpture) { return surfaces.lookup_of(sculpture); }, out, tsv);
+        const TableExportCounts counts = export_tables(
+            record, [&](int sculpture) { return surfaces.lookup_of(sculpture); }, out, tables);
         bar.finish();
         const auto share = [&](std::int64_t part) {
             return counts.samples > 0

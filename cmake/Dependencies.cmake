@@ -2,6 +2,7 @@
 # OpenImageIO has one, but it names an include folder that its package does not bring.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(glm REQUIRED)
 find_package(fmt REQUIRED)
 find_package(glfw3 REQUIRED)

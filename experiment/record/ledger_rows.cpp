@@ -1,14 +1,14 @@
 #include "experiment/record/ledger_rows.h"
 
+#include "experiment/record/joined_cells.h"
+
 namespace overt {
 
 namespace {
 
-constexpr int angle_decimals = 6; // a millionth of a degree
-
 class LedgerRows {
   public:
-    LedgerRows(TsvWriter& writer, const SessionRecord& record, const TrialRecord& trial)
+    LedgerRows(TableWriter& writer, const SessionRecord& record, const TrialRecord& trial)
         : row_(writer), header_(record.header()), number_(trial.trial.index + 1),
           plan_(make_page_cycle(header_.animation, header_.display.refresh_hz)) {}
 
@@ -33,7 +33,7 @@ class LedgerRows {
             frames(planned_at(refresh), before);
             const MappedTime at = fit.begin_of(refresh);
             row_.missing(4).seconds(at.time).seconds(at.uncertainty);
-            row_.text(name_of(before.report.source)).integer(0).ready(name_of(run.cause)).end_row();
+            row_.text(name_of(before.report.source)).integer(0).word(name_of(run.cause)).end_row();
         }
     }
 
@@ -41,16 +41,14 @@ class LedgerRows {
     AnimationFrameIndex planned_at(int refresh) const {
         return refresh < plan_.total_refreshes ? plan_.entry_at(refresh).frame : no_frame;
     }
-    void begin(int refresh, std::string_view state) { row_.integer(number_).integer(refresh).ready(state); }
+    void begin(int refresh, std::string_view state) { row_.integer(number_).integer(refresh).word(state); }
     void frames(AnimationFrameIndex planned, const FlipRecord& lit) {
         planned == no_frame ? row_.missing() : row_.integer(planned.value);
         row_.integer(lit.shown.value);
-        const auto pose = static_cast<std::size_t>(lit.pose.value);
-        pose < header_.poses.angles.size() ? row_.fixed(header_.poses.angles[pose].value, angle_decimals)
-                                           : row_.missing();
+        write_angle(row_, header_, lit.pose);
     }
 
-    TsvWriter& row_;
+    TableWriter& row_;
     const SessionHeader& header_;
     int number_;
     PageCycle plan_;
@@ -58,7 +56,7 @@ class LedgerRows {
 
 } // namespace
 
-std::int64_t write_ledger(TsvWriter& writer, const SessionRecord& record, const TrialRecord& trial) {
+std::int64_t write_ledger(TableWriter& writer, const SessionRecord& record, const TrialRecord& trial) {
     const std::optional<LedgerFit> fit = record.ledger_fit(trial);
     if (!fit)
         return 0;

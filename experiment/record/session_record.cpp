@@ -201,25 +201,44 @@ std::vector<MissedRefresh> SessionRecord::missed_refreshes(const TrialRecord& tr
 }
 
 std::vector<GazeSample> SessionRecord::samples(const TrialRecord& trial) const {
-    return reading(file_, [&] {
-        std::vector<GazeSample> samples;
+    std::vector<GazeSample> samples;
+    read_samples(trial, 65536, [&](std::span<const GazeSample> piece) {
+        samples.insert(samples.end(), piece.begin(), piece.end());
+    });
+    return samples;
+}
+
+void SessionRecord::read_samples(const TrialRecord& trial, std::size_t most,
+                                 const std::function<void(std::span<const GazeSample>)>& take) const {
+    reading(file_, [&] {
+        std::vector<GazeSample> piece;
         Query row(*database_,
                   "SELECT tracker_us, eye, x_px, y_px, pupil_area FROM sample WHERE trial_id = ? ORDER BY n");
         row.bind(1, trial.id);
-        while (row.step())
-            samples.push_back(read_sample(row));
-        return samples;
+        while (row.step()) {
+            piece.push_back(read_sample(row));
+            if (piece.size() == most) {
+                take(piece);
+                piece.clear();
+            }
+        }
+        if (!piece.empty())
+            take(piece);
     });
 }
 
 std::vector<RecordedEvent> SessionRecord::events() const {
-    return reading(file_, [&] {
-        std::vector<RecordedEvent> events;
+    std::vector<RecordedEvent> events;
+    read_events([&](const RecordedEvent& event) { events.push_back(event); });
+    return events;
+}
+
+void SessionRecord::read_events(const std::function<void(const RecordedEvent&)>& take) const {
+    reading(file_, [&] {
         for (Query row(*database_, "SELECT sitting, at_ns, trial, kind, detail FROM event ORDER BY id");
              row.step();)
-            events.push_back(
+            take(
                 {row.small(), row.session_time(), row.optional_small().value_or(-1), row.text(), row.text()});
-        return events;
     });
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -75,8 +77,13 @@ class SessionRecord {
     /// in the flips.
     std::vector<MissedRefresh> missed_refreshes(const TrialRecord& trial) const;
     std::vector<GazeSample> samples(const TrialRecord& trial) const;
+    /// The same in pieces of at most `most` samples, so that memory does not grow with the trial.
+    void read_samples(const TrialRecord& trial, std::size_t most,
+                      const std::function<void(std::span<const GazeSample>)>& take) const;
 
     std::vector<RecordedEvent> events() const;
+    /// The same one by one, so that memory does not grow with the session.
+    void read_events(const std::function<void(const RecordedEvent&)>& take) const;
 
     /// Readings of both clocks in one sitting: between sittings the tracker may have been restarted.
     std::vector<ClockPair> clock_pairs(int sitting) const;

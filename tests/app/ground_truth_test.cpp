@@ -10,7 +10,7 @@
 #include "devices/clocks.h"
 #include "devices/simulated_eye_tracker.h"
 #include "devices/simulated_response_panel.h"
-#include "experiment/record/tsv_export.h"
+#include "experiment/record/table_export.h"
 #include "experiment/schedule.h"
 #include "experiment/session.h"
 #include "render/display_surface.h"
@@ -73,7 +73,7 @@ class ExactSitting {
         const SessionRecord record(directory.path());
         RecordedSurfaces surfaces(record);
         const std::filesystem::path tables = files.folder().path() / "tables";
-        export_tsv(
+        export_tables(
             record, [&](int sculpture) { return surfaces.maps_of(sculpture); }, tables);
         return tables;
     }

@@ -1,6 +1,7 @@
-#include "experiment/record/tsv_tables.h"
+#include "experiment/record/export_tables.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -22,23 +23,23 @@ struct SharedColumns {
         for (const RecordedMaterial& entry : header.materials)
             material.levels.emplace_back(entry.id, entry.title);
     }
-    TsvColumn trial{"trial", "Position of the trial in the observer's order, from 1", "", {}};
-    TsvColumn task{"task", "Which question was asked", "", {}};
-    TsvColumn sculpture{"sculpture", "Which sculpture was shown", "", {}};
-    TsvColumn material{"material", "In which material it was shown", "", {}};
-    TsvColumn angle{"angle_deg",
-                    "Turn of the sculpture in the frame shown, counter-clockwise seen from above",
-                    "deg",
-                    {}};
+    TableColumn trial{"trial", "Position of the trial in the observer's order, from 1", "", {}};
+    TableColumn task{"task", "Which question was asked", "", {}};
+    TableColumn sculpture{"sculpture", "Which sculpture was shown", "", {}};
+    TableColumn material{"material", "In which material it was shown", "", {}};
+    TableColumn angle{"angle_deg",
+                      "Turn of the sculpture in the frame shown, counter-clockwise seen from above",
+                      "deg",
+                      {}};
 };
 
-TsvColumn session_seconds(std::string name, std::string meaning) {
+TableColumn session_seconds(std::string name, std::string meaning) {
     return {
         std::move(name), std::move(meaning) + "; session clock, nine decimals keep each nanosecond", "s", {}};
 }
 
-TsvTable trials_table(const SharedColumns& shared) {
-    return {"trials.tsv",
+Table trials_table(const SharedColumns& shared) {
+    return {"trials",
             "One row for each attempt at a trial, in the order in which they were made.",
             {shared.trial,
              {"attempt", "Which attempt at this trial, from 1: a trial that was cut off is repeated", "", {}},
@@ -51,7 +52,8 @@ TsvTable trials_table(const SharedColumns& shared) {
               "How the attempt ended; only completed ones appear in the other tables",
               "",
               {{"completed", "all of it was done"},
-               {"aborted", "broken off by the operator, or because a device went away; or failed, and to come again"},
+               {"aborted",
+                "broken off by the operator, or because a device went away; or failed, and to come again"},
                {"open", "running when the session was exported, or cut off when the program was killed"}}},
              session_seconds("started_s", "Begin of the trial"),
              session_seconds("task_screen_onset_s", "Onset of the question"),
@@ -73,9 +75,9 @@ TsvTable trials_table(const SharedColumns& shared) {
               {}}}};
 }
 
-TsvTable flips_table(const SharedColumns& shared) {
+Table flips_table(const SharedColumns& shared) {
     return {
-        "flips.tsv",
+        "flips",
         "The ledger of the completed trials: one row for each refresh of the display, from the "
         "presentation's onset to the plan's end, or longer where pictures came later.",
         {shared.trial,
@@ -137,55 +139,27 @@ std::vector<std::string> all_part_names(const SessionHeader& header) {
     return names;
 }
 
-TsvTable samples_table(const SharedColumns& shared, const SessionHeader& header) {
-    TsvColumn part{"part", "Part of the figure that is looked at", "", {}};
-    for (const std::string& name : all_part_names(header))
-        part.levels.emplace_back(name, fmt::format("the triangles labelled «{}»", name));
-    const std::string mesh_unit = "unit of the mesh";
-    return {
-        "samples.tsv",
+Table samples_table(const SharedColumns& shared, const SessionHeader& header) {
+    Table samples{
+        "samples",
         "One row for each gaze sample of the completed trials, joined with the frame that was lit on its row "
         "when it was taken. Pixels: origin at the top left corner, y down, pixel centres at 0.5.",
-        {shared.trial,
-         shared.task,
-         shared.sculpture,
-         shared.material,
-         session_seconds("time_s", "When the sample was taken"),
-         {"time_uncertainty_s", "Bound on the error of time_s", "s", {}},
-         {"tracker_time_us", "When the sample was taken, by the tracker's own clock", "us", {}},
+        {shared.trial, shared.task, shared.sculpture, shared.material}};
+    const auto add = [&samples](std::vector<TableColumn> columns) {
+        std::move(columns.begin(), columns.end(), std::back_inserter(samples.columns));
+    };
+    add(time_columns());
+    add({{"tracker_time_us", "When the sample was taken, by the tracker's own clock", "us", {}},
          {"eye", "Which eye", "", {{"left", "left eye"}, {"right", "right eye"}}},
          {"x_px", "Gaze on the screen, to the right", "px", {}},
          {"y_px", "Gaze on the screen, downwards", "px", {}},
-         {"pupil_area", "Pupil area", "the tracker's own unit", {}},
-         {"frame", "Animation frame lit at the gaze's row", "", {}},
-         shared.angle,
-         {"image_x_px", "Gaze in the stimulus image, to the right", "px", {}},
-         {"image_y_px", "Gaze in the stimulus image, downwards", "px", {}},
-         {"surface_x", "Place on the unturned surface", mesh_unit, {}},
-         {"surface_y", "Place on the unturned surface", mesh_unit, {}},
-         {"surface_z", "Place on the unturned surface, upwards", mesh_unit, {}},
-         {"triangle",
-          "Index of the mesh's triangle, from 0; n/a where maps were given without a mesh",
-          "",
-          {}},
-         part,
-         {"depth", "Distance of the surface from the camera along the viewing direction", mesh_unit, {}},
-         {"incidence_deg",
-          "Angle between the line of sight and the surface's normal, 0 is head-on",
-          "deg",
-          {}},
-         {"silhouette_distance_deg",
-          "Visual angle from the gaze to the nearest place of the outline of the sculpture's picture: "
-          "positive "
-          "beside the sculpture, negative on it; n/a without gaze, when no frame was lit, or if the "
-          "sculpture "
-          "has no map. Right to within a pixel",
-          "deg",
-          {}}}};
+         {"pupil_area", "Pupil area", "the tracker's own unit", {}}});
+    add(place_columns(header));
+    return samples;
 }
 
 /// What stands after the columns of samples_table if there is a gaze cone.
-void add_cone_columns(TsvTable& samples, const std::vector<std::string>& parts, Degrees accuracy) {
+void add_cone_columns(Table& samples, const std::vector<std::string>& parts, Degrees accuracy) {
     samples.columns.push_back(
         {"p_object",
          fmt::format(
@@ -204,8 +178,8 @@ void add_cone_columns(TsvTable& samples, const std::vector<std::string>& parts, 
              {}});
 }
 
-TsvTable events_table() {
-    return {"events.tsv",
+Table events_table() {
+    return {"events",
             "What happened besides flips and samples, in all attempts and between trials.",
             {session_seconds("time_s", "When it happened"),
              {"trial", "Position of the trial in the observer's order, from 1", "", {}},
@@ -213,8 +187,8 @@ TsvTable events_table() {
              {"detail", "Particulars", "", {}}}};
 }
 
-TsvTable responses_table(const SharedColumns& shared) {
-    return {"responses.tsv",
+Table responses_table(const SharedColumns& shared) {
+    return {"responses",
             "One row for the answer in each completed trial.",
             {shared.trial,
              shared.task,
@@ -227,8 +201,8 @@ TsvTable responses_table(const SharedColumns& shared) {
              {"answer", "The answer, where the response panel took it down", "", {}}}};
 }
 
-TsvTable stimuli_table(const SharedColumns& shared) {
-    return {"stimuli.tsv",
+Table stimuli_table(const SharedColumns& shared) {
+    return {"stimuli",
             "What was shown: one row for each sculpture in each material.",
             {shared.sculpture,
              shared.material,
@@ -238,9 +212,9 @@ TsvTable stimuli_table(const SharedColumns& shared) {
              {"mesh_sha256", "SHA-256 of the mesh", "", {}}}};
 }
 
-TsvTable display_box_table() {
+Table display_box_table() {
     return {
-        "display_box.tsv",
+        "display_box",
         "What the video signal went through: one row for each sitting.",
         {{"sitting", "Counts how often the session was begun or resumed, from 1", "", {}},
          {"use",
@@ -265,22 +239,46 @@ TsvTable display_box_table() {
          {"clock_drift_uncertainty_ppm", "Bound on the error of clock_drift_ppm", "ppm", {}}}};
 }
 
-nlohmann::ordered_json describe(const TsvTable& table) {
-    nlohmann::ordered_json columns = nlohmann::ordered_json::object();
-    for (const TsvColumn& column : table.columns) {
-        nlohmann::ordered_json& entry = columns[column.name];
-        entry["Description"] = column.meaning;
-        if (!column.unit.empty())
-            entry["Units"] = column.unit;
-        for (const auto& [value, meaning] : column.levels)
-            entry["Levels"][tsv_cell(value)] = meaning;
-    }
-    return {{"Description", table.description}, {"Columns", columns}};
-}
-
 } // namespace
 
-TsvTables::TsvTables(const SessionHeader& header, std::optional<Degrees> cone_accuracy) {
+std::vector<TableColumn> time_columns() {
+    return {session_seconds("time_s", "When the sample was taken"),
+            {"time_uncertainty_s", "Bound on the error of time_s", "s", {}}};
+}
+
+std::vector<TableColumn> place_columns(const SessionHeader& header) {
+    TableColumn part{"part", "Part of the figure that is looked at", "", {}};
+    for (const std::string& name : all_part_names(header))
+        part.levels.emplace_back(name, fmt::format("the triangles labelled «{}»", name));
+    const std::string mesh_unit = "unit of the mesh";
+    return {{"frame", "Animation frame lit at the gaze's row", "", {}},
+            SharedColumns(header).angle,
+            {"image_x_px", "Gaze in the stimulus image, to the right", "px", {}},
+            {"image_y_px", "Gaze in the stimulus image, downwards", "px", {}},
+            {"surface_x", "Place on the unturned surface", mesh_unit, {}},
+            {"surface_y", "Place on the unturned surface", mesh_unit, {}},
+            {"surface_z", "Place on the unturned surface, upwards", mesh_unit, {}},
+            {"triangle",
+             "Index of the mesh's triangle, from 0; n/a where maps were given without a mesh",
+             "",
+             {}},
+            part,
+            {"depth", "Distance of the surface from the camera along the viewing direction", mesh_unit, {}},
+            {"incidence_deg",
+             "Angle between the line of sight and the surface's normal, 0 is head-on",
+             "deg",
+             {}},
+            {"silhouette_distance_deg",
+             "Visual angle from the gaze to the nearest place of the outline of the sculpture's picture: "
+             "positive "
+             "beside the sculpture, negative on it; n/a without gaze, when no frame was lit, or if the "
+             "sculpture "
+             "has no map. Right to within a pixel",
+             "deg",
+             {}}};
+}
+
+ExportTables::ExportTables(const SessionHeader& header, std::optional<Degrees> cone_accuracy) {
     const SharedColumns shared(header);
     trials = trials_table(shared);
     flips = flips_table(shared);
@@ -295,15 +293,40 @@ TsvTables::TsvTables(const SessionHeader& header, std::optional<Degrees> cone_ac
     display_box = display_box_table();
 }
 
-std::string tsv_dictionary(const TsvTables& tables) {
+std::vector<const Table*> ExportTables::all() const {
+    return {&trials, &flips, &samples, &events, &responses, &stimuli, &display_box};
+}
+
+nlohmann::ordered_json describe_columns(const std::vector<TableColumn>& columns, TableFormat format) {
+    nlohmann::ordered_json description = nlohmann::ordered_json::object();
+    for (const TableColumn& column : columns) {
+        nlohmann::ordered_json& entry = description[column.name];
+        entry["Description"] = column.meaning;
+        if (!column.unit.empty())
+            entry["Units"] = column.unit;
+        // Quotes of a csv are no part of the value.
+        for (const auto& [value, meaning] : column.levels)
+            entry["Levels"][format == TableFormat::tsv ? text_cell(value, format) : value] = meaning;
+    }
+    return description;
+}
+
+std::string table_dictionary(const ExportTables& tables, TableFormat format) {
     nlohmann::ordered_json dictionary;
     dictionary["Description"] =
-        "Tab-separated tables in UTF-8. Missing values are n/a. In texts, tab, newline, "
-        "carriage return and backslash are written as \\t, \\n, \\r and \\\\.";
-    for (const TsvTable* table : {&tables.trials, &tables.flips, &tables.samples, &tables.events,
-                                  &tables.responses, &tables.stimuli, &tables.display_box})
-        dictionary["Files"][table->file] = describe(*table);
-    return dictionary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+        format == TableFormat::tsv
+            ? "Tab-separated tables in UTF-8. Missing values are n/a. In texts, tab, newline, "
+              "carriage return and backslash are written as \\t, \\n, \\r and \\\\."
+            : "Comma-separated tables in UTF-8. Missing values are n/a. Texts with commas, quotes, line "
+              "breaks or blanks at their ends stand in quotes, quotes in them doubled (RFC 4180).";
+    for (const Table* table : tables.all())
+        dictionary["Files"][fmt::format("{}.{}", table->name, ending_of(format))] = {
+            {"Description", table->description}, {"Columns", describe_columns(table->columns, format)}};
+    return json_text(dictionary);
+}
+
+std::string json_text(const nlohmann::ordered_json& json) {
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 
 } // namespace overt

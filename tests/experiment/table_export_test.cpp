@@ -1,4 +1,4 @@
-#include "experiment/record/tsv_export.h"
+#include "experiment/record/table_export.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/error.h"
+#include "experiment/record/export_tables.h"
 #include "experiment/record/session_schema.h"
-#include "experiment/record/tsv_tables.h"
-#include "experiment/record/tsv_writer.h"
+#include "experiment/record/table_writer.h"
 #include "experiment/session_fixture.h"
 
 using namespace overt;
@@ -128,10 +128,11 @@ TEST_CASE("an export holds each row of the completed trials, and its counts are 
     const Recorded recorded({20});
     const SessionRecord record(recorded.session);
     int steps = 0;
-    const auto counts = export_tsv(record, bust_only, recorded.target(), {false, [&](int done, int all) {
-                                                                              CHECK(done == ++steps);
-                                                                              CHECK(all == 3);
-                                                                          }});
+    const auto counts =
+        export_tables(record, bust_only, recorded.target(), {TableFormat::tsv, false, [&](int done, int all) {
+                                                                 CHECK(done == ++steps);
+                                                                 CHECK(all == 3);
+                                                             }});
     CHECK(steps == 3);
     CHECK(counts.trials == 2);
     CHECK(counts.samples == 10'000);
@@ -164,7 +165,7 @@ TEST_CASE("an export holds each row of the completed trials, and its counts are 
 
 TEST_CASE("a sample's row says when, on which frame and where on the surface it was", "[unit]") {
     const Recorded recorded;
-    export_tsv(SessionRecord(recorded.session), bust_only, recorded.target());
+    export_tables(SessionRecord(recorded.session), bust_only, recorded.target());
     const auto samples = table(recorded.target() / "samples.tsv");
     // Sample 301 was taken 150.623 ms after the onset. Row 300 of 600 and a latency of 1.5 ms put it 144.123
     // ms after the onset's blank: refresh 14, the fourth frame of forty milliseconds, which is frame 1 on its
@@ -212,7 +213,7 @@ TEST_CASE("samples that the plan would put on another frame are counted exactly"
         {{}, 0}, {{20}, 18}, {{20, 40}, 36}, {{18, 21, 42}, 0}, {{16, 17, 18, 20}, 36}};
     for (const auto& [missed, expected] : cases) {
         const Recorded recorded(missed);
-        const auto counts = export_tsv(SessionRecord(recorded.session), bust_only, recorded.target());
+        const auto counts = export_tables(SessionRecord(recorded.session), bust_only, recorded.target());
         CHECK(counts.samples_off_plan == expected);
     }
 }
@@ -220,8 +221,8 @@ TEST_CASE("samples that the plan would put on another frame are counted exactly"
 TEST_CASE("two exports of one session are the same, byte for byte", "[unit]") {
     const Recorded recorded({20});
     const SessionRecord record(recorded.session);
-    export_tsv(record, bust_only, recorded.root.path() / "a");
-    export_tsv(SessionRecord(recorded.session), bust_only, recorded.root.path() / "b");
+    export_tables(record, bust_only, recorded.root.path() / "a");
+    export_tables(SessionRecord(recorded.session), bust_only, recorded.root.path() / "b");
     int files = 0;
     for (const auto& entry : fs::directory_iterator(recorded.root.path() / "a")) {
         const std::string text = text_of(entry.path());
@@ -236,7 +237,7 @@ TEST_CASE("two exports of one session are the same, byte for byte", "[unit]") {
 
 TEST_CASE("the dictionary explains each column of each file, in the files' order", "[unit]") {
     const Recorded recorded;
-    export_tsv(SessionRecord(recorded.session), bust_only, recorded.target());
+    export_tables(SessionRecord(recorded.session), bust_only, recorded.target());
     const auto dictionary = nlohmann::ordered_json::parse(text_of(recorded.target() / "dictionary.json"));
     REQUIRE(dictionary["Files"].size() == 7);
     for (const auto& [file, description] : dictionary["Files"].items()) {
@@ -256,21 +257,103 @@ TEST_CASE("the dictionary explains each column of each file, in the files' order
     }
 }
 
+/// Cells of comma-separated text, read as RFC 4180 has it.
+std::vector<std::vector<std::string>> comma_separated(const std::string& text) {
+    std::vector<std::vector<std::string>> rows{{""}};
+    bool in_quotes = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"' && in_quotes && i + 1 < text.size() && text[i + 1] == '"') {
+            rows.back().back() += text[++i];
+        } else if (c == '"') {
+            in_quotes = !in_quotes;
+        } else if (c == ',' && !in_quotes) {
+            rows.back().emplace_back();
+        } else if (c == '\n' && !in_quotes) {
+            rows.push_back({""});
+        } else {
+            rows.back().back() += c;
+        }
+    }
+    rows.pop_back();
+    return rows;
+}
+
+TEST_CASE("comma-separated tables hold the same cells as tab-separated ones, with their texts as they were",
+          "[unit]") {
+    const Recorded recorded({20});
+    const SessionRecord record(recorded.session);
+    export_tables(record, bust_only, recorded.root.path() / "tsv");
+    const auto counts =
+        export_tables(record, bust_only, recorded.root.path() / "csv", {TableFormat::csv, false, {}, {}});
+    const auto unescaped = [](std::string cell) {
+        for (const auto& [escape, character] : {std::pair{"\\t", "\t"}, {"\\n", "\n"}, {"\\r", "\r"}})
+            for (auto at = cell.find(escape); at != std::string::npos; at = cell.find(escape))
+                cell.replace(at, 2, character);
+        return cell;
+    };
+    std::int64_t rows = 0, quoted = 0;
+    for (const char* name : {"trials", "flips", "samples", "events", "responses", "stimuli", "display_box"}) {
+        auto expected = table(recorded.root.path() / "tsv" / (std::string(name) + ".tsv"));
+        for (auto& row : expected)
+            for (std::string& cell : row)
+                cell = unescaped(cell);
+        const std::string text = text_of(recorded.root.path() / "csv" / (std::string(name) + ".csv"));
+        quoted += text.find('"') != std::string::npos;
+        REQUIRE(comma_separated(text) == expected);
+        rows += static_cast<std::int64_t>(expected.size()) - 1;
+    }
+    CHECK(quoted > 0);
+    CHECK(counts.rows == rows);
+    const auto dictionary = nlohmann::json::parse(text_of(recorded.root.path() / "csv" / "dictionary.json"));
+    CHECK(dictionary["Files"].contains("samples.csv"));
+}
+
+TEST_CASE("texts with commas, quotes, line breaks and blanks at their ends stand in quotes", "[unit]") {
+    CHECK(text_cell("a,b", TableFormat::csv) == "\"a,b\"");
+    CHECK(text_cell("say \"no\"", TableFormat::csv) == "\"say \"\"no\"\"\"");
+    CHECK(text_cell("a\nb", TableFormat::csv) == "\"a\nb\"");
+    CHECK(text_cell(" a", TableFormat::csv) == "\" a\"");
+    CHECK(text_cell("", TableFormat::csv) == "n/a");
+    CHECK(text_cell("Wie alt? 何歳？ كم عمره؟", TableFormat::csv) == "Wie alt? 何歳？ كم عمره؟");
+    CHECK(prepare_cells({"a,b", "c"}, TableFormat::csv).text == "\"a,b\",c");
+}
+
+TEST_CASE("samples come in pieces of any size, the same as all at once", "[unit]") {
+    const Recorded recorded;
+    const SessionRecord record(recorded.session);
+    for (const std::size_t most : {1u, 7u, 5000u, 100000u}) {
+        std::vector<std::int64_t> times;
+        std::size_t largest = 0;
+        record.read_samples(record.trials()[0], most, [&](std::span<const GazeSample> piece) {
+            largest = std::max(largest, piece.size());
+            for (const GazeSample& sample : piece)
+                times.push_back(sample.sampled_at.time_since_epoch().count());
+        });
+        std::vector<std::int64_t> expected;
+        for (const GazeSample& sample : record.samples(record.trials()[0]))
+            expected.push_back(sample.sampled_at.time_since_epoch().count());
+        CHECK(largest <= most);
+        CHECK(times == expected);
+    }
+}
+
 TEST_CASE("an export replaces an earlier export only when asked, and other folders never", "[unit]") {
     const Recorded recorded;
     const SessionRecord record(recorded.session);
-    export_tsv(record, bust_only, recorded.target());
-    CHECK_THROWS_WITH(export_tsv(record, bust_only, recorded.target()), Contains("exists already"));
-    CHECK_NOTHROW(export_tsv(record, bust_only, recorded.target(), {true, {}}));
+    export_tables(record, bust_only, recorded.target());
+    CHECK_THROWS_WITH(export_tables(record, bust_only, recorded.target()), Contains("exists already"));
+    CHECK_NOTHROW(export_tables(record, bust_only, recorded.target(), {TableFormat::tsv, true, {}}));
     std::ofstream(recorded.target() / "thesis.txt") << "years of work";
-    CHECK_THROWS_WITH(export_tsv(record, bust_only, recorded.target(), {true, {}}), Contains("thesis.txt"));
+    CHECK_THROWS_WITH(export_tables(record, bust_only, recorded.target(), {TableFormat::tsv, true, {}}),
+                      Contains("thesis.txt"));
     CHECK(text_of(recorded.target() / "thesis.txt") == "years of work");
     CHECK(std::distance(fs::directory_iterator(recorded.root.path()), fs::directory_iterator()) == 2);
 }
 
 TEST_CASE("cells keep their numbers to the last decimal, and texts in one cell", "[unit]") {
     const TemporaryFolder root;
-    TsvWriter writer(root.path(), {"t.tsv", "", {{"a", "", "", {}}, {"b", "", "", {}}}});
+    TableWriter writer(root.path(), {"t", "", {{"a", "", "", {}}, {"b", "", "", {}}}}, TableFormat::tsv);
     const auto row = [&](auto&& first, auto&& second) {
         first(), second();
         writer.end_row();

@@ -1,4 +1,4 @@
-/// A session as tab-separated tables for everyone else's tools.
+/// A session as tables for everyone else's tools.
 #pragma once
 
 #include <cstdint>
@@ -8,24 +8,27 @@
 
 #include "experiment/analysis/surface_point.h"
 #include "experiment/record/session_record.h"
+#include "experiment/record/table_writer.h"
 
 namespace overt {
 
-struct TsvExportOptions {
+struct TableExportOptions {
+    TableFormat format = TableFormat::tsv;
     bool overwrite = false;                          ///< replace an earlier export
     std::function<void(int done, int all)> progress; ///< told after each trial; may be empty
-    /// Adds columns with the probabilities of a gaze cone (see GazeCone) of this accuracy to samples.tsv.
+    /// Adds columns with the probabilities of a gaze cone (see GazeCone) of this accuracy to the samples.
     std::optional<Degrees> cone_accuracy = {};
 };
 
 /// What was written.
-struct TsvExportCounts {
+struct TableExportCounts {
     std::int64_t trials = 0; ///< completed ones
     std::int64_t flips = 0;
     std::int64_t samples = 0;
     std::int64_t samples_without_gaze = 0;
     std::int64_t samples_on_object = 0;
     std::int64_t samples_off_plan = 0; ///< that the planned frame times would have put on another frame
+    std::int64_t rows = 0, bytes = 0;  ///< of all tables
 };
 
 /// Gives the lookup for a sculpture, or null if there is none. Called once for each trial.
@@ -33,11 +36,13 @@ using LookupFor = std::function<const SurfaceLookup*(int sculpture)>;
 
 /// Writes trials, flips, samples, events, responses and stimuli with a dictionary.json that explains each
 /// column. The same session gives the same bytes, on every machine and at any time: nothing of the wall clock
-/// is in them. Flips, samples and responses are those of completed trials.
+/// is in them. Flips, samples and responses are those of completed trials. Memory does not grow with the
+/// session.
 ///
 /// The directory appears when it is complete. Throws InputError if it exists and is not to be overwritten, or
 /// is no earlier export; RecordError for a damaged session or a full disk.
-TsvExportCounts export_tsv(const SessionRecord& record, const LookupFor& lookup_for,
-                           const std::filesystem::path& directory, const TsvExportOptions& options = {});
+TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lookup_for,
+                                const std::filesystem::path& directory,
+                                const TableExportOptions& options = {});
 
 } // namespace overt
