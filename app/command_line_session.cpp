@@ -7,6 +7,9 @@ namespace {
 const std::map<std::string, MapTime> map_times{
     {"auto", MapTime::automatic}, {"live", MapTime::live}, {"prepared", MapTime::prepared}};
 
+const std::map<std::string, AskAt> places_to_ask{
+    {"window", AskAt::window}, {"terminal", AskAt::terminal}, {"nobody", AskAt::nobody}};
+
 void add_check(CLI::App& app, ChosenCommand& chosen) {
     const auto given = std::make_shared<CheckOptions>();
     CheckOptions& options = *given;
@@ -58,6 +61,19 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
         .add_option("--simulate-observer", options.simulate_observer,
                     "Let a simulated observer look and answer")
         ->type_name("SEED");
+    command
+        .add_option("--observer-field", options.observer_fields,
+                    "Fills in a field of the observer's form, as age=31; once for each field. A simulated "
+                    "observer fills in the rest from its seed")
+        ->type_name("ID=VALUE")
+        ->allow_extra_args(false);
+    command
+        .add_option_function<std::string>(
+            "--ask-at", [&options](const std::string& place) { options.ask_at = places_to_ask.at(place); },
+            "Where the rest of the form is filled in: window (the terminal if there is none), terminal, or "
+            "nobody, which refuses a session that lacks a required field")
+        ->check(CLI::IsMember({"window", "terminal", "nobody"}))
+        ->type_name("WHERE");
     command.add_flag("--virtual-time", options.virtual_time,
                      "Run as fast as the machine can, on a clock of its own");
     command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");

@@ -22,10 +22,13 @@ struct CheckOptions {
     bool all_observers = false;
     double answer_time_s = 8.0;
     std::optional<std::uint64_t> seed; ///< of the orders shown, where the protocol fixes none
-    bool frames = false; ///< read every frame, and say what light of it the display cannot show
+    bool frames = false;               ///< read every frame, and say what light of it the display cannot show
     bool json = false;
 };
 int run_check(const CheckOptions& options);
+
+/// Where the observer's form is filled in as far as the command line does not.
+enum class AskAt { window, terminal, nobody };
 
 /// When the hidden maps are drawn: before the session, or while their frames are shown.
 enum class MapTime { automatic, prepared, live };
@@ -36,6 +39,8 @@ struct RunOptions {
     std::optional<int> session_number;
     std::optional<std::uint64_t> seed;
     std::optional<std::uint64_t> simulate_observer;
+    std::vector<std::string> observer_fields; ///< ID=VALUE
+    AskAt ask_at = AskAt::window;
     ContextChoice context;
     bool virtual_time = false;
     bool windowed = false;

@@ -1,12 +1,15 @@
 #include <fstream>
+#include <iostream>
 #include <random>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "app/cache_folder.h"
 #include "app/commands.h"
 #include "app/display_box_session.h"
 #include "app/interruption.h"
+#include "app/observer_questions.h"
 #include "app/output_verification.h"
 #include "app/progress_bar.h"
 #include "app/protocol_file.h"
@@ -124,6 +127,19 @@ void note_struck(const VirtualRefresh& display, const Trial& trial, const Clock&
     }
 }
 
+/// The form as far as it is filled in outside of the window. Throws InputError for what is missing where
+/// nobody can be asked.
+FieldValues fill_in_form(const Protocol& protocol, const RunOptions& options) {
+    const std::span<const ObserverFieldSettings> fields = protocol.observer_fields;
+    FieldValues values = values_given(fields, options.observer_fields);
+    if (options.simulate_observer)
+        simulate_values(fields, values, *options.simulate_observer);
+    else if (options.ask_at == AskAt::terminal && ::isatty(STDIN_FILENO) == 1)
+        ask_for_values(fields, values, std::cin, std::cerr);
+    require_values(fields, values);
+    return values;
+}
+
 void note_thread(const std::vector<ThreadWish>& wishes, const Clock& clock, SessionStore& store) {
     for (const ThreadWish& wish : wishes) {
         const std::string answer =
@@ -145,6 +161,7 @@ int run_session(const RunOptions& options) {
     const SessionPlace place{options.sessions, protocol.name, observer.label};
     check_session_place(place, options.session_number);
     const DisplayFaults faults = read_faults_or_report(options.faults);
+    const FieldValues fields = fill_in_form(protocol, options);
     const std::uint64_t seed = options.seed             ? *options.seed
                                : protocol.schedule.seed ? *protocol.schedule.seed
                                                         : fresh_seed();
@@ -211,6 +228,7 @@ int run_session(const RunOptions& options) {
         box->write_beginning(store);
     else
         store.display_box(recorded_box);
+    store.observer_fields(filled_in(protocol.observer_fields, fields));
     for (const ScreenFinding& finding : rig.screen_findings())
         store.event({rig.clock().now(), -1, "screen", fmt::format("{}: {}", finding.what, finding.finding)});
     if (options.verify_output) {

@@ -7,9 +7,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "experiment/flip_report.h"
 #include "experiment/gaze.h"
+#include "experiment/observer_field.h"
 #include "experiment/session_time.h"
 #include "experiment/trial.h"
 #include "experiment/units.h"
@@ -180,6 +182,8 @@ class SessionLog {
     virtual void sample(int trial, const GazeSample& sample) noexcept = 0;
     virtual void clock_pair(const ClockPair& pair) noexcept = 0;
     virtual void event(const SessionEvent& event) = 0;
+    /// What the observer filled in; replaces what was noted before.
+    virtual void observer_fields(const std::vector<RecordedObserverField>& /*fields*/) {}
     virtual void trial_started(const Trial& trial, SessionTime at) = 0;
     /// All of the trial's rows are on disk when this returns.
     virtual void trial_finished(const Trial& trial, const TrialOutcome& outcome) = 0;

@@ -14,6 +14,7 @@
 
 #include "experiment/animation.h"
 #include "experiment/colour/display_characterisation.h"
+#include "experiment/observer_field.h"
 #include "experiment/protocol/design_settings.h"
 #include "experiment/protocol/key_places.h"
 #include "experiment/protocol/protocol_sources.h"
@@ -244,6 +245,7 @@ struct Protocol {
     Animation animation;
     ScheduleSettings schedule;
     ScreenSettings screens;
+    std::vector<ObserverFieldSettings> observer_fields; ///< what the observer is asked before the session
     std::vector<Task> tasks;
     std::vector<BlockSettings> blocks; ///< none: all trials are one block in random order
     std::vector<GroupSettings> groups; ///< none: all observers see the same

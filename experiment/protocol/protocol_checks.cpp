@@ -13,7 +13,8 @@ void ProtocolExamination::error(std::initializer_list<std::string_view> paths, s
         diagnostics_.error(file_, protocol.places.first_written(paths), std::move(message), std::move(hint));
 }
 
-void ProtocolExamination::error(const std::vector<std::string>& paths, std::string message, std::string hint) {
+void ProtocolExamination::error(const std::vector<std::string>& paths, std::string message,
+                                std::string hint) {
     const auto written =
         std::find_if(paths.begin(), paths.end(), [&](const std::string& path) { return is_written(path); });
     const bool is_faulty = std::any_of(paths.begin(), paths.end(),

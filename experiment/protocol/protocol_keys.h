@@ -30,18 +30,20 @@ struct KeyRule {
 
 /// A member of Struct of any type that a key can have.
 template <class Struct>
-using KeyMember = std::variant<
-    int Struct::*, double Struct::*, Degrees Struct::*, std::string Struct::*,
-    std::filesystem::path Struct::*, std::optional<double> Struct::*, std::optional<int> Struct::*,
-    std::optional<std::uint64_t> Struct::*, std::optional<glm::dvec3> Struct::*,
-    std::array<double, 3> Struct::*, bool Struct::*, std::vector<double> Struct::*,
-    std::vector<std::string> Struct::*, std::vector<std::array<double, 4>> Struct::*,
-    std::vector<std::array<double, 6>> Struct::*, OutputMode Struct::*, Dithering Struct::*,
-    PairFilter Struct::*, PatchCorner Struct::*, TrackerKind Struct::*, Playback Struct::*,
-    WhenLate Struct::*, TaskCoverage Struct::*, MaterialKind Struct::*, FrameEncoding Struct::*,
-    FrameColours Struct::*, BakeQuality Struct::*, PixelFilter Struct::*, StandardObserver Struct::*,
-    std::optional<TaskCoverage> Struct::*, OrderMethod Struct::*, TrialFactor Struct::*, SquareKind Struct::*,
-    LevelOrder Struct::*, RepetitionOrder Struct::*, BreakPace Struct::*, RepeatWhen Struct::*>;
+using KeyMember =
+    std::variant<int Struct::*, double Struct::*, Degrees Struct::*, std::string Struct::*,
+                 std::filesystem::path Struct::*, std::optional<double> Struct::*,
+                 std::optional<int> Struct::*, std::optional<std::uint64_t> Struct::*,
+                 std::optional<glm::dvec3> Struct::*, std::array<double, 3> Struct::*, bool Struct::*,
+                 std::vector<double> Struct::*, std::vector<std::string> Struct::*,
+                 std::vector<std::array<double, 4>> Struct::*, std::vector<std::array<double, 6>> Struct::*,
+                 OutputMode Struct::*, Dithering Struct::*, PairFilter Struct::*, PatchCorner Struct::*,
+                 TrackerKind Struct::*, Playback Struct::*, WhenLate Struct::*, TaskCoverage Struct::*,
+                 MaterialKind Struct::*, FrameEncoding Struct::*, FrameColours Struct::*,
+                 BakeQuality Struct::*, PixelFilter Struct::*, StandardObserver Struct::*,
+                 std::optional<TaskCoverage> Struct::*, OrderMethod Struct::*, TrialFactor Struct::*,
+                 SquareKind Struct::*, LevelOrder Struct::*, RepetitionOrder Struct::*, BreakPace Struct::*,
+                 RepeatWhen Struct::*, FieldKind Struct::*>;
 
 template <class Struct> struct Key {
     KeyRule rule;
@@ -62,9 +64,10 @@ template <class Struct> struct Section {
 using ProtocolSections =
     std::tuple<Section<Protocol>, Section<DisplaySettings>, Section<TrackerSettings>, Section<ViewSettings>,
                Section<LightSettings>, Section<BakingSettings>, Section<Animation>, Section<ScheduleSettings>,
-               Section<ScreenSettings>, Section<Task>, Section<BlockSettings>, Section<GroupSettings>,
-               Section<PracticeSettings>, Section<BreakSettings>, Section<RepeatSettings>,
-               Section<SculptureSettings>, Section<MaterialSettings>, Section<FrameSequenceSettings>>;
+               Section<ScreenSettings>, Section<ObserverFieldSettings>, Section<Task>, Section<BlockSettings>,
+               Section<GroupSettings>, Section<PracticeSettings>, Section<BreakSettings>,
+               Section<RepeatSettings>, Section<SculptureSettings>, Section<MaterialSettings>,
+               Section<FrameSequenceSettings>>;
 
 /// All sections, in the order of the documentation. Made once; safe from any thread.
 const ProtocolSections& protocol_sections();

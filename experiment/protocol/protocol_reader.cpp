@@ -216,6 +216,9 @@ std::filesystem::path folder_of(const Protocol& protocol, std::string_view key_p
 void complete(Protocol& protocol) {
     if (protocol.title.empty())
         protocol.title = protocol.name;
+    for (std::size_t i = 0; i < protocol.observer_fields.size(); ++i)
+        complete_field(protocol.observer_fields[i],
+                       protocol.places.is_written(fmt::format("observer_fields[{}].kind", i)));
     for (std::size_t i = 0; i < protocol.sculptures.size(); ++i) {
         SculptureSettings& sculpture = protocol.sculptures[i];
         const auto folder = folder_of(protocol, fmt::format("sculpture[{}]", i));
@@ -272,6 +275,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_groups(examination);
         check_practice(examination);
         check_breaks(examination);
+        check_observer_fields(examination);
         check_sculptures(examination, shipped_sculptures);
         check_materials(examination);
         check_frames(examination);

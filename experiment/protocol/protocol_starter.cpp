@@ -31,6 +31,8 @@ const std::map<std::string_view, std::vector<Values>>& starter_values() {
            {"output", "\"native-8bit\""},
            {"gamma", "2.2"}}}},
         {"tracker", {{{"rate_hz", "1000"}}}},
+        {"observer_fields",
+         {{{"id", "\"age\""}}, {{"id", "\"sex\""}}, {{"id", "\"vision\""}}, {{"id", "\"handedness\""}}}},
         {"animation", {{{"duration_s", "4"}}}},
         {"schedule", {{{"observers", "4"}, {"max_sculpture_run", "2"}}}},
         {"task",

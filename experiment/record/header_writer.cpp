@@ -110,6 +110,7 @@ void create_session_file(const std::filesystem::path& file, const SessionHeader&
         SQLite::Transaction transaction(database);
         database.exec(session_schema_sql);
         database.exec(box_tables_sql);
+        database.exec(observer_tables_sql);
         database.exec(ledger_tables_sql);
         insert_session(database, header);
         if (header.characterisation)

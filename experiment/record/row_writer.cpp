@@ -184,6 +184,15 @@ void RowWriter::box_clock(const std::vector<BoxClockReading>& readings) {
         run_statement(insert, sitting_, reading.before, reading.box_us, reading.after);
 }
 
+void RowWriter::observer_fields(const std::vector<RecordedObserverField>& fields) {
+    begin();
+    database_.exec(observer_tables_sql);
+    database_.exec("DELETE FROM observer_field");
+    SQLite::Statement insert(database_, "INSERT INTO observer_field (id, title, value) VALUES (?,?,?)");
+    for (const RecordedObserverField& field : fields)
+        run_statement(insert, field.id, field.title, field.value);
+}
+
 void RowWriter::start_trial(const Trial& trial, SessionTime at) {
     begin();
     trial_counts_ = {number(database_, "SELECT COALESCE(MAX(trial_id), 0) + 1 + ?1 FROM trial"), 0, 0};

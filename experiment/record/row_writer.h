@@ -41,6 +41,7 @@ class RowWriter {
     void map(const RecordedMap& map);
     void display_box(const RecordedBox& box);
     void box_clock(const std::vector<BoxClockReading>& readings);
+    void observer_fields(const std::vector<RecordedObserverField>& fields);
     void start_trial(const Trial& trial, SessionTime at);
 
     /// Commits what is open, then the outcome in a transaction of its own that is on the disk, with

@@ -242,6 +242,22 @@ void SessionRecord::read_events(const std::function<void(const RecordedEvent&)>&
     });
 }
 
+std::vector<RecordedObserverField> SessionRecord::observer_fields() const {
+    return reading(file_, [&] {
+        std::vector<RecordedObserverField> fields;
+        if (!has_table(*database_, "observer_field"))
+            return fields;
+        for (Query row(*database_, "SELECT id, title, value FROM observer_field ORDER BY n"); row.step();) {
+            RecordedObserverField field;
+            field.id = row.text();
+            field.title = row.text();
+            field.value = row.text();
+            fields.push_back(std::move(field));
+        }
+        return fields;
+    });
+}
+
 std::vector<ClockPair> SessionRecord::clock_pairs(int sitting) const {
     return reading(file_, [&] {
         std::vector<ClockPair> pairs;

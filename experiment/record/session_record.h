@@ -85,6 +85,9 @@ class SessionRecord {
     /// The same one by one, so that memory does not grow with the session.
     void read_events(const std::function<void(const RecordedEvent&)>& take) const;
 
+    /// What the observer filled in, in the order of the form. Sessions of earlier programs have nothing.
+    std::vector<RecordedObserverField> observer_fields() const;
+
     /// Readings of both clocks in one sitting: between sittings the tracker may have been restarted.
     std::vector<ClockPair> clock_pairs(int sitting) const;
 

@@ -108,6 +108,11 @@ CREATE TABLE IF NOT EXISTS box_clock_pair (
 ) STRICT;
 )sql";
 
+const char* const observer_tables_sql = R"sql(
+CREATE TABLE IF NOT EXISTS observer_field (n INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEXT NOT NULL,
+                                           value TEXT NOT NULL) STRICT;
+)sql";
+
 const char* const ledger_tables_sql = R"sql(
 CREATE TABLE IF NOT EXISTS missed_refresh (
     trial_id INTEGER NOT NULL, refresh_in_trial INTEGER NOT NULL, refresh INTEGER NOT NULL,

@@ -22,6 +22,9 @@ extern const char* const session_schema_sql;
 /// none.
 extern const char* const box_tables_sql;
 
+/// The same for what the observer was asked.
+extern const char* const observer_tables_sql;
+
 /// The same for the ledger's table of missed refreshes.
 extern const char* const ledger_tables_sql;
 

@@ -74,7 +74,8 @@ struct TrialFinish {
 
 /// What is too large or too rare for the ring itself: it carries the pointer, so that the order holds.
 struct Message {
-    std::variant<Event, TrialStart, TrialFinish, RecordedMap, RecordedBox, std::vector<BoxClockReading>>
+    std::variant<Event, TrialStart, TrialFinish, RecordedMap, RecordedBox, std::vector<BoxClockReading>,
+                 std::vector<RecordedObserverField>>
         content;
     std::promise<void> written;
 };
@@ -227,6 +228,8 @@ void SessionStore::Writer::write_message(const Message& message) {
         rows_.display_box(*box);
     } else if (const auto* readings = std::get_if<std::vector<BoxClockReading>>(&message.content)) {
         rows_.box_clock(*readings);
+    } else if (const auto* fields = std::get_if<std::vector<RecordedObserverField>>(&message.content)) {
+        rows_.observer_fields(*fields);
     } else {
         const auto& finish = std::get<TrialFinish>(message.content);
         rows_.finish_trial(finish.trial, finish.outcome, finish.lost.flips, finish.lost.samples);
@@ -308,6 +311,10 @@ void SessionStore::trial_finished(const Trial& trial, const TrialOutcome& outcom
         writer_->send(TrialFinish{trial, outcome, {now.flips - before.flips, now.samples - before.samples}});
     writer_->wake();
     written.get();
+}
+
+void SessionStore::observer_fields(const std::vector<RecordedObserverField>& fields) {
+    writer_->send(fields);
 }
 
 void SessionStore::map_made(const RecordedMap& map) { writer_->send(map); }
