@@ -9,7 +9,7 @@
 
 #include "app/bench_command.h"
 #include "app/picture_error.h"
-#include "experiment/temporary_folder.h"
+#include "experiment/scratch_folder.h"
 #include "experiment/error.h"
 #include "render/bake/eye_rays.h"
 #include "render/bake/frame_baker.h"
@@ -106,7 +106,7 @@ SceneView resized(SceneView view, int size_px) {
 }
 
 /// A metal that reflects all light, as a table in a folder.
-std::string white_metal(const TemporaryFolder& folder) {
+std::string white_metal(const ScratchFolder& folder) {
     const std::filesystem::path file = folder.path() / "white.csv";
     std::ofstream(file) << "wavelength_nm,n,k\n390,0,1\n710,0,1\n";
     return file.string();
@@ -114,7 +114,7 @@ std::string white_metal(const TemporaryFolder& folder) {
 
 /// How far a clear figure of a metal that reflects all light is from the even light around it, in the mean.
 void measure_furnace(BenchFigures& figures, const Sculpture& sculpture, const BenchOptions& options) {
-    const TemporaryFolder folder("overt-bench");
+    const ScratchFolder folder("overt-bench");
     LightProbe even{LinearImage({8, 4}), 0};
     for (glm::vec4& pixel : even.radiance.pixels)
         pixel = glm::vec4(1.0f);

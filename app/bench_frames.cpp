@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/bench_command.h"
-#include "experiment/temporary_folder.h"
+#include "experiment/scratch_folder.h"
 #include "devices/clocks.h"
 #include "experiment/error.h"
 #include "experiment/parallel.h"
@@ -124,7 +124,7 @@ void decode(const FrameSource& files) {
 }
 
 void measure_kind(const GlContext& context, const FileKind& kind, int size_px, BenchFigures& figures) {
-    const TemporaryFolder folder("overt-bench-frames");
+    const ScratchFolder folder("overt-bench-frames");
     write_frames(folder.path(), kind, size_px);
     ScreenGeometry geometry;
     geometry.image_px = glm::ivec2(size_px);

@@ -7,14 +7,14 @@
 #include <string>
 #include <string_view>
 
-#include "experiment/temporary_folder.h"
+#include "experiment/scratch_folder.h"
 
 namespace overt::test {
 
 /// Made anew and removed with all that is in it.
-class TemporaryFolder : public overt::TemporaryFolder {
+class TemporaryFolder : public ScratchFolder {
   public:
-    TemporaryFolder() : overt::TemporaryFolder("overt-test") {}
+    TemporaryFolder() : ScratchFolder("overt-test") {}
 
     /// Writes a file of that name, in folders that are made for it, and gives its path.
     std::filesystem::path file(const std::string& name, std::string_view content) const {

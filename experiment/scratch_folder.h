@@ -12,21 +12,21 @@
 namespace overt {
 
 /// Made anew under the system's temporary folder, and removed with all that is in it.
-class TemporaryFolder {
+class ScratchFolder {
   public:
     /// `prefix`: how its name begins. Throws RecordError if there is no room or no right.
-    explicit TemporaryFolder(const std::string& prefix) {
+    explicit ScratchFolder(const std::string& prefix) {
         std::string name = (std::filesystem::temp_directory_path() / (prefix + "-XXXXXX")).string();
         if (!::mkdtemp(name.data()))
             throw RecordError(fmt::format("{}: a temporary folder cannot be made there: set TMPDIR", name));
         path_ = name;
     }
-    ~TemporaryFolder() {
+    ~ScratchFolder() {
         std::error_code ignored;
         std::filesystem::remove_all(path_, ignored);
     }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
 
