@@ -18,10 +18,20 @@ namespace {
 /// Changes whenever a sculpture comes out differently, so that an older one in the cache is not taken.
 constexpr int sculpture_version = 1;
 
+/// Millimetres in a unit by its name; 1 for a file's own.
+double mm_of(std::string_view unit) {
+    if (unit == "cm")
+        return 10.0;
+    if (unit == "m")
+        return 1000.0;
+    return unit == "in" ? 25.4 : 1.0;
+}
+
 MeshImport import_of(const SculptureSettings& settings) {
     MeshImport import;
     import.up = up_axis_named(settings.up);
-    import.scale = settings.scale;
+    import.scale = settings.scale * mm_of(settings.unit);
+    import.labels = settings.labels;
     if (auto head = head_region(settings))
         import.regions.push_back(*std::move(head));
     return import;

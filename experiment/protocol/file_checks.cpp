@@ -44,10 +44,12 @@ void check_files(ProtocolExamination& examination) {
         examination.error({"light.probe"}, fmt::format("there is no file {}", protocol.light.probe),
                           remedy + "; \"overcast\" needs none");
     for (std::size_t i = 0; i < protocol.sculptures.size(); ++i) {
-        const std::filesystem::path& mesh = protocol.sculptures[i].mesh;
-        if (!mesh.empty() && !is_file(mesh)) {
-            examination.error({fmt::format("sculpture[{}].mesh", i)},
-                              fmt::format("there is no file {}", mesh.string()), remedy);
+        const SculptureSettings& sculpture = protocol.sculptures[i];
+        for (const auto& [key, file] :
+             {std::pair{"mesh", &sculpture.mesh}, std::pair{"labels", &sculpture.labels}}) {
+            if (!file->empty() && !is_file(*file))
+                examination.error({fmt::format("sculpture[{}].{}", i, key)},
+                                  fmt::format("there is no file {}", file->string()), remedy);
         }
         const std::string lut = fmt::format("sculpture[{}].lut", i);
         if (!protocol.sculptures[i].lut.empty() && !examination.faulty.contains(lut)) {

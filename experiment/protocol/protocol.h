@@ -161,6 +161,9 @@ struct SculptureSettings {
     std::filesystem::path mesh; ///< PLY, OBJ or STL, or empty; resolved against the protocol's folder
     std::string up = "z";       ///< axis of the file that points up: x, y, z, -x, -y, -z
     double scale = 1.0;
+    std::string unit = "own"; ///< of the file: own, or mm, cm, m, in, which all become millimetres
+    std::filesystem::path
+        labels; ///< a label for each triangle or vertex of the mesh, or empty; resolved likewise
     /// Coordinate-encoded maps made by another program, or empty: path with # for the digits of the frame
     /// number, resolved against the protocol's folder.
     std::string lut;
@@ -179,16 +182,17 @@ struct MaterialSettings {
     std::string id;
     std::string title;
     MaterialKind kind = MaterialKind::smooth_conductor;
-    std::string metal = "Au"; ///< "Au", "Ag", or a file (metal_table.h), resolved against the protocol's folder
-    double roughness = 0.13;  ///< GGX alpha of rough_conductor
+    std::string metal =
+        "Au"; ///< "Au", "Ag", or a file (metal_table.h), resolved against the protocol's folder
+    double roughness = 0.13; ///< GGX alpha of rough_conductor
     double coat_ior = 1.4;
     std::array<double, 3> coat_absorbance{0.0, 0.10,
                                           0.75}; ///< red, green, blue, for one pass of the nominal thickness
     // The coat's shape, as shares of half the object's height.
-    double coat_thickness = 0.01;  ///< in the mean
-    double coat_bump = 0.015;      ///< height of its bumps
-    double coat_bump_width = 0.05; ///< from one bump to the next
-    int coat_seed = 0;             ///< of the bumps
+    double coat_thickness = 0.01;                     ///< in the mean
+    double coat_bump = 0.015;                         ///< height of its bumps
+    double coat_bump_width = 0.05;                    ///< from one bump to the next
+    int coat_seed = 0;                                ///< of the bumps
     std::array<double, 3> reflectance{0.5, 0.5, 0.5}; ///< of diffuse
 };
 
@@ -256,10 +260,10 @@ struct Protocol {
     std::vector<MaterialSettings> materials;
     std::vector<FrameSequenceSettings> frames;
 
-    std::filesystem::path file; ///< where it was read
-    std::string text;           ///< the file, byte for byte
+    std::filesystem::path file;         ///< where it was read
+    std::string text;                   ///< the file, byte for byte
     std::vector<IncludedText> included; ///< the files that it includes
-    KeyPlaces places;           ///< where each key stands in it, for findings that come later
+    KeyPlaces places;                   ///< where each key stands in it, for findings that come later
 };
 
 /// The screen and the stimulus's place on it, as the protocol has them.

@@ -226,6 +226,8 @@ void complete(Protocol& protocol) {
             sculpture.title = sculpture.id;
         if (!sculpture.mesh.empty())
             sculpture.mesh = folder / sculpture.mesh;
+        if (!sculpture.labels.empty())
+            sculpture.labels = folder / sculpture.labels;
         if (!sculpture.lut.empty())
             sculpture.lut = (folder / sculpture.lut).string();
     }

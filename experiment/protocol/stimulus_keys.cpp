@@ -4,6 +4,7 @@ namespace overt::key_rows {
 
 namespace {
 
+constexpr std::string_view units[] = {"own", "mm", "cm", "m", "in"};
 constexpr std::string_view axes[] = {"x", "y", "z", "-x", "-y", "-z"};
 
 Section<SculptureSettings> head() {
@@ -202,6 +203,17 @@ Section<SculptureSettings> sculpture() {
                   .high = 1e9,
                   .explanation = "Factor on the coordinates of the mesh file."},
                  &S::scale},
+                {{.name = "unit",
+                  .choices = units,
+                  .explanation = "Unit of the mesh file. Surface points are recorded in millimetres then; "
+                                 "with \"own\" in whatever unit the file has."},
+                 &S::unit},
+                {{.name = "labels",
+                  .if_left_out = "the labels of the mesh file, if it has any",
+                  .explanation = "A text file with a whole number for each triangle of the mesh, or for each "
+                                 "vertex: which part it belongs to. Lines `# part 1 head` name parts. Not "
+                                 "beside `head`."},
+                 &S::labels},
                 {{.name = "lut",
                   .if_left_out = "maps are made from the mesh",
                   .explanation = "Instead of a mesh, for a sculpture whose `[[frames]]` another program "

@@ -12,6 +12,7 @@
 #include "experiment/scene/obj_reader.h"
 #include "experiment/scene/ply_reader.h"
 #include "experiment/scene/stl_reader.h"
+#include "experiment/scene/triangle_labels.h"
 
 namespace overt {
 namespace {
@@ -103,6 +104,8 @@ glm::dmat3 z_up_from_file(UpAxis up) {
 
 Mesh import_mesh(const std::filesystem::path& path, const MeshImport& import, MeshCleaningReport& report) {
     RawMesh raw = read_mesh_file(path);
+    if (!import.labels.empty())
+        label_by_file(raw, import.labels);
     try {
         if (!import.regions.empty())
             raw.triangle_labels = {};

@@ -7,6 +7,7 @@
 
 #include "experiment/scene/ply_header.h"
 #include "experiment/scene/ply_values.h"
+#include "experiment/scene/triangle_labels.h"
 
 namespace overt {
 namespace {
@@ -134,17 +135,6 @@ template <class Values> void skip_element(Values& values, const PlyElement& elem
         for (const PlyProperty& property : element.properties)
             skip_property(values, property);
         values.end_row();
-    }
-}
-
-PartLabel middle_of(PartLabel a, PartLabel b, PartLabel c) {
-    return std::max(std::min(a, b), std::min(std::max(a, b), c));
-}
-
-void label_by_corners(RawMesh& mesh, const std::vector<PartLabel>& labels) {
-    mesh.triangle_labels.reserve(mesh.triangles.size());
-    for (const glm::uvec3& triangle : mesh.triangles) {
-        mesh.triangle_labels.push_back(middle_of(labels[triangle.x], labels[triangle.y], labels[triangle.z]));
     }
 }
 

@@ -9,6 +9,7 @@
 #include "experiment/mesh_fixtures.h"
 #include "experiment/scene/mesh_reader.h"
 #include "experiment/scene/ply_writer.h"
+#include "support/temporary_folder.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -203,4 +204,43 @@ TEST_CASE("a PLY that cannot be written leaves nothing behind, and what was ther
                Catch::Contains("m.ply") && Catch::Contains("line end"));
     CHECK(std::filesystem::file_size(folder.path() / "m.ply") == 8);
     CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 2);
+}
+
+TEST_CASE("an id map labels triangles, or vertices, and names the parts", "[unit]") {
+    const TemporaryFolder folder;
+    const auto mesh = folder.file("mesh.ply", labelled_ply("int", "", "", {}, {}));
+    MeshImport import;
+    MeshCleaningReport report;
+    const auto with_labels = [&](std::string_view text) {
+        import.labels = folder.file("labels.txt", text);
+        return import_mesh(mesh, import, report);
+    };
+    const Mesh by_triangle = with_labels("# part 7 head\n# part 3 body\n3 # the first\r\n7\n");
+    CHECK(by_triangle.part_names == std::vector<std::string>{"body", "head"});
+    CHECK(by_triangle.triangle_parts == std::vector<PartIndex>{0, 1});
+    // Corners 0 1 2 and 0 2 3: two of three decide.
+    const Mesh by_vertex = with_labels("-1 -1\n5 5");
+    CHECK(by_vertex.part_names == std::vector<std::string>{"part -1", "part 5"});
+    CHECK(by_vertex.triangle_parts == std::vector<PartIndex>{0, 1});
+}
+
+TEST_CASE("an id map that does not fit its mesh is refused with the place and both counts", "[unit]") {
+    const TemporaryFolder folder;
+    const auto mesh = folder.file("mesh.ply", labelled_ply("int", "", "", {}, {}));
+    MeshImport import;
+    MeshCleaningReport report;
+    const auto refusal = [&](std::string_view text) {
+        import.labels = folder.file("labels.txt", text);
+        try {
+            import_mesh(mesh, import, report);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK_THAT(refusal("1\n2\n3\n"), Catch::Contains("holds 3 labels") && Catch::Contains("2 triangles") &&
+                                         Catch::Contains("4 vertices"));
+    CHECK_THAT(refusal("1\n  head\n"), Catch::Contains("labels.txt:2:3: 'head' is no label"));
+    CHECK_THAT(refusal("1\n4294967296\n"), Catch::Contains("labels.txt:2:1"));
+    CHECK_THAT(refusal("1 2.5"), Catch::Contains("labels.txt:1:3"));
 }
