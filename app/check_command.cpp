@@ -6,6 +6,7 @@
 #include "app/bake_outlook.h"
 #include "app/cache_folder.h"
 #include "app/commands.h"
+#include "app/frame_cost.h"
 #include "app/frame_light.h"
 #include "app/protocol_file.h"
 #include "app/protocol_inputs.h"
@@ -31,12 +32,19 @@ SurfaceFacts surface_of(const Sculpture& sculpture) {
 struct StimulusFacts {
     std::vector<SequenceSilhouette> silhouettes;
     BakeOutlook rendering;
+    std::vector<OutlookLine> on_this_machine;
+    FrameCost cost;
 };
 
 StimulusFacts look_at_stimuli(const Experiment& experiment, Diagnostics& diagnostics) {
     const auto context = make_headless_context(std::nullopt);
     StimulusLibrary library(*context, experiment.protocol, experiment.sculptures, cache_folder());
-    return {check_silhouettes(experiment, library, diagnostics), bake_outlook(experiment, library)};
+    StimulusFacts facts{check_silhouettes(experiment, library, diagnostics),
+                        bake_outlook(experiment, library), session_outlook(experiment.protocol),
+                        measure_frame_cost(*context, experiment.protocol, experiment.sculptures)};
+    for (OutlookLine& line : outlook_of(facts.cost, experiment.protocol, context->description()))
+        facts.on_this_machine.push_back(std::move(line));
+    return facts;
 }
 
 DesignReport report_on(const Experiment& experiment, const CheckOptions& options) {
@@ -48,7 +56,8 @@ DesignReport report_on(const Experiment& experiment, const CheckOptions& options
     }
     DesignAssumptions assumptions;
     assumptions.answer_s = options.answer_time_s;
-    DesignReport report = make_design_report(experiment.protocol, observers, options.seed.value_or(1), assumptions, options.seed.has_value());
+    DesignReport report = make_design_report(experiment.protocol, observers, options.seed.value_or(1),
+                                             assumptions, options.seed.has_value());
     for (const Sculpture& sculpture : experiment.sculptures) {
         if (sculpture.has_mesh())
             report.surfaces.push_back(surface_of(sculpture));
@@ -67,22 +76,21 @@ int run_check(const CheckOptions& options) {
     std::string text;
     if (options.json) {
         nlohmann::ordered_json json = diagnostics.to_json();
-        if (experiment)
-            json["design"] = to_json(report_on(*experiment, options));
         if (experiment) {
+            json["design"] = to_json(report_on(*experiment, options));
             json["rendering"] = to_json(stimuli->rendering);
             json["silhouettes"] = to_json(stimuli->silhouettes);
+            json["on_this_machine"] = to_json(stimuli->on_this_machine);
+            json["frame_cost"] = to_json(stimuli->cost);
+            if (options.frames)
+                json["light"] = to_json(measure_light(*experiment));
         }
-        if (experiment)
-            json["on_this_machine"] = to_json(session_outlook(experiment->protocol));
-        if (experiment && options.frames)
-            json["light"] = to_json(measure_light(*experiment));
         text = json.dump(2) + "\n";
     } else {
         print_findings(diagnostics);
         if (experiment)
             text = to_text(report_on(*experiment, options)) + to_text(stimuli->silhouettes) +
-                   to_text(stimuli->rendering) + to_text(session_outlook(experiment->protocol));
+                   to_text(stimuli->rendering) + to_text(stimuli->on_this_machine);
         if (experiment && options.frames)
             text += to_text(measure_light(*experiment));
     }

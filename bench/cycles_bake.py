@@ -13,7 +13,9 @@ import sys
 import tempfile
 
 import bpy
-import mathutils
+
+sys.path.append(os.path.dirname(os.path.abspath(__file__)))
+from cycles_scene import aim_camera, arguments_of, figure_from, nodes_of, read_frame, render_plainly, set_material, turn
 
 parser = argparse.ArgumentParser()
 parser.add_argument("--mesh", required=True)
@@ -24,84 +26,50 @@ parser.add_argument("--roughness", type=float, default=0.0)
 parser.add_argument("--samples", type=int, default=256)
 parser.add_argument("--crease-deg", type=float, default=50.0)
 parser.add_argument("--ours", required=True)
-arguments = parser.parse_args(sys.argv[sys.argv.index("--") + 1:])
-frame = json.load(open(arguments.sidecar))
-low, high = frame["bounds"]["min"], frame["bounds"]["max"]
+arguments = arguments_of(parser)
+frame = read_frame(arguments.sidecar)
+width, height = frame["size_px"]
 
-bpy.ops.wm.read_factory_settings(use_empty=True)
-bpy.ops.preferences.addon_enable(module="io_mesh_ply")
-bpy.ops.import_mesh.ply(filepath=arguments.mesh)
-figure = bpy.context.selected_objects[0]
-rows = {"z": ((1, 0, 0), (0, 1, 0), (0, 0, 1)), "y": ((1, 0, 0), (0, 0, -1), (0, 1, 0))}[arguments.up]
-figure.data.transform(mathutils.Matrix(rows).to_4x4())
+figure = figure_from(arguments.mesh, arguments.up)
 for polygon in figure.data.polygons:
     polygon.use_smooth = True
 figure.data.use_auto_smooth = True
 figure.data.auto_smooth_angle = math.radians(arguments.crease_deg)
-axis = mathutils.Matrix.Translation([(a + b) / 2 for a, b in zip(low, high)])
-figure.matrix_world = axis @ mathutils.Matrix.Rotation(math.radians(frame["angle_deg"]), 4, "Z") @ axis.inverted()
+turn(figure, frame, frame["angle_deg"])
 
 material = bpy.data.materials.new("white metal")
-material.use_nodes = True
-nodes, links = material.node_tree.nodes, material.node_tree.links
-nodes.clear()
+nodes, links = nodes_of(material)
 metal = nodes.new("ShaderNodeBsdfGlossy")
 metal.distribution = "GGX" if arguments.roughness > 0 else "SHARP"
 metal.inputs["Color"].default_value = (1, 1, 1, 1)
 metal.inputs["Roughness"].default_value = math.sqrt(arguments.roughness)  # Cycles squares it
 links.new(metal.outputs[0], nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
-figure.data.materials.clear()
-figure.data.materials.append(material)
+set_material(figure, material)
 
-scene = bpy.context.scene
 world = bpy.data.worlds.new("light")
-scene.world = world
-world.use_nodes = True
-nodes, links = world.node_tree.nodes, world.node_tree.links
-nodes.clear()
+bpy.context.scene.world = world
+nodes, links = nodes_of(world)
 probe = nodes.new("ShaderNodeTexEnvironment")
 probe.image = bpy.data.images.load(arguments.probe)
 probe.image.colorspace_settings.name = "Linear"
-turn = nodes.new("ShaderNodeMapping")
-turn.inputs["Rotation"].default_value = (0, 0, math.radians(-90))
+mapping = nodes.new("ShaderNodeMapping")
+mapping.inputs["Rotation"].default_value = (0, 0, math.radians(-90))
 background = nodes.new("ShaderNodeBackground")
-links.new(nodes.new("ShaderNodeTexCoord").outputs["Generated"], turn.inputs["Vector"])
-links.new(turn.outputs[0], probe.inputs["Vector"])
+links.new(nodes.new("ShaderNodeTexCoord").outputs["Generated"], mapping.inputs["Vector"])
+links.new(mapping.outputs[0], probe.inputs["Vector"])
 links.new(probe.outputs["Color"], background.inputs["Color"])
 links.new(background.outputs[0], nodes.new("ShaderNodeOutputWorld").inputs["Surface"])
 
-camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-scene.collection.objects.link(camera)
-scene.camera = camera
-at, target = mathutils.Vector(frame["camera"]["position"]), mathutils.Vector(frame["camera"]["target"])
-camera.location = at
-camera.rotation_mode = "QUATERNION"
-camera.rotation_quaternion = (target - at).to_track_quat("-Z", "Y")
-camera.data.sensor_fit = "VERTICAL"
-camera.data.angle_y = math.radians(frame["camera"]["vertical_fov_deg"])
-camera.data.clip_start = 1e-3 * (target - at).length
-camera.data.clip_end = 1e3 * (target - at).length
-
-scene.render.engine = "CYCLES"
+aim_camera(frame)
+scene = render_plainly(frame, arguments.samples)
 cycles = scene.cycles
-cycles.device = "CPU"
-cycles.samples = arguments.samples
-cycles.use_adaptive_sampling = False
-cycles.use_denoising = False
 cycles.pixel_filter_type = "BOX"
 cycles.filter_width = 1.0
 cycles.max_bounces = cycles.glossy_bounces = 64
 cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
 cycles.blur_glossy = 0.0
 cycles.caustics_reflective = True
-scene.render.film_transparent = True
-scene.render.use_compositing = scene.render.use_sequencer = False
-scene.view_settings.view_transform = "Raw"
-width, height = frame["size_px"]
-scene.render.resolution_x, scene.render.resolution_y = width, height
-scene.render.resolution_percentage = 100
 scene.render.image_settings.file_format = "OPEN_EXR"
-scene.render.image_settings.color_mode = "RGBA"
 scene.render.image_settings.color_depth = "32"
 scene.render.filepath = os.path.join(tempfile.mkdtemp(), "cycles.exr")
 bpy.ops.render.render(write_still=True)
