@@ -16,34 +16,20 @@ constexpr TrialFactor factors[] = {TrialFactor::task, TrialFactor::sculpture, Tr
                                    TrialFactor::stimulus};
 constexpr OrderLimit::Kind kinds[] = {OrderLimit::Kind::longest_run, OrderLimit::Kind::least_distance};
 
-std::optional<int> own_limit(const BlockSettings& block, TrialFactor factor, OrderLimit::Kind kind) {
+/// A block's own limit, nothing if it has none, or the common one of the schedule.
+auto limit_in(const auto& settings, TrialFactor factor, OrderLimit::Kind kind) {
     const bool is_run = kind == OrderLimit::Kind::longest_run;
     switch (factor) {
     case TrialFactor::task:
-        return is_run ? block.max_task_run : block.min_task_distance;
+        return is_run ? settings.max_task_run : settings.min_task_distance;
     case TrialFactor::sculpture:
-        return is_run ? block.max_sculpture_run : block.min_sculpture_distance;
+        return is_run ? settings.max_sculpture_run : settings.min_sculpture_distance;
     case TrialFactor::material:
-        return is_run ? block.max_material_run : block.min_material_distance;
+        return is_run ? settings.max_material_run : settings.min_material_distance;
     case TrialFactor::stimulus:
         break;
     }
-    return is_run ? block.max_stimulus_run : block.min_stimulus_distance;
-}
-
-int common_limit(const ScheduleSettings& schedule, TrialFactor factor, OrderLimit::Kind kind) {
-    const bool is_run = kind == OrderLimit::Kind::longest_run;
-    switch (factor) {
-    case TrialFactor::task:
-        return is_run ? schedule.max_task_run : schedule.min_task_distance;
-    case TrialFactor::sculpture:
-        return is_run ? schedule.max_sculpture_run : schedule.min_sculpture_distance;
-    case TrialFactor::material:
-        return is_run ? schedule.max_material_run : schedule.min_material_distance;
-    case TrialFactor::stimulus:
-        break;
-    }
-    return is_run ? schedule.max_stimulus_run : schedule.min_stimulus_distance;
+    return is_run ? settings.max_stimulus_run : settings.min_stimulus_distance;
 }
 
 /// Puts the items of one repetition of a block into parts, by the block's method.
@@ -194,13 +180,13 @@ LimitSetting limit_in(const Protocol& protocol, int block, TrialFactor factor, O
     const std::string name = kind == OrderLimit::Kind::longest_run
                                  ? fmt::format("max_{}_run", name_of(factor))
                                  : fmt::format("min_{}_distance", name_of(factor));
-    if (const std::optional<int> own = own_limit(settings, factor, kind))
+    if (const std::optional<int> own = limit_in(settings, factor, kind))
         return {*own, fmt::format("block[{}].{}", block, name)};
     const bool is_given =
         settings.order == OrderMethod::sequential ||
         (settings.order == OrderMethod::blocked &&
          (factor == settings.by || (settings.by == TrialFactor::stimulus && factor != TrialFactor::task)));
-    return {is_given ? 0 : common_limit(protocol.schedule, factor, kind), "schedule." + name};
+    return {is_given ? 0 : limit_in(protocol.schedule, factor, kind), "schedule." + name};
 }
 
 std::vector<OrderChain> order_chains(const Protocol& protocol, int observer_number, std::uint64_t seed) {
