@@ -20,7 +20,7 @@ using ChosenCommand = std::function<int()>;
 /// Each adds its commands to `app`; the one on the line puts itself into `chosen`, which must outlive
 /// parsing.
 void add_session_commands(CLI::App& app, ChosenCommand& chosen);  // check, run, new, schema
-void add_record_commands(CLI::App& app, ChosenCommand& chosen);   // export, show
+void add_record_commands(CLI::App& app, ChosenCommand& chosen);   // export, import, show
 void add_stimulus_commands(CLI::App& app, ChosenCommand& chosen); // play, bake, lut, reconstruct
 void add_display_commands(CLI::App& app, ChosenCommand& chosen);  // display …
 void add_machine_commands(CLI::App& app, ChosenCommand& chosen);  // doctor, bench

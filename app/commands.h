@@ -99,12 +99,27 @@ int run_bake(const BakeOptions& options);
 
 struct ExportOptions {
     std::vector<std::filesystem::path> sessions;
-    std::string format = "tsv";
+    std::string format = "tsv"; ///< or csv, asc, bids
     std::filesystem::path out;
     bool overwrite = false;
     std::optional<double> cone_deg; ///< add the probabilities of a gaze cone of this accuracy
 };
 int run_export(const ExportOptions& options);
+
+struct ImportOptions {
+    std::filesystem::path file;
+    std::filesystem::path into; ///< a session whose gaze it becomes; empty: a session of its own
+    std::filesystem::path out;
+    std::filesystem::path sessions = "sessions";
+    std::string observer; ///< empty: letters and digits of the file's name
+    std::optional<int> session_number;
+    std::string task = "imported";
+    std::vector<double> screen_mm; ///< width and height, or empty
+    std::optional<double> distance_mm;
+    std::filesystem::path print_session_to;
+    bool json = false;
+};
+int run_import(const ImportOptions& options);
 
 struct ShowOptions {
     std::filesystem::path session;

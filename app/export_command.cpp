@@ -3,40 +3,69 @@
 #include "app/commands.h"
 #include "app/progress_bar.h"
 #include "app/recorded_surface.h"
+#include "experiment/record/asc_export.h"
 #include "experiment/record/table_export.h"
 
 namespace overt {
 
+namespace {
+
+/// Where one of the sessions goes.
+std::filesystem::path folder_of(const ExportOptions& options, const SessionRecord& record) {
+    if (options.out.empty())
+        return record.directory() / ("export_" + options.format);
+    return options.sessions.size() > 1 ? options.out / record.directory().filename() : options.out;
+}
+
+std::function<void(int, int)> progress_on(ProgressBar& bar, const SessionRecord& record) {
+    return [&bar, title = "exporting " + record.directory().filename().string()](int done, int all) {
+        bar.update(title, done, all);
+    };
+}
+
+void export_as_tables(const ExportOptions& options, const SessionRecord& record) {
+    RecordedSurfaces surfaces(record);
+    ProgressBar bar;
+    TableExportOptions tables;
+    tables.format = options.format == "csv" ? TableFormat::csv : TableFormat::tsv;
+    tables.overwrite = options.overwrite;
+    if (options.cone_deg)
+        tables.cone_accuracy = Degrees{*options.cone_deg};
+    tables.progress = progress_on(bar, record);
+    const std::filesystem::path out = folder_of(options, record);
+    const TableExportCounts counts = export_tables(
+        record, [&](int sculpture) { return surfaces.lookup_of(sculpture); }, out, tables);
+    bar.finish();
+    const auto share = [&](std::int64_t part) {
+        return counts.samples > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(counts.samples)
+                                  : 0.0;
+    };
+    fmt::print("{} trials, {} refreshes, {} samples: {:.1f} % on the sculpture, {:.1f} % without gaze, "
+               "{} that the planned times would have put on another frame\nexport: {}\n",
+               counts.trials, counts.flips, counts.samples, share(counts.samples_on_object),
+               share(counts.samples_without_gaze), counts.samples_off_plan, out.string());
+}
+
+void export_as_asc(const ExportOptions& options, const SessionRecord& record) {
+    ProgressBar bar;
+    const std::filesystem::path out = folder_of(options, record);
+    const AscExportCounts counts = export_asc(record, out, {options.overwrite, progress_on(bar, record)});
+    bar.finish();
+    if (counts.sittings_without_samples > 0)
+        fmt::print("{} sittings have no samples, and no file\n", counts.sittings_without_samples);
+    fmt::print("{} attempts at trials, {} samples, {} files\nexport: {}\n", counts.trials, counts.samples,
+               counts.files, out.string());
+}
+
+} // namespace
+
 int run_export(const ExportOptions& options) {
     for (const std::filesystem::path& session : options.sessions) {
         const SessionRecord record(session);
-        std::filesystem::path out =
-            options.out.empty() ? record.directory() / ("export_" + options.format) : options.out;
-        if (!options.out.empty() && options.sessions.size() > 1)
-            out /= record.directory().filename();
-        RecordedSurfaces surfaces(record);
-        ProgressBar bar;
-        TableExportOptions tables;
-        tables.format = options.format == "csv" ? TableFormat::csv : TableFormat::tsv;
-        tables.overwrite = options.overwrite;
-        if (options.cone_deg)
-            tables.cone_accuracy = Degrees{*options.cone_deg};
-        tables.progress = [&](int done, int all) {
-            bar.update("exporting " + record.directory().filename().string(), done, all);
-        };
-        const TableExportCounts counts = export_tables(
-            record, [&](int sculpture) { return surfaces.lookup_of(sculpture); }, out, tables);
-        bar.finish();
-        const auto share = [&](std::int64_t part) {
-            return counts.samples > 0
-                       ? 100.0 * static_cast<double>(part) / static_cast<double>(counts.samples)
-                       : 0.0;
-        };
-        fmt::print("{} trials, {} refreshes, {} samples: {:.1f} % on the sculpture, {:.1f} % without gaze, "
-                   "{} that the planned times "
-                   "would have put on another frame\nexport: {}\n",
-                   counts.trials, counts.flips, counts.samples, share(counts.samples_on_object),
-                   share(counts.samples_without_gaze), counts.samples_off_plan, out.string());
+        if (options.format == "asc")
+            export_as_asc(options, record);
+        else
+            export_as_tables(options, record);
     }
     return 0;
 }

@@ -93,4 +93,17 @@ MappedTime ClockMap::to_session(TrackerTime time) const {
             SessionDuration(std::llround(std::ceil(uncertainty_ns)))};
 }
 
+TrackerTime ClockMap::to_tracker(SessionTime time) const {
+    using Microseconds = TrackerClock::duration;
+    // The clocks' rates differ by little, so each step leaves that little of the error before.
+    TrackerTime found = reference_tracker_ + std::chrono::floor<Microseconds>(time - reference_session_);
+    for (int step = 0; step < 8; ++step) {
+        const Microseconds error = std::chrono::floor<Microseconds>(time - to_session(found).time);
+        if (error == Microseconds(0))
+            break;
+        found += error;
+    }
+    return found;
+}
+
 } // namespace overt

@@ -36,6 +36,10 @@ class ClockMap {
 
     MappedTime to_session(TrackerTime time) const;
 
+    /// The tracker's time of a session time, to the microsecond below: to_session(to_tracker(t)) is not later
+    /// than t, and less than two microseconds earlier.
+    TrackerTime to_tracker(SessionTime time) const;
+
     /// By how much a second of the session clock exceeds a second of the tracker's, in millionths.
     double drift_ppm() const { return slope_ * 1e6; }
 

@@ -112,6 +112,7 @@ void create_session_file(const std::filesystem::path& file, const SessionHeader&
         database.exec(box_tables_sql);
         database.exec(observer_tables_sql);
         database.exec(ledger_tables_sql);
+        database.exec(gaze_tables_sql);
         insert_session(database, header);
         if (header.characterisation)
             insert_characterisation(database, *header.characterisation);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiment/error.h"
+#include "experiment/record/gaze_rows.h"
 #include "experiment/record/header_rows.h"
 #include "experiment/record/session_file.h"
 #include "experiment/record/session_schema.h"
@@ -227,6 +228,55 @@ void SessionRecord::read_samples(const TrialRecord& trial, std::size_t most,
     });
 }
 
+std::optional<std::pair<TrackerTime, TrackerTime>>
+SessionRecord::sample_span(const TrialRecord& trial) const {
+    return reading(file_, [&]() -> std::optional<std::pair<TrackerTime, TrackerTime>> {
+        Query row(*database_, "SELECT COUNT(*), COALESCE(MIN(tracker_us), 0), COALESCE(MAX(tracker_us), 0) "
+                              "FROM sample WHERE trial_id = ?");
+        row.bind(1, trial.id);
+        if (!row.step() || row.integer() == 0)
+            return std::nullopt;
+        const TrackerTime first{TrackerClock::duration(row.integer())};
+        return std::pair{first, TrackerTime(TrackerClock::duration(row.integer()))};
+    });
+}
+
+void SessionRecord::read_gaze_events(const TrialRecord& trial,
+                                     const std::function<void(const GazeEvent&)>& take) const {
+    reading(file_, [&] {
+        if (has_table(*database_, "gaze_event"))
+            overt::read_gaze_events(*database_, trial.id, take);
+    });
+}
+
+void SessionRecord::read_gaze_events_outside(const std::function<void(const GazeEvent&)>& take) const {
+    reading(file_, [&] {
+        if (has_table(*database_, "gaze_event"))
+            overt::read_gaze_events(*database_, 0, take);
+    });
+}
+
+std::optional<GazeSource> SessionRecord::gaze_source(int sitting) const {
+    return reading(file_, [&] {
+        return has_table(*database_, "gaze_source") ? read_gaze_source(*database_, sitting) : std::nullopt;
+    });
+}
+
+SessionRecord::Eyes SessionRecord::eyes(int sitting) const {
+    return reading(file_, [&] {
+        Query row(
+            *database_,
+            "SELECT COALESCE(MAX(eye = 0), 0), COALESCE(MAX(eye <> 0), 0) FROM sample WHERE trial_id IN "
+            "(SELECT trial_id FROM trial WHERE sitting = ?)");
+        row.bind(1, sitting);
+        row.step();
+        Eyes eyes;
+        eyes.left = row.integer() != 0;
+        eyes.right = row.integer() != 0;
+        return eyes;
+    });
+}
+
 std::vector<RecordedEvent> SessionRecord::events() const {
     std::vector<RecordedEvent> events;
     read_events([&](const RecordedEvent& event) { events.push_back(event); });
@@ -332,7 +382,10 @@ std::optional<LedgerFit> SessionRecord::ledger_fit(const TrialRecord& trial) con
 FlipHistory SessionRecord::flip_history(const TrialRecord& trial) const {
     const RecordedDisplay& display = header_.display;
     const std::optional<LedgerFit> fit = ledger_fit(trial);
-    return FlipHistory(fit ? fit->flips() : std::vector<FlipRecord>(),
+    // Of an imported session not even the refresh rate may be known.
+    if (!fit)
+        return FlipHistory({}, {{}, 1.0, 1.0}, {});
+    return FlipHistory(fit->flips(),
                        {display.latency, display.refresh_hz, static_cast<double>(display.screen.screen_px.y)},
                        make_page_cycle(header_.animation, display.refresh_hz));
 }

@@ -14,6 +14,7 @@
 #include "experiment/analysis/flip_history.h"
 #include "experiment/clock_map.h"
 #include "experiment/ports.h"
+#include "experiment/record/gaze_event.h"
 #include "experiment/record/recorded_box.h"
 #include "experiment/record/session_header.h"
 #include "experiment/timing/ledger_fit.h"
@@ -80,6 +81,24 @@ class SessionRecord {
     /// The same in pieces of at most `most` samples, so that memory does not grow with the trial.
     void read_samples(const TrialRecord& trial, std::size_t most,
                       const std::function<void(std::span<const GazeSample>)>& take) const;
+
+    /// Times of the earliest and the latest sample of a trial; nothing if it has none.
+    std::optional<std::pair<TrackerTime, TrackerTime>> sample_span(const TrialRecord& trial) const;
+
+    /// What the tracker itself said during a trial; sessions whose gaze came from no tracker's file have
+    /// none.
+    void read_gaze_events(const TrialRecord& trial, const std::function<void(const GazeEvent&)>& take) const;
+    /// The same outside of trials.
+    void read_gaze_events_outside(const std::function<void(const GazeEvent&)>& take) const;
+    /// The file that a sitting's gaze came from; nothing if it came from the tracker itself.
+    std::optional<GazeSource> gaze_source(int sitting) const;
+    /// Which eyes the samples of a sitting are of. Reads them all.
+    struct Eyes {
+        bool left = false, right = false;
+        bool both() const { return left && right; }
+        bool none() const { return !left && !right; }
+    };
+    Eyes eyes(int sitting) const;
 
     std::vector<RecordedEvent> events() const;
     /// The same one by one, so that memory does not grow with the session.

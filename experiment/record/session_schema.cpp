@@ -122,4 +122,20 @@ CREATE TABLE IF NOT EXISTS missed_refresh (
 ) STRICT, WITHOUT ROWID;
 )sql";
 
+const char* const gaze_tables_sql = R"sql(
+CREATE TABLE IF NOT EXISTS gaze_event (
+    trial_id INTEGER NOT NULL, n INTEGER NOT NULL,
+    kind TEXT NOT NULL, eye INTEGER, start_us INTEGER NOT NULL, end_us INTEGER NOT NULL,
+    duration_us INTEGER NOT NULL, x_px REAL, y_px REAL, arrival_x_px REAL, arrival_y_px REAL, pupil REAL,
+    amplitude_deg REAL, peak_velocity_deg_s REAL, text TEXT NOT NULL,
+    PRIMARY KEY (trial_id, n)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS gaze_source (
+    sitting INTEGER PRIMARY KEY REFERENCES sitting, file TEXT NOT NULL, sha256 TEXT NOT NULL,
+    header TEXT NOT NULL, pupil TEXT NOT NULL CHECK (pupil IN ('area', 'diameter')), rate_hz REAL NOT NULL,
+    eyes TEXT NOT NULL CHECK (eyes IN ('left', 'right', 'both')),
+    px_per_deg_x REAL, px_per_deg_y REAL, skipped_lines INTEGER NOT NULL
+) STRICT;
+)sql";
+
 } // namespace overt

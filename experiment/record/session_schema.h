@@ -28,4 +28,7 @@ extern const char* const observer_tables_sql;
 /// The same for the ledger's table of missed refreshes.
 extern const char* const ledger_tables_sql;
 
+/// The same for the tables of what a tracker said besides samples.
+extern const char* const gaze_tables_sql;
+
 } // namespace overt

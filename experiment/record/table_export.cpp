@@ -6,10 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "experiment/error.h"
+#include "experiment/record/export_folder.h"
 #include "experiment/record/export_tables.h"
 #include "experiment/record/ledger_rows.h"
-#include "experiment/record/partial_directory.h"
 #include "experiment/record/sample_rows.h"
 
 namespace fs = std::filesystem;
@@ -170,32 +169,22 @@ void TableExport::close() {
     write_text_file(directory_ / dictionary_file, table_dictionary(tables_, format_));
 }
 
-/// An existing directory is replaced only if nobody can lose anything by it.
-void refuse_target(const SessionHeader& header, const fs::path& directory,
-                   const TableExportOptions& options) {
-    if (!fs::exists(directory) || (fs::is_directory(directory) && fs::is_empty(directory)))
-        return;
-    if (!options.overwrite || !fs::is_directory(directory))
-        throw InputError(fmt::format(
-            "{}: exists already. Name another folder, or allow it to be overwritten.", directory.string()));
-    std::vector<std::string> ours{dictionary_file};
+std::vector<std::string> file_names(const SessionHeader& header, TableFormat format) {
+    std::vector<std::string> names{dictionary_file};
     for (const Table* table : ExportTables(header).all())
-        ours.push_back(fmt::format("{}.{}", table->name, ending_of(options.format)));
-    for (const auto& entry : fs::directory_iterator(directory))
-        if (std::find(ours.begin(), ours.end(), entry.path().filename().string()) == ours.end())
-            throw InputError(
-                fmt::format("{}: holds «{}», which no export has written, so it is not overwritten. "
-                            "Name another folder.",
-                            directory.string(), entry.path().filename().string()));
+        names.push_back(fmt::format("{}.{}", table->name, ending_of(format)));
+    return names;
 }
 
 } // namespace
 
 TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lookup_for,
                                 const fs::path& directory, const TableExportOptions& options) {
-    refuse_target(record.header(), directory, options);
-    PartialDirectory partial(directory);
-    TableExport tables(record, partial.path(), options);
+    const std::vector<std::string> names = file_names(record.header(), options.format);
+    ExportFolder folder(directory, options.overwrite, [&](const std::string& name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    });
+    TableExport tables(record, folder.path(), options);
     const int all = static_cast<int>(record.trials().size());
     int done = 0;
     for (const TrialRecord& trial : record.trials()) {
@@ -209,12 +198,7 @@ TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lo
     tables.write_what_belongs_to_no_trial();
     tables.write_display_boxes();
     tables.close();
-    std::error_code error;
-    fs::remove_all(partial.final_path(), error);
-    if (error)
-        throw RecordError(fmt::format("{}: the earlier export cannot be removed: {}. Check the permissions.",
-                                      directory.string(), error.message()));
-    partial.publish();
+    folder.publish();
     return tables.counts();
 }
 

@@ -106,7 +106,8 @@ void sum_up(TimingReport& report) {
 TimingReport timing_report(const SessionRecord& record) {
     TimingReport report;
     const SessionHeader& header = record.header();
-    report.nominal_interval_ms = 1e3 / header.display.refresh_hz;
+    // Imported sessions have no flips, and may not know their display's rate.
+    report.nominal_interval_ms = header.display.refresh_hz > 0.0 ? 1e3 / header.display.refresh_hz : 0.0;
     report.is_virtual = header.clock == ClockKind::virtual_time;
     std::multimap<int, std::string> disturbances;
     for (const RecordedEvent& event : record.events()) {
@@ -114,7 +115,6 @@ TimingReport timing_report(const SessionRecord& record) {
         if (event.trial >= 0 && (event.kind == "machine slept" || event.kind == "wall clock was set"))
             disturbances.emplace(event.trial, event.kind + ": " + event.detail);
     }
-    const int planned = make_page_cycle(header.animation, header.display.refresh_hz).total_refreshes;
     for (const TrialRecord& trial : record.trials()) {
         const std::vector<FlipRecord> recorded = record.flips(trial);
         const std::optional<LedgerFit> fit = record.ledger_fit(trial);
@@ -124,7 +124,8 @@ TimingReport timing_report(const SessionRecord& record) {
         timing.trial = trial.trial;
         timing.attempt = trial.attempt;
         timing.status = trial.status;
-        timing.planned_refreshes = planned;
+        timing.planned_refreshes =
+            make_page_cycle(header.animation, header.display.refresh_hz).total_refreshes;
         take_ledger(timing, *fit, recorded);
         take_samples(timing, record, trial);
         for (auto [one, end] = disturbances.equal_range(trial.trial.index); one != end; ++one)

@@ -1,0 +1,95 @@
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/progress_bar.h"
+#include "app/session_recording.h"
+#include "build_info.h"
+#include "experiment/error.h"
+#include "experiment/record/asc_import.h"
+
+namespace overt {
+
+namespace {
+
+/// So many of the lines that were skipped are shown.
+constexpr int shown_lines = 20;
+
+std::string label_from(const std::filesystem::path& file) {
+    std::string label;
+    for (const char c : file.stem().string())
+        if (std::isalnum(static_cast<unsigned char>(c)))
+            label += c;
+    return label;
+}
+
+nlohmann::ordered_json to_json(const AscImportSummary& summary) {
+    const AscSurvey& survey = summary.survey;
+    return {{"session", summary.session.string()},
+            {"trials", summary.trials},
+            {"samples", survey.samples},
+            {"samples_without_gaze", survey.samples_without_gaze},
+            {"events", survey.events},
+            {"lines", survey.lines},
+            {"skipped_lines", survey.skipped_lines},
+            {"rate_hz", survey.rate_hz},
+            {"remarks", summary.remarks}};
+}
+
+void print(const AscImportSummary& summary) {
+    const AscSurvey& survey = summary.survey;
+    if (survey.skipped_lines > shown_lines)
+        fmt::print(stderr, "… and {} lines more\n", survey.skipped_lines - shown_lines);
+    for (const std::string& remark : summary.remarks)
+        fmt::print("{}\n", remark);
+    fmt::print(
+        "{} lines: {} samples at {:g} Hz, {} of them without gaze; {} events and messages; {} trials; {} "
+        "lines that could not be read and are left out\nsession: {}\n",
+        survey.lines, survey.samples, survey.rate_hz, survey.samples_without_gaze, survey.events,
+        summary.trials, survey.skipped_lines, summary.session.string());
+}
+
+} // namespace
+
+int run_import(const ImportOptions& options) {
+    ProgressBar bar;
+    int reported = 0;
+    AscImportOptions import;
+    import.place = {options.sessions, options.task,
+                    options.observer.empty() ? label_from(options.file) : options.observer};
+    import.session_number = options.session_number;
+    import.out = options.out;
+    if (options.screen_mm.size() == 2)
+        import.screen_mm = glm::dvec2(options.screen_mm[0], options.screen_mm[1]);
+    import.viewing_distance_mm = options.distance_mm;
+    import.program = {build::version, build::compiler, build::flags, build::commit};
+    import.now_utc = utc_now();
+    import.report = [&](const std::string& line) {
+        if (reported++ < shown_lines)
+            fmt::print(stderr, "{}\n", line);
+};
+import.progress = [&](std::int64_t done, std::int64_t all) { constexpr std::int64_t kilobyte = 1024;
+bar.update("importing " + options.file.filename().string(), static_cast<int>(done / kilobyte),
+           static_cast<int>(all / kilobyte));
+}; // namespace overt
+const AscImportSummary summary = options.into.empty() ? import_asc(options.file, import)
+                                                      : import_asc_into(options.file, options.into, import);
+bar.finish();
+if (!options.print_session_to.empty()) {
+    std::ofstream stream(options.print_session_to);
+    stream << summary.session.string() << '\n';
+    if (!stream.flush())
+        throw RecordError(fmt::format("{}: cannot be written", options.print_session_to.string()));
+}
+if (options.json)
+    fmt::print("{}\n", to_json(summary).dump(2));
+else
+    print(summary);
+return 0;
+}
+
+} // namespace overt

@@ -1,0 +1,395 @@
+#include "experiment/record/asc_parser.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "experiment/error.h"
+#include "experiment/record/asc_words.h"
+#include "experiment/record/utf8_text.h"
+
+namespace overt {
+namespace {
+
+using Kind = GazeEvent::Kind;
+
+/// Longer than any line that a tracker writes.
+constexpr std::size_t longest_line = 16384;
+
+/// Beyond these a coordinate is the tracker's sign for «missing» (-32768, 1e8) or nonsense.
+constexpr double largest_coordinate_px = 32000.0;
+constexpr double largest_pupil = 1e6;
+
+/// A place, nothing where it is missing, or an error.
+struct Place {
+    bool is_valid = false;
+    std::optional<ScreenPoint> point;
+};
+
+Place place_of(std::string_view x, std::string_view y) {
+    if (x == "." || y == ".")
+        return {(x == "." || number_of(x)) && (y == "." || number_of(y)), std::nullopt};
+    const std::optional<double> x_px = number_of(x), y_px = number_of(y);
+    if (!x_px || !y_px)
+        return {};
+    if (std::abs(*x_px) > largest_coordinate_px || std::abs(*y_px) > largest_coordinate_px)
+        return {true, std::nullopt};
+    return {true, ScreenPoint{*x_px, *y_px}};
+}
+
+TrackerTime at(std::int64_t us) { return TrackerTime(TrackerClock::duration(us)); }
+
+std::optional<Eye> eye_of(std::string_view word) {
+    if (word == "L")
+        return Eye::left;
+    return word == "R" ? std::optional(Eye::right) : std::nullopt;
+}
+
+std::size_t slot(Kind kind, Eye eye) {
+    return 2 * static_cast<std::size_t>(kind) + (eye == Eye::left ? 0u : 1u);
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+} // namespace
+
+std::optional<std::int64_t> asc_time_us(std::string_view text) {
+    constexpr std::int64_t latest_ms = 1'000'000'000'000; // 31 years
+    std::int64_t ms = 0;
+    const char* const last = text.data() + text.size();
+    auto [end, error] = std::from_chars(text.data(), last, ms);
+    if (error != std::errc() || ms < 0 || ms > latest_ms || text.front() == '-')
+        return std::nullopt;
+    if (end == last)
+        return 1000 * ms;
+    if (*end != '.')
+        return std::nullopt;
+    std::int64_t fraction_us = 0, weight = 100;
+    for (const char* digit = end + 1; digit != last; ++digit, weight /= 10) {
+        if (!is_digit(*digit))
+            return std::nullopt;
+        fraction_us += weight * (*digit - '0');
+    }
+    return 1000 * ms + fraction_us;
+}
+
+std::string AscParser::utf8(std::string_view text) {
+    if (is_utf8(text))
+        return std::string(text);
+    ++recoded_;
+    return utf8_of_latin1(text);
+}
+
+void AscParser::drop_open_events() {
+    unfinished_ += std::count(open_events_.begin(), open_events_.end(), true);
+    open_events_ = {};
+}
+
+void AscParser::line(std::string_view line) {
+    ++lines_;
+    if (!line.empty() && line.back() == '\r')
+        line.remove_suffix(1);
+    if (line.size() > longest_line)
+        return bad("longer than any line of a recording", line.substr(0, 80));
+    if (line.find_first_not_of(" \t") == std::string_view::npos)
+        return;
+    if (is_digit(line.front()))
+        return sample_line(line);
+    if (line.starts_with("**"))
+        return listener_.header(line);
+    if (line.starts_with(">>>"))
+        return note(line);
+    if (is_blank(line.front())) {
+        if (in_calibration_)
+            return note(line);
+        return bad("begins with a blank, and belongs to no calibration", line);
+    }
+    event_line(line);
+}
+
+void AscParser::note(std::string_view line) {
+    in_calibration_ = true;
+    GazeEvent event;
+    event.kind = Kind::note;
+    event.start = event.end = last_time_;
+    event.text = utf8(line);
+    listener_.event(event);
+}
+
+std::optional<TrackerTime> AscParser::sample_time(std::string_view stamp) {
+    const std::optional<std::int64_t> us = asc_time_us(stamp);
+    if (!us)
+        return std::nullopt;
+    const TrackerTime time = at(*us);
+    if (time != last_stamp_) {
+        last_stamp_ = time;
+        repeats_ = 0;
+        return time;
+    }
+    // A rate that is not known is the only one at which whole milliseconds are repeated.
+    const double rate_hz = format_.rate_hz > 0.0 ? format_.rate_hz : 2000.0;
+    ++repeats_;
+    const auto later = TrackerClock::duration(static_cast<std::int64_t>(1e6 / rate_hz) * repeats_);
+    return later < std::chrono::milliseconds(1) ? std::optional(time + later) : std::nullopt;
+}
+
+void AscParser::sample_line(std::string_view line) {
+    in_calibration_ = false;
+    Words words(line);
+    const std::string_view stamp = words.next();
+    const std::optional<TrackerTime> time = sample_time(stamp);
+    if (!time)
+        return bad(asc_time_us(stamp) ? "a sample at this time was there already" : "no time stamp", line);
+    if (last_sample_ && *time <= *last_sample_)
+        return bad("earlier than the sample before it", line);
+
+    const int eyes = format_.has_left && format_.has_right ? 2 : 1;
+    std::array<GazeSample, 2> samples;
+    for (int i = 0; i < eyes; ++i) {
+        GazeSample& sample = samples[static_cast<std::size_t>(i)];
+        sample.sampled_at = *time;
+        sample.eye = eyes == 2          ? (i == 0 ? Eye::left : Eye::right)
+                     : format_.has_left ? Eye::left
+                                        : Eye::right;
+        const std::string_view x = words.next(), y = words.next(), pupil_word = words.next();
+        const Place place = place_of(x, y);
+        const std::optional<double> pupil = pupil_word == "." ? 0.0 : number_of(pupil_word);
+        if (!place.is_valid || !pupil || std::abs(*pupil) > largest_pupil)
+            return bad(pupil_word.empty() ? "a sample without all its values" : "a value that is no number",
+                       line);
+        sample.gaze = place.point;
+        sample.pupil_area = place.point ? static_cast<float>(std::max(*pupil, 0.0)) : 0.0f;
+    }
+    last_sample_ = last_time_ = *time;
+    if (!format_.is_gaze) {
+        ++no_gaze_;
+        return;
+    }
+    listener_.samples(std::span(samples).first(static_cast<std::size_t>(eyes)));
+}
+
+void AscParser::event_line(std::string_view line) {
+    Words words(line);
+    const std::string_view word = words.next();
+    if (word == "MSG")
+        return message_line(line);
+    in_calibration_ = false;
+    if (word == "SFIX" || word == "SSACC" || word == "SBLINK")
+        return eye_event_begin(line, word == "SFIX"    ? Kind::fixation
+                                     : word == "SSACC" ? Kind::saccade
+                                                       : Kind::blink);
+    if (word == "EFIX" || word == "ESACC" || word == "EBLINK")
+        return eye_event_end(line, word == "EFIX"    ? Kind::fixation
+                                   : word == "ESACC" ? Kind::saccade
+                                                     : Kind::blink);
+    if (word == "START" || word == "END")
+        return recording_line(line, word == "START");
+    if (word == "BUTTON" || word == "INPUT")
+        return port_line(line, word == "BUTTON" ? Kind::button : Kind::input);
+    if (word == "SAMPLES")
+        return samples_layout(line);
+    if (word == "PUPIL") {
+        format_.pupil_is_diameter = words.next() == "DIAMETER";
+        return;
+    }
+    // EVENTS says what SAMPLES says; the prescalers are those of files of another kind.
+    if (word == "EVENTS" || word == "PRESCALER" || word == "VPRESCALER" || word == "FIXUPDATE")
+        return;
+    bad("begins with no known word", line);
+}
+
+void AscParser::message_line(std::string_view line) {
+    Words words(line);
+    words.next();
+    const std::optional<std::int64_t> us = asc_time_us(words.next());
+    if (!us)
+        return bad("a message without a time", line);
+    GazeEvent event;
+    event.start = event.end = last_time_ = at(*us);
+    event.text = utf8(words.rest());
+    in_calibration_ = event.text.starts_with("!CAL");
+    if (event.text.starts_with("RECCFG")) {
+        Words setup(event.text);
+        setup.next(), setup.next();
+        const std::optional<double> rate_hz = number_of(setup.next());
+        setup.next(), setup.next();
+        const std::string_view eyes = setup.next();
+        if (rate_hz && *rate_hz > 0.0 && *rate_hz <= 100'000.0)
+            format_.rate_hz = *rate_hz;
+        if (eyes == "L" || eyes == "R" || eyes == "LR") {
+            format_.has_left = eyes != "R";
+            format_.has_right = eyes != "L";
+            format_.eyes_are_known = true;
+        }
+    }
+    listener_.event(event);
+}
+
+void AscParser::eye_event_begin(std::string_view line, Kind kind) {
+    Words words(line);
+    words.next();
+    const std::optional<Eye> eye = eye_of(words.next());
+    if (!eye || !asc_time_us(words.next()))
+        return bad("the begin of an event without eye or time", line);
+    bool& is_open = open_events_[slot(kind, *eye)];
+    unfinished_ += is_open;
+    is_open = true;
+}
+
+void AscParser::eye_event_end(std::string_view line, Kind kind) {
+    Words words(line);
+    words.next();
+    const std::optional<Eye> eye = eye_of(words.next());
+    const std::optional<std::int64_t> start = asc_time_us(words.next()), end = asc_time_us(words.next()),
+                                      duration = asc_time_us(words.next());
+    if (!eye || !start || !end || !duration || *end < *start)
+        return bad("an event without eye, begin, end or duration", line);
+    GazeEvent event;
+    event.kind = kind;
+    event.eye = eye;
+    event.start = at(*start);
+    event.end = at(*end);
+    event.duration = TrackerClock::duration(*duration);
+    const auto take_place = [&](std::optional<ScreenPoint>& into) {
+        const std::string_view x = words.next(), y = words.next();
+        const Place place = place_of(x, y);
+        into = place.point;
+        return place.is_valid;
+    };
+    // Nothing where it is missing.
+    const auto take_number = [&](std::optional<double>& into) {
+        const std::string_view word = words.next();
+        into = word == "." ? std::nullopt : number_of(word);
+        return word == "." || into.has_value();
+    };
+    bool is_whole = true;
+    if (kind == Kind::fixation)
+        is_whole = take_place(event.place) && take_number(event.pupil);
+    if (kind == Kind::saccade)
+        is_whole = take_place(event.place) && take_place(event.arrival) && take_number(event.amplitude_deg) &&
+                   take_number(event.peak_velocity_deg_s);
+    if (!is_whole)
+        return bad("an event without all its values", line);
+    open_events_[slot(kind, *eye)] = false;
+    listener_.event(event);
+}
+
+void AscParser::recording_line(std::string_view line, bool begins) {
+    Words words(line);
+    words.next();
+    const std::optional<std::int64_t> us = asc_time_us(words.next());
+    if (!us)
+        return bad("the begin or end of a recording without a time", line);
+    drop_open_events();
+    GazeEvent event;
+    event.kind = begins ? Kind::started : Kind::ended;
+    event.start = event.end = last_time_ = at(*us);
+    bool left = false, right = false;
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+        left |= word == "LEFT";
+        right |= word == "RIGHT";
+        if (word == "RES") {
+            const std::string_view x = words.next(), y = words.next();
+            event.text = fmt::format("{} {}", number_of(x) ? x : ".", number_of(y) ? y : ".");
+        }
+    }
+    if (begins) {
+        if (left || right) {
+            format_.has_left = left;
+            format_.has_right = right;
+            format_.eyes_are_known = true;
+        }
+        event.text = left && right ? "LEFT RIGHT" : left ? "LEFT" : right ? "RIGHT" : "";
+        // A new recording may begin with the time of the last one's end.
+        last_sample_.reset();
+        last_stamp_.reset();
+    }
+    listener_.event(event);
+}
+
+void AscParser::port_line(std::string_view line, Kind kind) {
+    Words words(line);
+    words.next();
+    const std::optional<std::int64_t> us = asc_time_us(words.next());
+    if (!us)
+        return bad("a button or input without a time", line);
+    GazeEvent event;
+    event.kind = kind;
+    event.start = event.end = last_time_ = at(*us);
+    for (std::string_view word = words.next(); !word.empty(); word = words.next())
+        event.text += (event.text.empty() ? "" : " ") + utf8(word);
+    listener_.event(event);
+}
+
+void AscParser::samples_layout(std::string_view line) {
+    Words words(line);
+    words.next();
+    const std::string_view what = words.next();
+    format_.is_gaze = what == "GAZE";
+    bool left = false, right = false;
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+        left |= word == "LEFT";
+        right |= word == "RIGHT";
+        format_.has_head_target |= word == "HTARGET";
+        if (word != "RATE")
+            continue;
+        const std::optional<double> rate_hz = number_of(words.next());
+        if (rate_hz && *rate_hz > 0.0 && *rate_hz <= 100'000.0)
+            format_.rate_hz = *rate_hz;
+        else
+            bad("a sampling rate that is none", line);
+    }
+    if (left || right) {
+        format_.has_left = left;
+        format_.has_right = right;
+        format_.eyes_are_known = true;
+    }
+}
+
+void AscParser::end() { drop_open_events(); }
+
+void parse_asc_file(const std::filesystem::path& file, AscParser& parser,
+                    const std::function<void(std::int64_t, std::int64_t)>& progress) {
+    std::error_code error;
+    const auto all = static_cast<std::int64_t>(std::filesystem::file_size(file, error));
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(
+        error || !std::filesystem::is_regular_file(file) ? nullptr : std::fopen(file.c_str(), "rb"),
+        &std::fclose);
+    if (!stream)
+        throw InputError(
+            fmt::format("{}: this file cannot be read. Give the path of a recording in EyeLink's "
+                        "text form (.asc).",
+                        file.string()));
+    std::vector<char> piece(std::size_t{1} << 20);
+    std::string unfinished;
+    std::int64_t read = 0;
+    while (const std::size_t count = std::fread(piece.data(), 1, piece.size(), stream.get())) {
+        std::string_view text(piece.data(), count);
+        for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
+            if (unfinished.empty()) {
+                parser.line(text.substr(0, end));
+            } else {
+                unfinished.append(text.substr(0, end));
+                parser.line(unfinished);
+                unfinished.clear();
+            }
+            text.remove_prefix(end + 1);
+        }
+        // Of a line that is too long anyway not all needs to be kept.
+        unfinished.append(text.substr(0, std::min(text.size(), 2 * longest_line)));
+        unfinished.resize(std::min(unfinished.size(), 4 * longest_line));
+        read += static_cast<std::int64_t>(count);
+        if (progress)
+            progress(read, all);
+    }
+    if (std::ferror(stream.get()) != 0)
+        throw InputError(fmt::format("{}: reading failed after {} bytes.", file.string(), read));
+    if (!unfinished.empty())
+        parser.line(unfinished);
+    parser.end();
+}
+
+} // namespace overt

@@ -1,0 +1,93 @@
+/// The text form of EyeLink recordings (ASC, as edf2asc writes it), line by line.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "experiment/record/gaze_event.h"
+
+namespace overt {
+
+/// What the lines so far say of those to come.
+struct AscFormat {
+    bool has_left = false, has_right = false;
+    double rate_hz = 0.0; ///< 0: not known
+    bool pupil_is_diameter = false;
+    bool is_gaze = true; ///< else samples are of the pupil or the head's frame, and no place on the screen
+    bool has_head_target = false;
+    bool eyes_are_known = false; ///< else samples of one eye are taken for the right one's
+};
+
+/// Told by an AscParser. Texts are valid only during the call.
+class AscListener {
+  public:
+    virtual ~AscListener() = default;
+    /// A line that begins with «**».
+    virtual void header(std::string_view line) = 0;
+    /// One eye's, or both eyes' of one instant, the left one first.
+    virtual void samples(std::span<const GazeSample> samples) = 0;
+    virtual void event(const GazeEvent& event) = 0;
+    /// A line that was skipped. `why` begins in lower case, without a full stop.
+    virtual void malformed(std::int64_t line, std::string_view why, std::string_view text) = 0;
+};
+
+/// Takes one line after another. Lines may end with a carriage return; parts that some files lack may be
+/// missing: the header, START and END, SAMPLES and EVENTS, the status column. Time stamps may be whole or
+/// with a fraction; where whole ones are repeated, as at 2000 Hz, the second is taken to be half a
+/// millisecond later. Nothing is thrown, whatever the lines hold.
+class AscParser {
+  public:
+    explicit AscParser(AscListener& listener) : listener_(listener) {}
+
+    void line(std::string_view line);
+    /// There are no more lines.
+    void end();
+
+    const AscFormat& format() const { return format_; }
+    std::int64_t lines() const { return lines_; }
+    /// Begins of fixations, saccades and blinks whose ends never came.
+    std::int64_t unfinished_events() const { return unfinished_; }
+    std::int64_t samples_that_are_no_gaze() const { return no_gaze_; }
+    std::int64_t non_ascii_texts() const { return recoded_; } ///< taken for Latin-1, as they are not UTF-8
+
+  private:
+    void data_line(std::string_view line);
+    void sample_line(std::string_view line);
+    void event_line(std::string_view line);
+    void message_line(std::string_view line);
+    void eye_event_begin(std::string_view line, GazeEvent::Kind kind);
+    void eye_event_end(std::string_view line, GazeEvent::Kind kind);
+    void recording_line(std::string_view line, bool begins);
+    void port_line(std::string_view line, GazeEvent::Kind kind);
+    void samples_layout(std::string_view line);
+    void note(std::string_view line);
+    void bad(std::string_view why, std::string_view line) { listener_.malformed(lines_, why, line); }
+    std::optional<TrackerTime> sample_time(std::string_view stamp);
+    std::string utf8(std::string_view text);
+    void drop_open_events();
+
+    AscListener& listener_;
+    AscFormat format_;
+    std::int64_t lines_ = 0, unfinished_ = 0, no_gaze_ = 0, recoded_ = 0;
+    bool in_calibration_ = false; ///< lines without a time belong to it
+    TrackerTime last_time_;       ///< of any line
+    std::optional<TrackerTime> last_sample_, last_stamp_;
+    int repeats_ = 0; ///< of the last stamp
+    std::array<bool, 6> open_events_{};
+};
+
+/// Reads a file and gives each line to the parser, then its end; `progress` is told the bytes read and all.
+/// Memory does not grow with the file. Throws InputError if it cannot be read, or what the listener throws.
+void parse_asc_file(const std::filesystem::path& file, AscParser& parser,
+                    const std::function<void(std::int64_t, std::int64_t)>& progress = {});
+
+/// Microseconds of a time in milliseconds, such as «7196720» or «7196720.5»; nothing if it is none.
+std::optional<std::int64_t> asc_time_us(std::string_view text);
+
+} // namespace overt

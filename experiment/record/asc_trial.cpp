@@ -1,0 +1,177 @@
+#include "experiment/record/asc_trial.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include <fmt/format.h>
+
+namespace overt {
+namespace {
+
+using Kind = GazeEvent::Kind;
+
+bool is_eye_event(Kind kind) {
+    return kind == Kind::fixation || kind == Kind::saccade || kind == Kind::blink;
+}
+
+std::string text_at(const auto& list, int index, std::string_view what) {
+    return fmt::format("{}={}", what, list[static_cast<std::size_t>(index)].id);
+}
+
+} // namespace
+
+bool AscTrial::has(std::string_view word) const {
+    return std::any_of(lines_.begin(), lines_.end(), [&](const Line& line) {
+        return line.event.kind == Kind::message && line.event.text.starts_with(word);
+    });
+}
+
+bool AscTrial::has(Kind kind) const {
+    return std::any_of(lines_.begin(), lines_.end(),
+                       [&](const Line& line) { return line.event.kind == kind; });
+}
+
+void AscTrial::add_message(std::int64_t ms, int recording, std::string text) {
+    Line line{ms, recording, false, false, {}};
+    line.event.text = std::move(text);
+    lines_.push_back(std::move(line));
+}
+
+void AscTrial::add_kept(const SessionRecord& record, const TrialRecord& trial) {
+    int recording = 0;
+    record.read_gaze_events(trial, [&](const GazeEvent& event) {
+        recording += event.kind == Kind::started;
+        if (is_eye_event(event.kind)) {
+            lines_.push_back({asc_milliseconds(event.start), recording, false, true, event});
+            lines_.push_back({asc_milliseconds(event.end), recording, true, false, event});
+        } else {
+            lines_.push_back(
+                {asc_milliseconds(event.start), recording, event.kind == Kind::ended, false, event});
+        }
+    });
+}
+
+void AscTrial::add_missing(const SessionRecord& record, const TrialRecord& trial,
+                           const std::optional<ClockMap>& clock_map, const AscLayout& layout) {
+    const SessionHeader& header = record.header();
+    const TrialOutcome& outcome = trial.outcome;
+    const auto span = record.sample_span(trial);
+    if (!clock_map && !span && lines_.empty())
+        return; // nothing says when it was
+    const std::int64_t first = span              ? asc_milliseconds(span->first)
+                               : !lines_.empty() ? lines_.front().ms
+                                                 : asc_milliseconds(clock_map->to_tracker(trial.started));
+    const bool was_presented = !header.stimuli.empty();
+    const bool has_own_recording = has(Kind::started);
+    const auto at = [&](SessionTime time) { return asc_milliseconds(clock_map->to_tracker(time)); };
+    // A screen that the attempt did not get to has no time.
+    const auto add_screen = [&](std::string_view word, SessionTime time, int recording) {
+        if (was_presented && clock_map && time > trial.started && trial.status != TrialRecord::Status::open &&
+            !has(word))
+            add_message(at(time), recording, std::string(word));
+    };
+
+    if (!has("TRIALID"))
+        add_message(was_presented && clock_map ? std::min(at(trial.started), first) : first, 0,
+                    fmt::format("TRIALID {}", trial.trial.index + 1));
+    const std::int64_t begun = lines_.back().ms;
+    if (was_presented && !has("CONDITION")) {
+        const std::string task = text_at(header.tasks, trial.trial.task, "task"),
+                          sculpture =
+                              text_at(header.sculptures, trial.trial.condition.sculpture, "sculpture"),
+                          material = text_at(header.materials, trial.trial.condition.material, "material");
+        add_message(std::min(begun, first), 0,
+                    fmt::format("CONDITION {} {} {} attempt={}", task, sculpture, material, trial.attempt));
+        for (const std::string& variable : {task, sculpture, material}) {
+            const std::size_t sign = variable.find('=');
+            add_message(
+                std::min(begun, first), 0,
+                fmt::format("!V TRIAL_VAR {} {}", variable.substr(0, sign), variable.substr(sign + 1)));
+        }
+    }
+    add_screen(task_screen_message, outcome.task_screen_onset, 0);
+    const std::string setup = fmt::format("CR {:.0f} 2 1 {}", layout.rate_hz, layout.eyes());
+    if (!has("RECCFG") && span) {
+        add_message(first, 0, "RECCFG " + setup);
+        add_message(first, 0, layout.eyes() == "LR" ? "ELCLCFG BTABLER" : "ELCLCFG MTABLER");
+    }
+    if (!has("GAZE_COORDS") && span)
+        add_message(first, 0,
+                    fmt::format("GAZE_COORDS 0.00 0.00 {}.00 {}.00", header.display.screen.screen_px.x - 1,
+                                header.display.screen.screen_px.y - 1));
+    if (span && !has_own_recording) {
+        Line start{first, 1, false, false, {}};
+        start.event.kind = Kind::started;
+        lines_.push_back(start);
+        if (!has("!MODE"))
+            add_message(first, 1, "!MODE RECORD " + setup);
+    }
+    add_screen(onset_message, outcome.presentation_onset, 1);
+    add_screen(end_message, outcome.presentation_end, 1);
+    if (span && !has_own_recording) {
+        const auto interval_ms =
+            std::max<std::int64_t>(1, static_cast<std::int64_t>(1000.0 / layout.rate_hz));
+        Line end{asc_milliseconds(span->second) + interval_ms, 1, true, false, {}};
+        end.event.kind = Kind::ended;
+        lines_.push_back(end);
+    }
+    add_screen(response_screen_message, outcome.response_screen_onset, 1);
+    add_screen(response_message, outcome.responded_at, 1);
+    if (was_presented && !has("TRIAL_RESULT")) {
+        std::int64_t last = first;
+        for (const Line& line : lines_)
+            last = std::max(last, line.ms);
+        add_message(last + 1, 1,
+                    trial.status == TrialRecord::Status::completed
+                        ? "TRIAL_RESULT 0"
+                        : fmt::format("TRIAL_RESULT {}", name_of(trial.status)));
+    }
+}
+
+AscTrial::AscTrial(const SessionRecord& record, const TrialRecord& trial,
+                   const std::optional<ClockMap>& clock_map, const AscLayout& layout) {
+    add_kept(record, trial);
+    add_missing(record, trial, clock_map, layout);
+    std::stable_sort(lines_.begin(), lines_.end(), [](const Line& a, const Line& b) {
+        return std::tuple(a.recording, a.ms, a.after_samples, a.begins_an_event) <
+               std::tuple(b.recording, b.ms, b.after_samples, b.begins_an_event);
+    });
+}
+
+void AscTrial::write(AscWriter& writer, const Line& line) {
+    switch (line.event.kind) {
+    case Kind::fixation:
+    case Kind::saccade:
+    case Kind::blink:
+        return line.begins_an_event ? writer.event_begin(line.event) : writer.event_end(line.event);
+    case Kind::message:
+        return writer.message(line.ms, line.event.text);
+    case Kind::button:
+    case Kind::input:
+        return writer.port(line.event);
+    case Kind::started:
+        return writer.start(line.ms);
+    case Kind::ended:
+        return writer.end(line.ms, line.event.text);
+    case Kind::note:
+        return writer.note(line.event.text);
+    }
+}
+
+void AscTrial::write_until(AscWriter& writer, TrackerTime sample) {
+    const std::int64_t ms = asc_milliseconds(sample);
+    while (written_ < lines_.size()) {
+        const Line& line = lines_[written_];
+        if (line.ms > ms || (line.ms == ms && line.after_samples))
+            return;
+        write(writer, line);
+        ++written_;
+    }
+}
+
+void AscTrial::finish(AscWriter& writer) {
+    while (written_ < lines_.size())
+        write(writer, lines_[written_++]);
+}
+
+} // namespace overt

@@ -1,0 +1,50 @@
+/// Words and numbers of a line of text.
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+namespace overt {
+
+constexpr bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+/// Takes words from a line, separated by blanks and tabs.
+class Words {
+  public:
+    explicit Words(std::string_view line) : rest_(line) {}
+
+    /// The next word; empty if there is none.
+    std::string_view next() {
+        skip_blanks();
+        std::size_t length = 0;
+        while (length < rest_.size() && !is_blank(rest_[length]))
+            ++length;
+        const std::string_view word = rest_.substr(0, length);
+        rest_.remove_prefix(length);
+        return word;
+    }
+    /// All that is left, without the blank before it.
+    std::string_view rest() const { return rest_.empty() ? rest_ : rest_.substr(1); }
+
+  private:
+    void skip_blanks() {
+        while (!rest_.empty() && is_blank(rest_.front()))
+            rest_.remove_prefix(1);
+    }
+    std::string_view rest_;
+};
+
+/// A finite number that takes up the whole word.
+inline std::optional<double> number_of(std::string_view word) {
+    double number = 0.0;
+    if (!word.empty() && word.front() == '+')
+        word.remove_prefix(1);
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(number))
+        return std::nullopt;
+    return number;
+}
+
+} // namespace overt

@@ -1,0 +1,69 @@
+/// Lines of EyeLink's text form (ASC), in the layout that edf2asc gives them and that readers count on.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "experiment/record/gaze_event.h"
+#include "experiment/record/output_file.h"
+
+namespace overt {
+
+/// What is the same in all of a file.
+struct AscLayout {
+    bool has_left = false, has_right = true;
+    double rate_hz = 1000.0;
+    bool pupil_is_diameter = false;
+    std::optional<double> px_per_deg_x, px_per_deg_y; ///< at the middle of the screen
+
+    std::string_view eyes() const { return has_left ? (has_right ? "LR" : "L") : "R"; }
+};
+
+/// Whole milliseconds of the tracker's clock, as ASC has times: fractions are left out, so that at 2000 Hz
+/// each number stands twice.
+std::int64_t asc_milliseconds(TrackerTime time);
+
+/// Everything is ASCII: other characters become \uXXXX.
+class AscWriter {
+  public:
+    /// Makes the file. Throws RecordError.
+    AscWriter(const std::filesystem::path& file, const AscLayout& layout) : file_(file), layout_(layout) {}
+
+    const AscLayout& layout() const { return layout_; }
+
+    /// A line as it is.
+    void line(std::string_view text);
+    /// A line without a time, such as of a calibration's table.
+    void note(std::string_view text);
+    void message(std::int64_t ms, std::string_view text);
+    /// START with what is recorded.
+    void start(std::int64_t ms);
+    /// END; `resolution` as in GazeEvent::Kind::ended, or empty: the layout's.
+    void end(std::int64_t ms, std::string_view resolution);
+    /// Samples of one instant: one of each recorded eye, at most; an eye without one has no gaze.
+    void samples(std::span<const GazeSample> samples);
+    /// SFIX, SSACC or SBLINK.
+    void event_begin(const GazeEvent& event);
+    /// EFIX, ESACC or EBLINK.
+    void event_end(const GazeEvent& event);
+    /// BUTTON or INPUT.
+    void port(const GazeEvent& event);
+
+    std::int64_t lines() const { return lines_; }
+    std::int64_t bytes() const { return file_.size(); }
+    void close() { file_.close(); }
+
+  private:
+    void eye(const GazeSample* sample);
+    void end_line();
+
+    OutputFile file_;
+    AscLayout layout_;
+    std::int64_t lines_ = 0;
+};
+
+} // namespace overt

@@ -1,0 +1,110 @@
+#include "experiment/record/gaze_rows.h"
+
+#include "experiment/record/session_schema.h"
+#include "experiment/record/sql.h"
+
+namespace overt {
+namespace {
+
+using Pixels = std::optional<double>;
+
+Pixels x_of(const std::optional<ScreenPoint>& place) { return place ? Pixels(place->x_px) : std::nullopt; }
+Pixels y_of(const std::optional<ScreenPoint>& place) { return place ? Pixels(place->y_px) : std::nullopt; }
+
+std::optional<ScreenPoint> read_place(Query& row) {
+    const Pixels x_px = row.optional_real(), y_px = row.optional_real();
+    return x_px && y_px ? std::optional(ScreenPoint{*x_px, *y_px}) : std::nullopt;
+}
+
+std::int64_t microseconds(TrackerTime time) { return time.time_since_epoch().count(); }
+TrackerTime read_time(Query& row) { return TrackerTime(TrackerClock::duration(row.integer())); }
+
+GazeEvent read_event(Query& row) {
+    GazeEvent event;
+    event.kind = gaze_event_kind(row.text()).value_or(GazeEvent::Kind::note);
+    if (const std::optional<int> eye = row.optional_small())
+        event.eye = *eye == 0 ? Eye::left : Eye::right;
+    event.start = read_time(row);
+    event.end = read_time(row);
+    event.duration = TrackerClock::duration(row.integer());
+    event.place = read_place(row);
+    event.arrival = read_place(row);
+    event.pupil = row.optional_real();
+    event.amplitude_deg = row.optional_real();
+    event.peak_velocity_deg_s = row.optional_real();
+    event.text = row.text();
+    return event;
+}
+
+SQLite::Database& with_tables(SQLite::Database& database) {
+    database.exec(gaze_tables_sql);
+    return database;
+}
+
+} // namespace
+
+GazeRows::GazeRows(SQLite::Database& database)
+    : database_(with_tables(database)), insert_sample_(database, "INSERT INTO sample VALUES (?,?,?,?,?,?,?)"),
+      insert_event_(database, "INSERT INTO gaze_event VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)") {}
+
+void GazeRows::begin_trial(std::int64_t trial_id) {
+    trial_id_ = trial_id;
+    samples_ = events_ = 0;
+}
+
+void GazeRows::sample(const GazeSample& sample) {
+    run_statement(insert_sample_, trial_id_, samples_++, microseconds(sample.sampled_at),
+                  static_cast<int>(sample.eye), x_of(sample.gaze), y_of(sample.gaze),
+                  static_cast<double>(sample.pupil_area));
+}
+
+void GazeRows::event(const GazeEvent& event) {
+    std::int64_t& count = trial_id_ == 0 ? outside_events_ : events_;
+    run_statement(insert_event_, trial_id_, count++, std::string(name_of(event.kind)),
+                  event.eye ? std::optional(static_cast<int>(*event.eye)) : std::nullopt,
+                  microseconds(event.start), microseconds(event.end),
+                  static_cast<std::int64_t>(event.duration.count()), x_of(event.place), y_of(event.place),
+                  x_of(event.arrival), y_of(event.arrival), event.pupil, event.amplitude_deg,
+                  event.peak_velocity_deg_s, event.text);
+}
+
+void GazeRows::source(int sitting, const GazeSource& source) {
+    SQLite::Statement insert(database_, "INSERT OR REPLACE INTO gaze_source VALUES (?,?,?,?,?,?,?,?,?,?)");
+    run_statement(insert, sitting, source.file, source.sha256, source.header,
+                  source.pupil_is_diameter ? "diameter" : "area", source.rate_hz,
+                  source.has_left ? (source.has_right ? "both" : "left") : "right", source.px_per_deg_x,
+                  source.px_per_deg_y, source.skipped_lines);
+}
+
+void read_gaze_events(const SQLite::Database& database, std::int64_t trial_id,
+                      const std::function<void(const GazeEvent&)>& take) {
+    Query row(database, "SELECT kind, eye, start_us, end_us, duration_us, x_px, y_px, arrival_x_px, "
+                        "arrival_y_px, pupil, amplitude_deg, peak_velocity_deg_s, text FROM gaze_event "
+                        "WHERE trial_id = ? ORDER BY n");
+    row.bind(1, trial_id);
+    while (row.step())
+        take(read_event(row));
+}
+
+std::optional<GazeSource> read_gaze_source(const SQLite::Database& database, int sitting) {
+    Query row(database, "SELECT file, sha256, header, pupil, rate_hz, eyes, px_per_deg_x, px_per_deg_y, "
+                        "skipped_lines FROM gaze_source WHERE sitting = ?");
+    row.bind(1, sitting);
+    if (!row.step())
+        return std::nullopt;
+    GazeSource source;
+    source.file = row.text();
+    source.sha256 = row.text();
+    source.header = row.text();
+    source.pupil_is_diameter = row.text() == "diameter";
+    source.rate_hz = row.real();
+    const std::string eyes = row.text();
+    source.has_left = eyes != "right";
+    source.has_right = eyes != "left";
+    source.px_per_deg_x = row.optional_real();
+    source.px_per_deg_y = row.optional_real();
+    source.skipped_lines = row.integer();
+    return source;
+}
+
+} // namespace overt

@@ -1,0 +1,40 @@
+/// A tracker's samples, its own events and its file as rows of a session's tables, there and back.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "experiment/record/gaze_event.h"
+
+namespace overt {
+
+/// Inserts rows of one trial after another, within the caller's transaction. All throw SQLite::Exception.
+class GazeRows {
+  public:
+    /// Makes the tables of events where they are not there: sessions of earlier programs have none. The
+    /// database must outlive this.
+    explicit GazeRows(SQLite::Database& database);
+
+    /// What follows belongs to this trial, which has no rows yet; 0: to none.
+    void begin_trial(std::int64_t trial_id);
+    void sample(const GazeSample& sample);
+    void event(const GazeEvent& event);
+    void source(int sitting, const GazeSource& source);
+
+  private:
+    SQLite::Database& database_;
+    SQLite::Statement insert_sample_, insert_event_;
+    std::int64_t trial_id_ = 0, samples_ = 0, events_ = 0, outside_events_ = 0;
+};
+
+/// In the order in which they were written. Throws SQLite::Exception.
+void read_gaze_events(const SQLite::Database& database, std::int64_t trial_id,
+                      const std::function<void(const GazeEvent&)>& take);
+
+/// Nothing if the sitting's gaze came from no file. Throws SQLite::Exception.
+std::optional<GazeSource> read_gaze_source(const SQLite::Database& database, int sitting);
+
+} // namespace overt

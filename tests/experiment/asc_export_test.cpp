@@ -1,0 +1,171 @@
+#include "experiment/record/asc_export.h"
+
+#include <catch2/catch.hpp>
+
+#include "experiment/error.h"
+#include "experiment/eye_session.h"
+#include "experiment/record/asc_import.h"
+#include "experiment/record/number_text.h"
+#include "support/asc_readers.h"
+
+using namespace overt;
+using namespace overt::testing;
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+
+namespace {
+
+struct Exported {
+    test::TemporaryFolder root;
+    fs::path session = make_eye_session(root.path());
+    fs::path target = root.path() / "asc";
+    AscExportCounts counts = export_asc(SessionRecord(session), target);
+
+    std::string run(int number) const {
+        return text_of(target / fmt::format("sub-AB7_ses-01_run-{:02}.asc", number));
+    }
+};
+
+std::string decimals(double number, int places) {
+    std::string text;
+    append_fixed(text, number, places);
+    return text;
+}
+
+/// What an ASC can hold of a sample: whole milliseconds, thousandths of a pixel, no pupil without gaze.
+std::vector<std::string> written_form(const SessionRecord& record, int sitting) {
+    std::vector<std::string> samples;
+    for (const TrialRecord& trial : record.trials()) {
+        if (trial.sitting != sitting)
+            continue;
+        std::int64_t last_ms = -1;
+        for (const GazeSample& sample : record.samples(trial)) {
+            const std::int64_t ms = sample.sampled_at.time_since_epoch().count() / 1000;
+            samples.push_back(fmt::format(
+                "{}{} {} {}", ms, ms == last_ms ? ".5" : "", sample.eye == Eye::left ? "L" : "R",
+                sample.gaze ? decimals(sample.gaze->x_px, 3) + " " + decimals(sample.gaze->y_px, 3) + " " +
+                                  decimals(static_cast<double>(sample.pupil_area), 4)
+                            : std::string("lost")));
+            last_ms = ms;
+        }
+    }
+    return samples;
+}
+
+AscImportOptions into(const fs::path& out, const std::string& label = "AB7") {
+    AscImportOptions options;
+    options.place = {out.parent_path(), "imported", label};
+    options.out = out;
+    return options;
+}
+
+} // namespace
+
+TEST_CASE("eyelinker, MNE, pymovements and PyGazeAnalyser find every sample of an exported session",
+          "[unit]") {
+    const Exported exported;
+    CHECK(exported.counts.files == 2);
+    const SessionRecord record(exported.session);
+    std::int64_t samples = 0;
+    for (const int sitting : {1, 2}) {
+        std::vector<GazeSample> recorded;
+        for (const TrialRecord& trial : record.trials())
+            if (trial.sitting == sitting)
+                for (const GazeSample& sample : record.samples(trial))
+                    recorded.push_back(sample);
+        samples += static_cast<std::int64_t>(recorded.size());
+        const std::string text = exported.run(sitting);
+        const AscReading readings[] = {read_as_eyelinker(text), read_as_mne(text), read_as_pymovements(text),
+                                       read_as_pygaze_analyser(text, "TRIALID")};
+        for (const AscReading& reading : readings) {
+            CHECK(reading.failure == "");
+            REQUIRE(reading.samples.size() == recorded.size());
+            for (std::size_t i = 0; i < recorded.size(); ++i) {
+                REQUIRE(reading.samples[i].time ==
+                        static_cast<double>(recorded[i].sampled_at.time_since_epoch().count() / 1000));
+                REQUIRE(reading.samples[i].x.has_value() == recorded[i].gaze.has_value());
+                if (recorded[i].gaze) {
+                    REQUIRE(*reading.samples[i].x == Approx(recorded[i].gaze->x_px).margin(5.1e-4));
+                    REQUIRE(*reading.samples[i].y == Approx(recorded[i].gaze->y_px).margin(5.1e-4));
+                    REQUIRE(reading.samples[i].pupil == Approx(recorded[i].pupil_area).margin(5.1e-5));
+                }
+            }
+        }
+        // What MNE leaves out is no message that matters.
+        CHECK(std::count(readings[1].messages.begin(), readings[1].messages.end(), "PRESENTATION_ONSET") >=
+              1);
+    }
+    CHECK(exported.counts.samples == samples);
+    CHECK(exported.counts.trials == 5);
+}
+
+TEST_CASE(
+    "the recordings of an exported session are as long as their samples, so that lost ones can be counted",
+    "[unit]") {
+    const Exported exported;
+    // 400, 200 and 400 samples of which every 37th was dropped: the blocks' lengths count the dropped ones.
+    CHECK(read_as_pymovements(exported.run(1)).expected_samples == Approx(1000.0).margin(6.0));
+}
+
+TEST_CASE("an exported session holds its trials, aborted ones too, and nothing but ASCII", "[unit]") {
+    const Exported exported;
+    const std::string text = exported.run(1);
+    const auto occurrences = [&](const std::string& word) {
+        int count = 0;
+        for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+            ++count;
+        return count;
+    };
+    CHECK(occurrences("TRIALID 1\n") == 1);
+    CHECK(occurrences("TRIALID 2\n") == 2);
+    CHECK(occurrences("TRIAL_RESULT 0\n") == 2);
+    CHECK(occurrences("TRIAL_RESULT aborted\n") == 1);
+    CHECK(occurrences("\nSTART\t") == 3);
+    CHECK(occurrences("\nEND\t") == 3);
+    CHECK(occurrences("DISPLAY_COORDS 0 0 1919 1079\n") == 1);
+    CHECK_THAT(text, Contains("simuliert \\u2013 \\u00fc"));
+    CHECK_THAT(text, Contains("CONDITION task=age sculpture=bust material=silver attempt=1"));
+    CHECK(std::all_of(text.begin(), text.end(),
+                      [](char c) { return c == '\n' || c == '\t' || (c >= ' ' && c < 127); }));
+    // The tracker's time of a screen is that of the session, by the clocks.
+    CHECK_THAT(text, Contains(fmt::format("MSG\t{} PRESENTATION_ONSET\n", 7'000'000 + 11'000)));
+}
+
+TEST_CASE("what was exported as ASC and imported has the same samples, and its export the same bytes",
+          "[unit]") {
+    const Exported exported;
+    const SessionRecord record(exported.session);
+    for (const int sitting : {1, 2}) {
+        const fs::path file = exported.target / fmt::format("sub-AB7_ses-01_run-{:02}.asc", sitting);
+        const fs::path out = exported.root.path() / fmt::format("imported_{}", sitting);
+        const AscImportSummary summary = import_asc(file, into(out));
+        CHECK(summary.survey.skipped_lines == 0);
+        const SessionRecord imported(out);
+        CHECK(written_form(imported, 1) == written_form(record, sitting));
+        CHECK(imported.header().display.screen.screen_px == glm::ivec2(1920, 1080));
+        CHECK(imported.header().display.screen.viewing_distance_mm == 571.0);
+        CHECK(imported.header().display.screen.screen_mm.x == Approx(400.5));
+        export_asc(imported, exported.root.path() / fmt::format("again_{}", sitting));
+        CHECK(text_of(exported.root.path() / fmt::format("again_{}", sitting) /
+                      "sub-AB7_ses-01_run-01.asc") == exported.run(sitting));
+    }
+    const SessionRecord first(exported.root.path() / "imported_1");
+    CHECK(first.trials()[1].status == TrialRecord::Status::aborted);
+    CHECK(first.trials()[0].outcome.presentation_onset - first.trials()[0].outcome.task_screen_onset ==
+          std::chrono::milliseconds(990));
+}
+
+TEST_CASE("an export as ASC replaces an earlier one only when asked, and a session without gaze has none",
+          "[unit]") {
+    const Exported exported;
+    const SessionRecord record(exported.session);
+    CHECK_THROWS_WITH(export_asc(record, exported.target), Contains("exists already"));
+    CHECK_NOTHROW(export_asc(record, exported.target, {true, {}}));
+    std::ofstream(exported.target / "notes.txt") << "mine";
+    CHECK_THROWS_WITH(export_asc(record, exported.target, {true, {}}), Contains("notes.txt"));
+    SessionHeader header = eye_session_header();
+    header.schedule.observer.label = "C1";
+    const fs::path empty = make_session(exported.root.path(), header);
+    CHECK_THROWS_AS(export_asc(SessionRecord(empty), exported.root.path() / "none"), InputError);
+    CHECK_FALSE(fs::exists(exported.root.path() / "none"));
+}

@@ -1,0 +1,361 @@
+#include "experiment/record/asc_import.h"
+
+#include <catch2/catch.hpp>
+
+#include "experiment/error.h"
+#include "experiment/eye_session.h"
+#include "experiment/record/asc_export.h"
+#include "experiment/record/table_export.h"
+#include "support/asc_text.h"
+
+using namespace overt;
+using namespace overt::testing;
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+
+namespace {
+
+AscImportOptions options_for(const fs::path& out, std::vector<std::string>* reports = nullptr) {
+    AscImportOptions options;
+    options.place = {out.parent_path() / "sessions", "imported", "07"};
+    options.out = out;
+    options.now_utc = "2026-01-01T00:00:00Z";
+    if (reports)
+        options.report = [reports](const std::string& line) { reports->push_back(line); };
+    return options;
+}
+
+/// Imports the text and gives the session.
+SessionRecord imported(const test::TemporaryFolder& root, const std::string& text,
+                       AscImportSummary* summary = nullptr, std::vector<std::string>* reports = nullptr) {
+    static int count = 0;
+    const fs::path file = write_asc(root.path() / fmt::format("recording_{}.asc", ++count), text);
+    const fs::path out = root.path() / fmt::format("session_{}", count);
+    const AscImportSummary result = import_asc(file, options_for(out, reports));
+    if (summary)
+        *summary = result;
+    return SessionRecord(out);
+}
+
+void check_samples(const SessionRecord& record, const AscExample& example) {
+    REQUIRE(record.trials().size() == static_cast<std::size_t>(example.trials));
+    const int eyes = example.left && example.right ? 2 : 1;
+    for (int trial = 0; trial < example.trials; ++trial) {
+        const std::vector<GazeSample> samples =
+            record.samples(record.trials()[static_cast<std::size_t>(trial)]);
+        REQUIRE(samples.size() == static_cast<std::size_t>(example.samples * eyes));
+        for (int n = 0; n < example.samples; ++n)
+            for (int eye = 0; eye < eyes; ++eye) {
+                const GazeSample& sample = samples[static_cast<std::size_t>(n * eyes + eye)];
+                const bool is_left = example.left && eye == 0;
+                REQUIRE(sample.sampled_at.time_since_epoch().count() == example_us(example, trial, n));
+                REQUIRE((sample.eye == Eye::left) == is_left);
+                REQUIRE(sample.gaze.has_value() == !example_is_lost(n));
+                if (!sample.gaze)
+                    continue;
+                REQUIRE(sample.gaze->x_px == Approx(example_x(trial, n, is_left)).margin(1e-9));
+                REQUIRE(sample.gaze->y_px == Approx(example_y(n)).margin(1e-9));
+                REQUIRE(sample.pupil_area == static_cast<float>(900 + n));
+            }
+    }
+}
+
+std::vector<fs::path> entries(const fs::path& folder) {
+    std::vector<fs::path> names;
+    for (const auto& entry : fs::directory_iterator(folder))
+        names.push_back(entry.path().filename());
+    return names;
+}
+
+} // namespace
+
+TEST_CASE("recordings of each rate, eye and layout give the samples that are in them", "[unit]") {
+    const test::TemporaryFolder root;
+    std::vector<AscExample> examples;
+    for (const double rate_hz : {250.0, 500.0, 1000.0, 2000.0}) {
+        AscExample example;
+        example.rate_hz = rate_hz;
+        examples.push_back(example);
+        example.left = false, example.right = true;
+        examples.push_back(example);
+        example.left = true;
+        examples.push_back(example);
+        example.float_times = true;
+        examples.push_back(example);
+        example.float_times = false, example.line_end = "\r\n";
+        examples.push_back(example);
+        example.line_end = "\n", example.right = false, example.head_target = true;
+        examples.push_back(example);
+    }
+    for (const AscExample& example : examples) {
+        CAPTURE(example.rate_hz, example.left, example.right, example.float_times, example.head_target);
+        AscImportSummary summary;
+        const SessionRecord record = imported(root, asc_text(example), &summary);
+        check_samples(record, example);
+        CHECK(summary.survey.skipped_lines == 0);
+        CHECK(record.header().tracker.sample_rate_hz == example.rate_hz);
+        CHECK(record.header().started_utc == "2024-02-29T23:59:59Z");
+        CHECK(record.closed_in_order());
+        CHECK(record.damages().empty());
+    }
+}
+
+TEST_CASE("recordings that lack parts give what is there, and say what was assumed", "[unit]") {
+    const test::TemporaryFolder root;
+    AscExample example;
+    example.left = false, example.right = true;
+    const auto without = [&](bool AscExample::*part) {
+        AscExample changed = example;
+        changed.*part = false;
+        return changed;
+    };
+    for (bool AscExample::*part :
+         {&AscExample::has_header, &AscExample::has_layout, &AscExample::has_blocks, &AscExample::has_status,
+          &AscExample::has_events, &AscExample::has_trial_ids})
+        check_samples(imported(root, asc_text(without(part))), example);
+
+    AscExample bare = example;
+    bare.has_header = bare.has_layout = bare.has_blocks = bare.has_status = bare.has_events = false;
+    AscImportSummary summary;
+    const SessionRecord record = imported(root, asc_text(bare), &summary);
+    check_samples(record, example);
+    CHECK(record.header().tracker.sample_rate_hz == Approx(500.0));
+    std::string remarks;
+    for (const std::string& remark : summary.remarks)
+        remarks += remark + "\n";
+    CHECK_THAT(remarks, Contains("DISPLAY_COORDS"));
+    CHECK_THAT(remarks, Contains("--screen-mm"));
+    CHECK_THAT(remarks, Contains("right one"));
+    CHECK_THAT(remarks, Contains("500 Hz"));
+}
+
+TEST_CASE("a recording of events alone becomes a session without samples", "[unit]") {
+    const test::TemporaryFolder root;
+    AscExample example;
+    example.has_samples = false;
+    const SessionRecord record = imported(root, asc_text(example));
+    REQUIRE(record.trials().size() == 2);
+    CHECK(record.samples(record.trials()[0]).empty());
+    int fixations = 0;
+    record.read_gaze_events(record.trials()[1], [&](const GazeEvent& event) {
+        fixations += event.kind == GazeEvent::Kind::fixation;
+    });
+    CHECK(fixations == 1);
+}
+
+TEST_CASE("the tracker's own events, messages and inputs are kept with their numbers", "[unit]") {
+    const test::TemporaryFolder root;
+    AscExample example;
+    const SessionRecord record = imported(root, asc_text(example));
+    std::map<GazeEvent::Kind, std::vector<GazeEvent>> events;
+    record.read_gaze_events(record.trials()[0],
+                            [&](const GazeEvent& event) { events[event.kind].push_back(event); });
+    using Kind = GazeEvent::Kind;
+    REQUIRE(events[Kind::fixation].size() == 1);
+    const GazeEvent fixation = events[Kind::fixation][0];
+    CHECK(fixation.eye == Eye::left);
+    CHECK(fixation.start == TrackerTime(std::chrono::milliseconds(5030)));
+    CHECK(fixation.end == TrackerTime(std::chrono::milliseconds(5038)));
+    CHECK(fixation.duration == std::chrono::milliseconds(10));
+    CHECK(fixation.place == ScreenPoint{512.8, 394.5});
+    CHECK(fixation.pupil == 1063.0);
+    REQUIRE(events[Kind::saccade].size() == 1);
+    CHECK(events[Kind::saccade][0].place == ScreenPoint{512.8, -39.5});
+    CHECK(events[Kind::saccade][0].arrival == ScreenPoint{509.2, 380.4});
+    CHECK(events[Kind::saccade][0].amplitude_deg == 0.46);
+    CHECK(events[Kind::saccade][0].peak_velocity_deg_s == 57.0);
+    REQUIRE(events[Kind::blink].size() == 1);
+    CHECK(events[Kind::input][0].text == "127");
+    CHECK(events[Kind::button][0].text == "5 1");
+    CHECK(events[Kind::ended][0].text == "35.24 35.17");
+    CHECK(events[Kind::message].front().text == "TRIALID 1");
+    // Before the first trial: the screen, and the calibration with its lines that have no time.
+    std::vector<std::string> outside;
+    record.read_gaze_events_outside([&](const GazeEvent& event) { outside.push_back(event.text); });
+    REQUIRE(outside.size() == 5);
+    CHECK(outside[1] == ">>>>>>> CALIBRATION (HV3,P-CR) FOR LEFT: <<<<<<<<<");
+    CHECK(outside[3] == "\t  -80     7   -84     8");
+    const std::optional<GazeSource> source = record.gaze_source(1);
+    REQUIRE(source);
+    CHECK(source->px_per_deg_x == 35.24);
+    CHECK(source->sha256.size() == 64);
+}
+
+TEST_CASE("each malformed line is reported with its place, counted, and left out; all others are kept",
+          "[unit]") {
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {"5000000\t12.0", "without all its values"},
+        {"5000000\tabc\t12.0\t900.0\t...", "no number"},
+        {"5000000\tnan\t12.0\t900.0\t...", "no number"},
+        {"5000000\tinf\t12.0\t900.0\t...", "no number"},
+        {"99999999999999999999\t1.0\t2.0\t3.0", "no time stamp"},
+        {"12-5\t1.0\t2.0\t3.0\t...", "no time stamp"},
+        {"1\t1.0\t2.0\t3.0\t...", "earlier"},
+        {"MSG\tsoon TRIALID 9", "without a time"},
+        {"MSG", "without a time"},
+        {"EFIX X   1\t2\t3", "without eye"},
+        {"EFIX L   5000\t4000\t3\t1\t2\t3", "without eye, begin, end"},
+        {"ESACC L  1\t2\t3\t1.0", "without all its values"},
+        {"EBLINK L", "without eye"},
+        {"SFIX L", "without eye or time"},
+        {"END\tnever", "without a time"},
+        {"BUTTON\t?", "without a time"},
+        {"\t  -80     7", "begins with a blank"},
+        {"GARBAGE", "no known word"},
+        {std::string("\0\0\xff\xfe", 4), "no known word"},
+        {std::string(20'000, 'x'), "longer than"}};
+    const test::TemporaryFolder root;
+    AscExample example;
+    const std::string sound = asc_text(example);
+    for (const auto& [line, why] : cases) {
+        CAPTURE(line.substr(0, 40));
+        // In the middle of the second trial.
+        std::size_t at = sound.find("\n7060\t") + 1;
+        REQUIRE(at > 1);
+        const auto line_number =
+            1 + std::count(sound.begin(), sound.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+        std::string text = sound;
+        text.insert(at, line + "\n");
+        AscImportSummary summary;
+        std::vector<std::string> reports;
+        const SessionRecord record = imported(root, text, &summary, &reports);
+        check_samples(record, example);
+        CHECK(summary.survey.skipped_lines == 1);
+        REQUIRE(reports.size() == 1);
+        CHECK_THAT(reports[0], Contains(fmt::format(".asc:{}: ", line_number)) && Contains(why));
+        CHECK(record.gaze_source(1)->skipped_lines == 1);
+    }
+}
+
+TEST_CASE("texts that are no UTF-8 are taken for Latin-1 and said to be so", "[unit]") {
+    const test::TemporaryFolder root;
+    AscImportSummary summary;
+    const SessionRecord record =
+        imported(root, asc_text({}) + "MSG\t9000000 caf\xe9\nMSG\t9000001 caf\xc3\xa9\n", &summary);
+    std::vector<std::string> texts;
+    record.read_gaze_events(record.trials()[1], [&](const GazeEvent& event) { texts.push_back(event.text); });
+    REQUIRE(texts.size() > 2);
+    CHECK(texts[texts.size() - 2] == "café");
+    CHECK(texts[texts.size() - 1] == "café");
+    CHECK(summary.survey.non_ascii_texts == 1);
+}
+
+TEST_CASE("an import overwrites nothing and leaves nothing behind when it fails", "[unit]") {
+    const test::TemporaryFolder root;
+    const fs::path file = write_asc(root.path() / "a.asc", asc_text({}));
+    import_asc(file, options_for(root.path() / "s"));
+    CHECK_THROWS_WITH(import_asc(file, options_for(root.path() / "s")), Contains("exists already"));
+    AscImportOptions by_place = options_for({});
+    by_place.out.clear();
+    by_place.place.root = root.path() / "sessions";
+    CHECK(import_asc(file, by_place).session.filename() == "sub-07_ses-01");
+    CHECK(import_asc(file, by_place).session.filename() == "sub-07_ses-02");
+    by_place.session_number = 1;
+    CHECK_THROWS_WITH(import_asc(file, by_place), Contains("next free"));
+
+    const auto before = entries(root.path());
+    CHECK_THROWS_AS(import_asc(root.path() / "none.asc", options_for(root.path() / "t")), InputError);
+    CHECK_THROWS_AS(import_asc(root.path(), options_for(root.path() / "t")), InputError);
+    CHECK_THROWS_WITH(
+        import_asc(write_asc(root.path() / "a.asc", "no recording\n"), options_for(root.path() / "t")),
+        Contains("no recording of an EyeLink"));
+    CHECK_THROWS_WITH(import_asc(write_asc(root.path() / "a.asc", asc_text({}) + asc_text({})),
+                                 options_for(root.path() / "t")),
+                      Contains("began anew"));
+    CHECK(entries(root.path()) == before);
+}
+
+TEST_CASE("an imported session can be exported as tables", "[unit]") {
+    const test::TemporaryFolder root;
+    AscExample example;
+    example.right = true;
+    const auto counts = export_tables(
+        imported(root, asc_text(example)), [](int) { return nullptr; }, root.path() / "tables");
+    CHECK(counts.samples == 240);
+    CHECK(counts.samples_without_gaze == 40);
+}
+
+TEST_CASE("the gaze of a file comes into the trials that its messages name, in a copy of the session",
+          "[unit]") {
+    const test::TemporaryFolder root;
+    const fs::path session = make_eye_session(root.path());
+    const SessionRecord original(session);
+    const std::string before = text_of(session / session_file_name);
+    export_asc(original, root.path() / "asc");
+    // The file's gaze is another than the session's: shifted by a pixel.
+    std::string text = text_of(root.path() / "asc" / "sub-AB7_ses-01_run-01.asc");
+    const fs::path file = write_asc(root.path() / "tracker.asc", text);
+
+    const AscImportSummary summary = import_asc_into(file, session, options_for(root.path() / "with_gaze"));
+    CHECK(summary.trials == 3);
+    CHECK(text_of(session / session_file_name) == before);
+    const SessionRecord record(root.path() / "with_gaze");
+    CHECK(fs::exists(root.path() / "with_gaze" / "stimuli" / "bust_gold.png"));
+    REQUIRE(record.trials().size() == original.trials().size());
+    for (std::size_t i = 0; i < record.trials().size(); ++i) {
+        const auto samples = record.samples(record.trials()[i]),
+                   originals = original.samples(original.trials()[i]);
+        REQUIRE(samples.size() == originals.size());
+        const bool is_new = record.trials()[i].sitting == 1;
+        REQUIRE((samples[0].sampled_at == originals[0].sampled_at) == !is_new);
+        REQUIRE(samples[0].gaze->x_px == Approx(originals[0].gaze->x_px).margin(1e-3));
+        CHECK(record.trials()[i].outcome.answer == original.trials()[i].outcome.answer);
+    }
+    CHECK(record.clock_pairs(1).size() == original.clock_pairs(1).size());
+    CHECK(record.gaze_source(1)->file == "tracker.asc");
+    CHECK_FALSE(record.gaze_source(2));
+    CHECK(record.damages().empty());
+    CHECK_THROWS_WITH(import_asc_into(file, session, options_for(root.path() / "with_gaze")),
+                      Contains("exists already"));
+}
+
+TEST_CASE("where the tracker's clock was never read, the messages of the screens relate it to the session's",
+          "[unit]") {
+    const test::TemporaryFolder root;
+    const fs::path session = make_eye_session(root.path());
+    export_asc(SessionRecord(session), root.path() / "asc");
+    // The same recording by a clock that shows 1000 s less.
+    std::string shifted;
+    for (const std::string& line : [&] {
+             std::istringstream text(text_of(root.path() / "asc" / "sub-AB7_ses-01_run-01.asc"));
+             std::vector<std::string> lines;
+             for (std::string one; std::getline(text, one);)
+                 lines.push_back(one);
+             return lines;
+         }()) {
+        const std::size_t begin = line.find_first_of("0123456789");
+        const bool has_time = line.starts_with("MSG\t") || line.starts_with("START\t") ||
+                              line.starts_with("END\t") || begin == 0;
+        const std::size_t end = has_time ? line.find_first_not_of("0123456789", begin) : 0;
+        shifted += has_time ? line.substr(0, begin) +
+                                  std::to_string(std::stoll(line.substr(begin, end - begin)) - 1'000'000) +
+                                  line.substr(end)
+                            : line;
+        shifted += '\n';
+    }
+    import_asc_into(write_asc(root.path() / "other.asc", shifted), session,
+                    options_for(root.path() / "with_gaze"));
+    const SessionRecord record(root.path() / "with_gaze");
+    const auto map = record.clock_map(1);
+    REQUIRE(map);
+    // Samples began 900 ms after the trial, at tracker time 7000 s + 10.9 s by the old clock.
+    const TrackerTime first = record.samples(record.trials()[0])[0].sampled_at;
+    const MappedTime mapped = map->to_session(first);
+    CHECK(std::abs(to_seconds(mapped.time) - 10.9) < 2e-3);
+    CHECK(mapped.uncertainty > std::chrono::microseconds(500));
+
+    // Without those messages nothing relates them.
+    std::string silent = shifted;
+    for (const char* word : {"TASK_SCREEN_ONSET", "PRESENTATION_ONSET", "PRESENTATION_END",
+                             "RESPONSE_SCREEN_ONSET", "RESPONSE\n"})
+        for (std::size_t at = silent.find(word); at != std::string::npos; at = silent.find(word))
+            silent.replace(at, 4, "none");
+    CHECK_THROWS_WITH(import_asc_into(write_asc(root.path() / "silent.asc", silent), session,
+                                      options_for(root.path() / "silent")),
+                      Contains("nothing relates"));
+    CHECK_FALSE(fs::exists(root.path() / "silent"));
+    CHECK_THROWS_WITH(
+        import_asc_into(write_asc(root.path() / "alien.asc", "START\t1 \tLEFT\n1\t1.0\t1.0\t1.0\t...\n"),
+                        session, options_for(root.path() / "silent")),
+        Contains("no message TRIALID"));
+}
