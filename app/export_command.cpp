@@ -4,6 +4,7 @@
 #include "app/progress_bar.h"
 #include "app/recorded_surface.h"
 #include "experiment/record/asc_export.h"
+#include "experiment/record/bids_export.h"
 #include "experiment/record/table_export.h"
 
 namespace overt {
@@ -57,6 +58,21 @@ void export_as_asc(const ExportOptions& options, const SessionRecord& record) {
                counts.files, out.string());
 }
 
+void export_as_bids(const ExportOptions& options, const SessionRecord& record) {
+    RecordedSurfaces surfaces(record);
+    ProgressBar bar;
+    const std::filesystem::path out =
+        options.out.empty() ? record.directory() / "export_bids" : options.out; // one dataset of all
+    const BidsExportCounts counts =
+        export_bids(record, [&](int sculpture) { return surfaces.lookup_of(sculpture); }, out,
+                    {options.overwrite, progress_on(bar, record)});
+    bar.finish();
+    for (const std::string& remark : counts.remarks)
+        fmt::print("{}\n", remark);
+    fmt::print("{} runs, {} recordings of an eye, {} samples\ndataset: {}\n", counts.runs, counts.recordings,
+               counts.samples, out.string());
+}
+
 } // namespace
 
 int run_export(const ExportOptions& options) {
@@ -64,6 +80,8 @@ int run_export(const ExportOptions& options) {
         const SessionRecord record(session);
         if (options.format == "asc")
             export_as_asc(options, record);
+        else if (options.format == "bids")
+            export_as_bids(options, record);
         else
             export_as_tables(options, record);
     }

@@ -179,12 +179,6 @@ void record_live_maps(std::vector<LiveMap> maps, const SessionDirectory& directo
         store.map_made(map);
 }
 
-std::string preview_file(const SessionHeader& header, const Condition& condition) {
-    return fmt::format("stimuli/{}_{}.png",
-                       header.sculptures[static_cast<std::size_t>(condition.sculpture)].id,
-                       header.materials[static_cast<std::size_t>(condition.material)].id);
-}
-
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
 } // namespace overt

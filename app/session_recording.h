@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "experiment/record/preview_file.h"
 #include "experiment/record/session_directory.h"
 #include "experiment/record/session_header.h"
 #include "experiment/record/session_store.h"
@@ -26,9 +27,6 @@ void put_files(const SessionDirectory& directory, const SessionHeader& header,
 /// Writes maps that were made live into a published session. Throws RecordError.
 void record_live_maps(std::vector<LiveMap> maps, const SessionDirectory& directory,
                       const SessionHeader& header, SessionStore& store);
-
-/// Where in a session's folder animation frame 0 of a stimulus lies, as an 8-bit sRGB PNG to look at.
-std::string preview_file(const SessionHeader& header, const Condition& condition);
 
 /// Now, by the wall clock: 2026-11-21T09:30:00Z.
 std::string utc_now();

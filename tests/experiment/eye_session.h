@@ -14,6 +14,7 @@ inline constexpr std::int64_t eye_session_offset_us[] = {0, 7'000'000'000, 90'00
 
 inline SessionHeader eye_session_header() {
     SessionHeader header = example_header();
+    header.session_number = 1;
     header.protocol.title = "Blick, 視線, نظرة";
     header.tasks = {{"free", "Schauen Sie sich um; ganz frei"}, {"age", "何歳？\tقل"}};
     header.tracker = {"simuliert – ü", 2000.0, Eye::left};

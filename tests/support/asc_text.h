@@ -51,11 +51,11 @@ inline std::string asc_text(const AscExample& example) {
         add("** EYELINK II CL v4.56 Aug 18 2010");
         add("**");
         add("");
-        add("MSG\t4000000 DISPLAY_COORDS 0 0 1023 767");
+        add("MSG\t4000 DISPLAY_COORDS 0 0 1023 767");
         add(">>>>>>> CALIBRATION (HV3,P-CR) FOR LEFT: <<<<<<<<<");
-        add("MSG\t4000100 !CAL eye check box: (L,R,T,B)");
+        add("MSG\t4100 !CAL eye check box: (L,R,T,B)");
         add("\t  -80     7   -84     8");
-        add("MSG\t4000200 !CAL VALIDATION HV3 L LEFT  GOOD ERROR 0.31 avg. 0.75 max  OFFSET 0.17 deg. "
+        add("MSG\t4200 !CAL VALIDATION HV3 L LEFT  GOOD ERROR 0.31 avg. 0.75 max  OFFSET 0.17 deg. "
             "6.0,-0.9 pix.");
     }
     for (int trial = 0; trial < example.trials; ++trial) {

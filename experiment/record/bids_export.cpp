@@ -1,0 +1,126 @@
+#include "experiment/record/bids_export.h"
+
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "experiment/content_hash.h"
+#include "experiment/error.h"
+#include "experiment/record/bids_dataset.h"
+#include "experiment/record/bids_events.h"
+#include "experiment/record/bids_gaze.h"
+#include "experiment/record/bids_participants.h"
+#include "experiment/record/partial_directory.h"
+#include "experiment/record/preview_file.h"
+#include "experiment/record/row_writer.h"
+
+namespace fs = std::filesystem;
+
+namespace overt {
+namespace {
+
+/// Puts pictures of stimuli into the staged dataset when they are first named.
+class Stimuli {
+  public:
+    Stimuli(const SessionRecord& record, const fs::path& staged, const fs::path& dataset,
+            const BidsNames& names)
+        : record_(record), staged_(staged), dataset_(dataset), task_(names.task) {}
+
+    /// Its path under «stimuli», or empty.
+    const std::string& file_of(const Condition& condition) {
+        const auto known = files_.find(condition);
+        return known != files_.end() ? known->second : files_[condition] = put(condition);
+    }
+
+  private:
+    std::string put(const Condition& condition) const {
+        const fs::path from = record_.directory() / preview_file(record_.header(), condition);
+        if (!fs::is_regular_file(from))
+            return {};
+        const std::string hash = hash_of_file(from);
+        std::string name = fmt::format("{}/{}", task_, from.filename().string());
+        // Another session may have shown something else under this name.
+        if (const fs::path there = dataset_ / "stimuli" / name;
+            fs::exists(there) && hash_of_file(there) != hash)
+            name = fmt::format("{}/{}_{}{}", task_, from.stem().string(), hash.substr(0, 8),
+                               from.extension().string());
+        const fs::path to = staged_ / "stimuli" / name;
+        std::error_code error;
+        fs::create_directories(to.parent_path(), error);
+        if (!error && !fs::exists(to))
+            fs::copy_file(from, to, error);
+        if (error)
+            throw RecordError(fmt::format("{}: cannot be written: {}. Check the disk's space.", to.string(),
+                                          error.message()));
+        return name;
+    }
+
+    const SessionRecord& record_;
+    const fs::path staged_, dataset_;
+    const std::string task_;
+    std::map<Condition, std::string> files_;
+};
+
+} // namespace
+
+BidsExportCounts export_bids(const SessionRecord& record, const LookupFor& lookup_for,
+                             const fs::path& dataset, const BidsExportOptions& options) {
+    const BidsNames names(record.header());
+    check_bids_dataset(dataset, names, options.overwrite);
+    const bool is_new = !fs::exists(dataset) || fs::is_empty(dataset);
+    PartialDirectory staged(dataset);
+    const fs::path raw = staged.path() / names.folder();
+    const fs::path derived = staged.path() / "derivatives" / "overt" / names.folder();
+    fs::create_directories(raw);
+    if (!record.header().stimuli.empty())
+        fs::create_directories(derived);
+    Stimuli stimuli(record, staged.path(), dataset, names);
+    std::set<int> runs;
+    for (const TrialRecord& trial : record.trials())
+        runs.insert(trial.sitting);
+    if (runs.empty())
+        throw InputError(
+            fmt::format("{}: has no trials: there is nothing to export.", record.directory().string()));
+
+    BidsExportCounts counts;
+    for (const int run : runs) {
+        const std::optional<SessionTime> zero = bids_zero(record, run);
+        write_bids_events(
+            record, run, zero, [&](const Condition& condition) { return stimuli.file_of(condition); },
+            raw / (names.run_stem(run) + "_events"));
+        const BidsGazeCounts gaze = write_bids_gaze(record, run, lookup_for, raw, derived);
+        if (gaze.samples == 0)
+            counts.remarks.push_back(fmt::format("Run {} has no gaze samples, only events.", run));
+        else if (!zero)
+            counts.remarks.push_back(
+                fmt::format("The tracker's clock was never read in run {}: nothing relates the "
+                            "times of its gaze and its events.",
+                            run));
+        counts.samples += gaze.samples;
+        counts.rows += gaze.rows;
+        counts.bytes += gaze.bytes;
+        counts.recordings += gaze.recordings;
+        ++counts.runs;
+        if (options.progress)
+            options.progress(counts.runs, static_cast<int>(runs.size()));
+    }
+    if (is_new) {
+        describe_bids_dataset(staged.path(), record.header());
+        for (std::string& remark : add_bids_participant(staged.path(), record))
+            counts.remarks.push_back(std::move(remark));
+        std::error_code error;
+        fs::remove(dataset, error); // an empty folder
+        staged.publish();
+    } else {
+        const SessionLock lock(dataset);
+        check_bids_dataset(dataset, names, options.overwrite);
+        merge_into_bids_dataset(staged.path(), dataset, names);
+        describe_bids_dataset(dataset, record.header());
+        for (std::string& remark : add_bids_participant(dataset, record))
+            counts.remarks.push_back(std::move(remark));
+    }
+    return counts;
+}
+
+} // namespace overt

@@ -1,0 +1,32 @@
+/// Names of the files of a session in a BIDS dataset.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "experiment/record/session_header.h"
+
+namespace overt {
+
+inline constexpr std::string_view bids_version = "1.11.1";
+
+/// One sitting of a session: a run, for the tracker's clock may have begun anew with it.
+struct BidsNames {
+    std::string subject; ///< «07» of sub-07
+    std::string session; ///< «01» of ses-01
+    std::string task;    ///< letters and digits of the protocol's name
+
+    explicit BidsNames(const SessionHeader& header);
+
+    /// sub-07/ses-01/beh
+    std::filesystem::path folder() const;
+    /// sub-07_ses-01_task-name_
+    std::string task_stem() const;
+    /// sub-07_ses-01_task-name_run-01
+    std::string run_stem(int run) const;
+    /// The same with _recording-eye1; eyes count from 1.
+    std::string eye_stem(int run, int eye) const;
+};
+
+} // namespace overt
