@@ -18,11 +18,9 @@ struct Benchmark {
     BenchFigures (*measure)(const BenchOptions&);
 };
 
-constexpr Benchmark benchmarks[] = {{"lut", bench_lut},
-                                    {"reproject", bench_reproject},
-                                    {"present", bench_present},
-                                    {"frames", bench_frames},
-                                    {"bake", bench_bake}};
+constexpr Benchmark benchmarks[] = {{"lut", bench_lut},         {"reproject", bench_reproject},
+                                    {"present", bench_present}, {"frames", bench_frames},
+                                    {"bake", bench_bake},       {"export", bench_export}};
 
 } // namespace
 

@@ -31,5 +31,7 @@ BenchFigures bench_frames(const BenchOptions& options);
 /// A baked frame of each material: its time beside that of its rays, its errors against many samples, and
 /// what a whole bake takes.
 BenchFigures bench_bake(const BenchOptions& options);
+/// Exports and imports: their speed, and their memory on a session and on one four times as long.
+BenchFigures bench_export(const BenchOptions& options);
 
 } // namespace overt

@@ -46,9 +46,10 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
             "time, packing and memory, and the timing of presentations on displays whose faults are known; "
             "frames: ready-made frames from files to the frame store; "
             "bake: a frame of each material, its time beside that of its rays, its errors, and the hours "
-            "of a whole bake")
+            "of a whole bake; "
+            "export: exports and imports, their speed, and their memory as sessions grow")
         ->required()
-        ->check(CLI::IsMember({"lut", "reproject", "present", "frames", "bake"}));
+        ->check(CLI::IsMember({"lut", "reproject", "present", "frames", "bake", "export"}));
     command
         .add_option("--mesh", options.mesh,
                     "Measure on this mesh (PLY, OBJ, STL) instead of the shipped sculptures")

@@ -4,3 +4,10 @@ if(OVERT_SANITIZE)
     add_compile_options(-fsanitize=${OVERT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     add_link_options(-fsanitize=${OVERT_SANITIZE})
 endif()
+
+# -DOVERT_FUZZ=ON, with clang: everything is instrumented for the fuzzers in tests/fuzz.
+if(OVERT_FUZZ)
+    add_compile_options(-fsanitize=fuzzer-no-link,address,undefined -fno-omit-frame-pointer
+                        -fno-sanitize-recover=all)
+    add_link_options(-fsanitize=address,undefined)
+endif()

@@ -49,6 +49,9 @@ AscLayout layout_of(const SessionRecord& record, int sitting, SessionRecord::Eye
             layout.px_per_deg_y = source->px_per_deg_y;
         }
     }
+    constexpr double usual_rate_hz = 1000.0;
+    if (!(layout.rate_hz >= 1.0))
+        layout.rate_hz = usual_rate_hz;
     return layout;
 }
 

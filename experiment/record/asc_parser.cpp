@@ -57,7 +57,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 } // namespace
 
 std::optional<std::int64_t> asc_time_us(std::string_view text) {
-    constexpr std::int64_t latest_ms = 1'000'000'000'000; // 31 years
+    constexpr std::int64_t latest_ms = 900'000'000'000; // 28 years
     std::int64_t ms = 0;
     const char* const last = text.data() + text.size();
     auto [end, error] = std::from_chars(text.data(), last, ms);
@@ -217,7 +217,7 @@ void AscParser::message_line(std::string_view line) {
         const std::optional<double> rate_hz = number_of(setup.next());
         setup.next(), setup.next();
         const std::string_view eyes = setup.next();
-        if (rate_hz && *rate_hz > 0.0 && *rate_hz <= 100'000.0)
+        if (rate_hz && *rate_hz >= 1.0 && *rate_hz <= 100'000.0)
             format_.rate_hz = *rate_hz;
         if (eyes == "L" || eyes == "R" || eyes == "LR") {
             format_.has_left = eyes != "R";
@@ -337,7 +337,7 @@ void AscParser::samples_layout(std::string_view line) {
         if (word != "RATE")
             continue;
         const std::optional<double> rate_hz = number_of(words.next());
-        if (rate_hz && *rate_hz > 0.0 && *rate_hz <= 100'000.0)
+        if (rate_hz && *rate_hz >= 1.0 && *rate_hz <= 100'000.0)
             format_.rate_hz = *rate_hz;
         else
             bad("a sampling rate that is none", line);

@@ -17,16 +17,15 @@ std::optional<ScreenPoint> read_place(Query& row) {
 }
 
 std::int64_t microseconds(TrackerTime time) { return time.time_since_epoch().count(); }
-TrackerTime read_time(Query& row) { return TrackerTime(TrackerClock::duration(row.integer())); }
 
 GazeEvent read_event(Query& row) {
     GazeEvent event;
     event.kind = gaze_event_kind(row.text()).value_or(GazeEvent::Kind::note);
     if (const std::optional<int> eye = row.optional_small())
         event.eye = *eye == 0 ? Eye::left : Eye::right;
-    event.start = read_time(row);
-    event.end = read_time(row);
-    event.duration = TrackerClock::duration(row.integer());
+    event.start = row.tracker_time();
+    event.end = row.tracker_time();
+    event.duration = row.tracker_time().time_since_epoch();
     event.place = read_place(row);
     event.arrival = read_place(row);
     event.pupil = row.optional_real();

@@ -93,7 +93,8 @@ void read_blocks(const SQLite::Database& database, SessionHeader& header) {
         header.blocks.push_back(row.text());
     std::size_t trial = 0;
     for (Query row(database, "SELECT block FROM schedule ORDER BY trial"); row.step(); ++trial)
-        header.schedule.trials.at(trial).block = row.small();
+        if (trial < header.schedule.trials.size())
+            header.schedule.trials[trial].block = row.small();
     for (Query row(database, "SELECT name, text, sha256 FROM protocol_file ORDER BY n"); row.step();)
         header.protocol.included.push_back({row.text(), row.text(), row.text()});
 }

@@ -6,6 +6,7 @@
 
 #include "experiment/error.h"
 #include "experiment/record/gaze_rows.h"
+#include "experiment/record/header_checks.h"
 #include "experiment/record/header_rows.h"
 #include "experiment/record/session_file.h"
 #include "experiment/record/session_schema.h"
@@ -90,7 +91,7 @@ FlipRecord read_flip(Query& row, int trial) {
 
 GazeSample read_sample(Query& row) {
     GazeSample sample;
-    sample.sampled_at = TrackerTime(TrackerClock::duration(row.integer()));
+    sample.sampled_at = row.tracker_time();
     sample.eye = row.small() == 0 ? Eye::left : Eye::right;
     const auto x_px = row.optional_real(), y_px = row.optional_real();
     if (x_px && y_px)
@@ -158,6 +159,7 @@ SessionRecord::SessionRecord(const std::filesystem::path& session)
                 trial.trial.block = header_.schedule.trials[planned].block;
         }
     });
+    check_header(header_, file_);
     check_indices(header_, trials_, file_);
 }
 SessionRecord::~SessionRecord() = default;
@@ -236,8 +238,8 @@ SessionRecord::sample_span(const TrialRecord& trial) const {
         row.bind(1, trial.id);
         if (!row.step() || row.integer() == 0)
             return std::nullopt;
-        const TrackerTime first{TrackerClock::duration(row.integer())};
-        return std::pair{first, TrackerTime(TrackerClock::duration(row.integer()))};
+        const TrackerTime first = row.tracker_time();
+        return std::pair{first, row.tracker_time()};
     });
 }
 
@@ -316,7 +318,7 @@ std::vector<ClockPair> SessionRecord::clock_pairs(int sitting) const {
         row.bind(1, sitting);
         while (row.step())
             pairs.push_back(
-                {row.session_time(), TrackerTime(TrackerClock::duration(row.integer())), row.session_time()});
+                {row.session_time(), row.tracker_time(), row.session_time()});
         return pairs;
     });
 }

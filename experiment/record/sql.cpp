@@ -57,6 +57,23 @@ bool Query::step() {
 
 std::int64_t Query::integer() { return sqlite3_column_int64(statement_.get(), column_++); }
 
+SessionTime Query::session_time() {
+    constexpr std::int64_t farthest_ns = 1'000'000'000'000'000'000; // 31 years
+    const std::int64_t ns = integer();
+    if (ns > farthest_ns || ns < -farthest_ns)
+        throw RecordError(fmt::format("the session file holds a time of {} ns: it is damaged.", ns));
+    return SessionTime(SessionDuration(ns));
+}
+
+TrackerTime Query::tracker_time() {
+    constexpr std::int64_t farthest_us = 1'000'000'000'000'000; // 31 years
+    const std::int64_t us = integer();
+    if (us > farthest_us || us < -farthest_us)
+        throw RecordError(
+            fmt::format("the session file holds a tracker's time of {} us: it is damaged.", us));
+    return TrackerTime(TrackerClock::duration(us));
+}
+
 double Query::real() { return sqlite3_column_double(statement_.get(), column_++); }
 
 std::string Query::text() {

@@ -68,7 +68,9 @@ class Query {
     int small() { return static_cast<int>(integer()); }
     double real();
     std::string text();
-    SessionTime session_time() { return SessionTime(SessionDuration(integer())); }
+    /// Throw RecordError for times that are centuries away: differences of any two must be times, too.
+    SessionTime session_time();
+    TrackerTime tracker_time();
     /// Nothing if NULL.
     std::optional<double> optional_real();
     std::optional<int> optional_small();

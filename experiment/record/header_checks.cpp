@@ -1,0 +1,72 @@
+#include "experiment/record/header_checks.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "experiment/error.h"
+
+namespace overt {
+namespace {
+
+/// Finite, too.
+bool is_within(double number, double least, double most) { return number >= least && number <= most; }
+
+bool is_screen(const ScreenGeometry& screen) {
+    constexpr int most_px = 100'000;
+    constexpr double most_mm = 1e6;
+    const auto are_pixels = [](glm::ivec2 px) {
+        return px.x > 0 && px.x <= most_px && px.y > 0 && px.y <= most_px;
+    };
+    return are_pixels(screen.screen_px) && are_pixels(screen.image_px) &&
+           std::abs(static_cast<std::int64_t>(screen.image_origin_px.x)) <= most_px &&
+           std::abs(static_cast<std::int64_t>(screen.image_origin_px.y)) <= most_px &&
+           is_within(screen.screen_mm.x, 0.0, most_mm) && is_within(screen.screen_mm.y, 0.0, most_mm) &&
+           is_within(screen.viewing_distance_mm, 0.0, most_mm);
+}
+
+/// A presentation must be one that can be laid out refresh by refresh.
+bool is_animation(const Animation& animation, double refresh_hz) {
+    constexpr double most_refreshes = 1e7;
+    return is_within(refresh_hz, 0.0, 1e5) && is_within(animation.frame_rate_hz, 1e-3, 1e5) &&
+           is_within(animation.duration_s, 0.0, 1e6) && is_within(animation.amplitude.value, -1e6, 1e6) &&
+           is_within(animation.frame_count, 1, 1e6) && animation.duration_s * refresh_hz <= most_refreshes &&
+           animation.duration_s * animation.frame_rate_hz <= most_refreshes &&
+           animation.frame_count / animation.frame_rate_hz * refresh_hz <= most_refreshes;
+}
+
+bool is_pose_table(const PoseTable& poses) {
+    return !poses.angles.empty() &&
+           std::all_of(poses.of_frame.begin(), poses.of_frame.end(), [&](PoseIndex pose) {
+               return pose.value >= 0 && static_cast<std::size_t>(pose.value) < poses.angles.size();
+           });
+}
+
+bool is_label(const std::string& label) {
+    return !label.empty() && std::all_of(label.begin(), label.end(), [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0;
+    });
+}
+
+} // namespace
+
+void check_header(const SessionHeader& header, const std::filesystem::path& file) {
+    constexpr std::chrono::hours longest_latency{1};
+    const auto demand = [&](bool holds, std::string_view what) {
+        if (!holds)
+            throw RecordError(fmt::format("{}: {} of the session cannot be right: the file is damaged.",
+                                          file.string(), what));
+    };
+    demand(is_label(header.schedule.observer.label), "the observer's label");
+    demand(is_screen(header.display.screen), "the screen");
+    demand(is_animation(header.animation, header.display.refresh_hz),
+           "the animation, or the display's refresh rate,");
+    demand(header.display.latency <= longest_latency && header.display.latency >= -longest_latency,
+           "the display's latency");
+    demand(is_within(header.tracker.sample_rate_hz, 0.0, 1e6), "the tracker's rate");
+    demand(is_pose_table(header.poses), "the table of poses");
+}
+
+} // namespace overt

@@ -1,0 +1,41 @@
+#include <set>
+
+#include <catch2/catch.hpp>
+
+#include "fuzz/inputs.h"
+
+namespace {
+
+std::string bytes_of(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+int replay(const char* target, void (*take)(std::string_view)) {
+    const std::filesystem::path corpus =
+        std::filesystem::path(OVERT_SOURCE_DIR) / "tests/fuzz/corpus" / target;
+    std::set<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(corpus))
+        files.insert(entry.path());
+    for (const std::filesystem::path& file : files) {
+        INFO(file.string());
+        const std::string bytes = bytes_of(file);
+        CHECK_NOTHROW(take(bytes));
+        CHECK_NOTHROW(take(std::string_view(bytes).substr(0, bytes.size() / 2)));
+    }
+    return static_cast<int>(files.size());
+}
+
+} // namespace
+
+TEST_CASE("protocols that fuzzers found worth keeping are read or refused", "[unit]") {
+    CHECK(replay("protocol", overt::fuzz::take_protocol) > 0);
+}
+
+TEST_CASE("EyeLink recordings that fuzzers found worth keeping are imported or refused", "[unit]") {
+    CHECK(replay("asc", overt::fuzz::take_asc) > 0);
+}
+
+TEST_CASE("session files that fuzzers found worth keeping are exported or refused", "[unit]") {
+    CHECK(replay("session", overt::fuzz::take_session) > 0);
+}

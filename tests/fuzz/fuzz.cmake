@@ -1,0 +1,11 @@
+# Fuzzers of what comes from outside, for clang: cmake -DOVERT_FUZZ=ON -DCMAKE_CXX_COMPILER=clang++. See fuzz/run.
+option(OVERT_FUZZ "Build the fuzzers with libFuzzer, AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+if(OVERT_FUZZ)
+    foreach(target protocol asc session)
+        add_executable(fuzz_${target} fuzz/fuzz_${target}.cpp)
+        target_include_directories(fuzz_${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+        target_link_libraries(fuzz_${target} PRIVATE overt_experiment overt_record overt_warnings)
+        target_link_options(fuzz_${target} PRIVATE -fsanitize=fuzzer)
+    endforeach()
+    add_custom_target(fuzzers DEPENDS fuzz_protocol fuzz_asc fuzz_session)
+endif()
