@@ -10,11 +10,14 @@ namespace overt {
 
 namespace {
 
-/// IEC 61966-2-1, of a value cut to 0 … 1.
-double srgb_of(double linear) {
-    const double v = std::clamp(linear, 0.0, 1.0);
-    return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
+glm::dvec3 xyz_of_rec709(glm::dvec3 rgb) {
+    static const glm::dmat3 matrix = glm::inverse(glm::dmat3(
+        rec709_of_xyz({1.0, 0.0, 0.0}), rec709_of_xyz({0.0, 1.0, 0.0}), rec709_of_xyz({0.0, 0.0, 1.0})));
+    return matrix * rgb;
 }
+
+/// IEC 61966-2-1.
+double srgb_of(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055; }
 
 } // namespace
 
@@ -24,16 +27,17 @@ PictureError picture_error(const SpectralFrame& frame, const SpectralFrame& refe
     for (std::size_t pixel = 0; pixel < ours.pixels.size(); ++pixel) {
         if (reference.alpha[pixel] < 0.5f)
             continue;
-        const auto light = [&](const LinearImage& image) {
-            return exposure * static_cast<double>(image.pixels[pixel].w) * glm::dvec3(image.pixels[pixel]);
+        // What an sRGB display shows of it.
+        const auto shown = [&](const LinearImage& image) {
+            const double scale = exposure * static_cast<double>(image.pixels[pixel].w);
+            return glm::clamp(rec709_of_xyz(scale * glm::dvec3(image.pixels[pixel])), 0.0, 1.0);
         };
-        const glm::dvec3 one = light(ours), other = light(better);
-        const glm::dvec3 one_rgb = rec709_of_xyz(one), other_rgb = rec709_of_xyz(other);
+        const glm::dvec3 one = shown(ours), other = shown(better);
         for (int channel = 0; channel < 3; ++channel) {
-            const double difference = srgb_of(one_rgb[channel]) - srgb_of(other_rgb[channel]);
+            const double difference = srgb_of(one[channel]) - srgb_of(other[channel]);
             squares += difference * difference / 3.0;
         }
-        delta_e += glm::distance(lab_of_xyz(one), lab_of_xyz(other));
+        delta_e += glm::distance(lab_of_xyz(xyz_of_rec709(one)), lab_of_xyz(xyz_of_rec709(other)));
         count += 1.0;
     }
     return {-10.0 * std::log10(squares / count), delta_e / count};

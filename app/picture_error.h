@@ -6,11 +6,12 @@
 namespace overt {
 
 struct PictureError {
-    double srgb_psnr_db = 0.0; ///< of sRGB values cut to 0 … 1
-    double mean_delta_e = 0.0; ///< CIE 1976, nothing cut off
+    double srgb_psnr_db = 0.0;
+    double mean_delta_e = 0.0; ///< CIE 1976
 };
 
-/// Over the pixels of the figure (alpha of the reference at least 1/2), with the light times `exposure`.
+/// Of what an sRGB display shows, linear light cut to 0 … 1: over the pixels of the figure (alpha of the
+/// reference at least 1/2), with the light times `exposure`.
 PictureError picture_error(const SpectralFrame& frame, const SpectralFrame& reference, double exposure);
 
 /// Factor on a frame's light with which a share of the figure's pixels stays below 1 in all channels of
