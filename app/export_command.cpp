@@ -69,7 +69,7 @@ void export_as_bids(const ExportOptions& options, const SessionRecord& record) {
     bar.finish();
     for (const std::string& remark : counts.remarks)
         fmt::print("{}\n", remark);
-    fmt::print("{} runs, {} recordings of an eye, {} samples\ndataset: {}\n", counts.runs, counts.recordings,
+    fmt::print("runs: {}, recordings of an eye: {}, samples: {}\ndataset: {}\n", counts.runs, counts.recordings,
                counts.samples, out.string());
 }
 
