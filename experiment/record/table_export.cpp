@@ -171,7 +171,8 @@ void TableExport::close() {
 
 std::vector<std::string> file_names(const SessionHeader& header, TableFormat format) {
     std::vector<std::string> names{dictionary_file};
-    for (const Table* table : ExportTables(header).all())
+    const ExportTables tables(header);
+    for (const Table* table : tables.all())
         names.push_back(fmt::format("{}.{}", table->name, ending_of(format)));
     return names;
 }
