@@ -33,7 +33,7 @@ TEST_CASE("protocols that fuzzers found worth keeping are read or refused", "[un
 }
 
 TEST_CASE("EyeLink recordings that fuzzers found worth keeping are imported or refused", "[unit]") {
-    CHECK(replay("asc", overt::fuzz::take_asc) > 0);
+    CHECK(replay("asc", [](std::string_view bytes) { overt::fuzz::take_asc(bytes); }) > 0);
 }
 
 TEST_CASE("session files that fuzzers found worth keeping are exported or refused", "[unit]") {

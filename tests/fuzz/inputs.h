@@ -4,6 +4,7 @@
 #pragma once
 
 #include <fstream>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -57,8 +58,13 @@ inline void export_all(const std::filesystem::path& session, const std::filesyst
     attempt([&] { export_bids(record, no_surface, to / "bids"); });
 }
 
-inline void take_asc(std::string_view bytes) {
+/// How far an input goes. Each further step takes ten times as long, so a fuzzer takes few of them on, by the
+/// input's own bytes; a replay takes all.
+enum class Depth { by_content, full };
+
+inline void take_asc(std::string_view bytes, Depth depth = Depth::full) {
     const ScratchFolder folder("overt-fuzz");
+    const std::size_t lot = depth == Depth::full ? 0 : std::hash<std::string_view>()(bytes);
     AscImportOptions options;
     options.place = {folder.path(), "fuzz", "1"};
     options.out = folder.path() / "session";
@@ -66,7 +72,13 @@ inline void take_asc(std::string_view bytes) {
     options.viewing_distance_mm = 600.0;
     options.report = [](const std::string&) {};
     try {
-        export_all(import_asc(put(folder, "fuzz.asc", bytes), options).session, folder.path());
+        const std::filesystem::path file = put(folder, "fuzz.asc", bytes);
+        survey_asc(file, options.report);
+        if (lot % 8 != 0)
+            return;
+        const AscImportSummary summary = import_asc(file, options);
+        if (lot % 64 == 0)
+            export_all(summary.session, folder.path());
     } catch (const Error&) {
     }
 }
