@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/answer_equipment.h"
 #include "app/bake_outlook.h"
 #include "app/cache_folder.h"
 #include "app/commands.h"
@@ -12,6 +13,7 @@
 #include "app/protocol_inputs.h"
 #include "app/session_outlook.h"
 #include "app/silhouette_check.h"
+#include "app/text_check.h"
 #include "experiment/protocol/design_report.h"
 #include "experiment/schedule.h"
 
@@ -73,6 +75,9 @@ int run_check(const CheckOptions& options) {
         read_experiment(options.protocol, cache_folder(), InputDepth::everything, diagnostics);
     const std::optional<StimulusFacts> stimuli =
         experiment ? std::optional(look_at_stimuli(*experiment, diagnostics)) : std::nullopt;
+    if (experiment)
+        check_texts(experiment->protocol, diagnostics);
+    const std::string sound = experiment ? check_sound(experiment->protocol, diagnostics) : std::string();
     std::string text;
     if (options.json) {
         nlohmann::ordered_json json = diagnostics.to_json();
@@ -82,6 +87,7 @@ int run_check(const CheckOptions& options) {
             json["silhouettes"] = to_json(stimuli->silhouettes);
             json["on_this_machine"] = to_json(stimuli->on_this_machine);
             json["frame_cost"] = to_json(stimuli->cost);
+            json["spoken_answers"] = sound;
             if (options.frames)
                 json["light"] = to_json(measure_light(*experiment));
         }
@@ -90,12 +96,12 @@ int run_check(const CheckOptions& options) {
         print_findings(diagnostics);
         if (experiment)
             text = to_text(report_on(*experiment, options)) + to_text(stimuli->silhouettes) +
-                   to_text(stimuli->rendering) + to_text(stimuli->on_this_machine);
+                   to_text(stimuli->rendering) + to_text(stimuli->on_this_machine) + sound + "\n";
         if (experiment && options.frames)
             text += to_text(measure_light(*experiment));
     }
     std::fwrite(text.data(), 1, text.size(), stdout);
-    return experiment ? 0 : 2;
+    return diagnostics.error_count() == 0 ? 0 : 2;
 }
 
 } // namespace overt

@@ -74,6 +74,14 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
             "nobody, which refuses a session that lacks a required field")
         ->check(CLI::IsMember({"window", "terminal", "nobody"}))
         ->type_name("WHERE");
+    command
+        .add_option(
+            "--simulate-operator", options.operator_keys,
+            "A key that an operator presses in a simulated observer's session, as "
+            "\"stimulus@3+0.5=skip,2\": the phase, the trial, seconds after the phase began, the key, and "
+            "the answer to the question that follows; once for each key")
+        ->type_name("KEY")
+        ->allow_extra_args(false);
     command.add_flag("--virtual-time", options.virtual_time,
                      "Run as fast as the machine can, on a clock of its own");
     command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");

@@ -41,6 +41,7 @@ struct RunOptions {
     std::optional<std::uint64_t> simulate_observer;
     std::vector<std::string> observer_fields; ///< ID=VALUE
     AskAt ask_at = AskAt::window;
+    std::vector<std::string> operator_keys; ///< of a simulated operator, see read_operator_key()
     ContextChoice context;
     bool virtual_time = false;
     bool windowed = false;

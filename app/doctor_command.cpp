@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <sys/statvfs.h>
 
+#include "app/answer_equipment.h"
 #include "app/cache_folder.h"
 #include "app/commands.h"
 #include "app/photodiode_doctor.h"
@@ -106,6 +107,8 @@ std::vector<Line> examine() {
     }
     add_screens(lines);
     add_instruments(lines);
+    for (const std::string& sound : sound_overview())
+        lines.push_back({"sound device", sound});
     lines.push_back({"processors", fmt::format("{}", std::thread::hardware_concurrency())});
     lines.push_back({"real-time priority", realtime_priority()});
     lines.push_back({"free disk, here", fmt::format("{:.1f} GB", free_gb(std::filesystem::current_path()))});

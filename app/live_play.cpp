@@ -96,8 +96,8 @@ void take_keys(WindowContext& window, const Protocol& protocol, std::span<const 
         case WindowKey::enter:
             wishes.has_ended = true;
             break;
-        case WindowKey::other:
-            break;
+        default:
+            continue;
         }
         wishes.has_changed = true;
     }

@@ -97,10 +97,12 @@ void Rig::open(DisplayFaults faults) {
     tracker_ = std::make_unique<SimulatedEyeTracker>(*clock_, *observer_, request_.seed,
                                                      simulated_tracker_settings(protocol_->tracker));
     if (request_.simulate_observer)
-        simulated_panel_ = std::make_unique<SimulatedResponsePanel>(*clock_, *observer_);
+        simulated_panel_ =
+            std::make_unique<SimulatedResponsePanel>(*clock_, *observer_, request_.operator_keys);
     panel_ = simulated_panel_.get();
     if (window_) {
-        window_panel_ = std::make_unique<WindowResponsePanel>(*window_, *clock_, panel_);
+        window_panel_ = std::make_unique<WindowResponsePanel>(*window_, *clock_, protocol_->operators,
+                                                              protocol_->consent, panel_);
         panel_ = window_panel_.get();
     }
     if (is_on_a_real_screen())

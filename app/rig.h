@@ -26,7 +26,8 @@ struct RigRequest {
     bool simulate_observer = false; ///< else somebody answers at the window's keyboard
     std::uint64_t seed = 0;         ///< of everything simulated
     MapTime maps = MapTime::automatic;
-    std::optional<int> monitor = {}; ///< from 1; see WindowRequest
+    std::optional<int> monitor = {};                     ///< from 1; see WindowRequest
+    std::vector<ScriptedOperatorKey> operator_keys = {}; ///< of a simulated observer's session
 };
 
 /// Whether a session with these options opens a window on this machine.
@@ -70,6 +71,8 @@ class Rig {
     PagePresenter& presenter() { return *presenter_; }
     EyeTracker& tracker() { return *tracker_; }
     ResponsePanel& panel() { return *panel_; }
+    /// Who looks and speaks; also there where somebody real sits, who then is not asked.
+    const SimulatedObserver& simulated_observer() const { return *observer_; }
     /// What keeps the time of a display that is not there, or null.
     const VirtualRefresh* virtual_refresh() const { return virtual_refresh_; }
     /// Those who see what is shown: the simulated observer, the hidden pass if it is live, and the display's

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "app/answer_equipment.h"
 #include "app/cache_folder.h"
 #include "app/commands.h"
 #include "app/display_box_session.h"
@@ -134,10 +135,23 @@ FieldValues fill_in_form(const Protocol& protocol, const RunOptions& options) {
     FieldValues values = values_given(fields, options.observer_fields);
     if (options.simulate_observer)
         simulate_values(fields, values, *options.simulate_observer);
-    else if (options.ask_at == AskAt::terminal && ::isatty(STDIN_FILENO) == 1)
+    const bool has_window = wants_window(options.context), has_terminal = ::isatty(STDIN_FILENO) == 1;
+    const bool asks_in_window = options.ask_at == AskAt::window && has_window && !options.simulate_observer;
+    if (!options.simulate_observer && has_terminal &&
+        (options.ask_at == AskAt::terminal || (options.ask_at == AskAt::window && !has_window)))
         ask_for_values(fields, values, std::cin, std::cerr);
-    require_values(fields, values);
+    if (!asks_in_window)
+        require_values(fields, values);
     return values;
+}
+
+std::vector<ScriptedOperatorKey> operators_keys(const RunOptions& options) {
+    if (!options.operator_keys.empty() && !options.simulate_observer)
+        throw InputError("--simulate-operator is for sessions with --simulate-observer");
+    std::vector<ScriptedOperatorKey> keys;
+    for (const std::string& key : options.operator_keys)
+        keys.push_back(read_operator_key(key));
+    return keys;
 }
 
 void note_thread(const std::vector<ThreadWish>& wishes, const Clock& clock, SessionStore& store) {
@@ -182,7 +196,8 @@ int run_session(const RunOptions& options) {
                        options.simulate_observer.has_value(),
                        options.simulate_observer.value_or(seed),
                        options.maps,
-                       options.monitor};
+                       options.monitor,
+                       operators_keys(options)};
     Rig rig(protocol, sculptures, request, cache_folder());
     say_before(protocol, schedule, rig.context().description(), options);
     say_risks(rig.screen_findings());
@@ -213,6 +228,11 @@ int run_session(const RunOptions& options) {
         recorded_box = box->recorded();
     fmt::print("display box: {}\n", describe(recorded_box));
 
+    AnswerEquipment answers(protocol.answers, rig.clock(),
+                            options.simulate_observer ? &rig.simulated_observer() : nullptr,
+                            options.simulate_observer.value_or(seed));
+    fmt::print("spoken answers: {}\n", answers.description());
+
     SessionHeader header =
         make_session_header(protocol, schedule, sculptures, rig.library(), rig.context().description(),
                             rig.tracker().description(), rig.clock_kind(), !rig.maps_are_live());
@@ -228,7 +248,6 @@ int run_session(const RunOptions& options) {
         box->write_beginning(store);
     else
         store.display_box(recorded_box);
-    store.observer_fields(filled_in(protocol.observer_fields, fields));
     for (const ScreenFinding& finding : rig.screen_findings())
         store.event({rig.clock().now(), -1, "screen", fmt::format("{}: {}", finding.what, finding.finding)});
     if (options.verify_output) {
@@ -236,8 +255,20 @@ int run_session(const RunOptions& options) {
         record_verification(rig.presenter(), rig.library(), protocol, schedule, rig.clock(), store,
                             [&](int done, int total) { bar.update("verifying the output", done, total); });
     }
+    answers.keep_in(directory.path());
+    store.event({rig.clock().now(), -1, "answer recording", answers.description()});
     Session session(protocol, schedule, screen_geometry_of(protocol).centre(),
-                    {rig.clock(), rig.presenter(), rig.tracker(), rig.panel(), store, rig.witnesses()});
+                    {.clock = rig.clock(),
+                     .presenter = rig.presenter(),
+                     .tracker = rig.tracker(),
+                     .panel = rig.panel(),
+                     .log = store,
+                     .witnesses = rig.witnesses(),
+                     .observer = observer.label,
+                     .can_type = !options.simulate_observer && options.ask_at == AskAt::window,
+                     .recorder = answers.recorder(),
+                     .on_level = answers.meter()},
+                    fields);
     TrialProgress progress(protocol, static_cast<int>(schedule.trials.size()));
     note_faults(options.faults, rig.clock(), store);
     note_thread(prepare_thread({options.realtime, options.processor}), rig.clock(), store);

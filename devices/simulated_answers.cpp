@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <span>
 #include <string_view>
@@ -17,6 +18,9 @@ struct AnswersToTask {
 constexpr double answer_log_sd = 0.35, shortest_answer_s = 0.8, longest_answer_s = 45.0;
 constexpr double reading_median_s = 2.5, reading_log_sd = 0.3, shortest_reading_s = 0.8,
                  longest_reading_s = 15.0;
+
+/// From the question to the voice.
+constexpr double voice_median_s = 0.7, voice_log_sd = 0.3, shortest_voice_s = 0.25, longest_voice_s = 3.0;
 
 constexpr AnswersToTask answers[] = {
     {"free", 4.0, {"I have finished.", "I looked all around it.", "Done.", "A figure, turning slowly."}},
@@ -57,7 +61,13 @@ SimulatedAnswer SimulatedObserver::answer_to(const Trial& trial) const {
         log_normal_within(random, to_task.median_s, answer_log_sd, shortest_answer_s, longest_answer_s);
     const std::string_view text =
         to_task.texts[random.below(static_cast<std::uint32_t>(to_task.texts.size()))];
-    return {from_seconds(after_s), std::string(text)};
+    // Streams of their own, so that a voice moves no key.
+    RandomStream spoken(seed_, "voice", static_cast<std::uint64_t>(trial.index));
+    const double voice_s =
+        std::min(log_normal_within(spoken, voice_median_s, voice_log_sd, shortest_voice_s, longest_voice_s),
+                 0.5 * after_s);
+    return {from_seconds(after_s), from_seconds(voice_s),
+            from_seconds(std::max(voice_s + 0.2, after_s - 0.3)), std::string(text)};
 }
 
 SessionDuration SimulatedObserver::reading_time(int count) const {

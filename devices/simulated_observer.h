@@ -35,7 +35,8 @@ struct GazeTruth {
 
 /// What an observer answers, and how long after the question.
 struct SimulatedAnswer {
-    SessionDuration after{};
+    SessionDuration after{};                      ///< when the key is pressed
+    SessionDuration voice_after{}, voice_until{}; ///< when it is spoken
     std::string text;
 };
 

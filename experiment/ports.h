@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,7 +13,9 @@
 #include "experiment/flip_report.h"
 #include "experiment/gaze.h"
 #include "experiment/observer_field.h"
+#include "experiment/session_phase.h"
 #include "experiment/session_time.h"
+#include "experiment/sitting_rows.h"
 #include "experiment/trial.h"
 #include "experiment/units.h"
 
@@ -38,9 +41,14 @@ class Clock {
 
 /// A screen that is not a stimulus.
 struct Screen {
-    enum class Kind : std::uint8_t { blank, text, drift_target };
+    enum class Kind : std::uint8_t {
+        blank,
+        text,
+        form, ///< a text whose lines begin below each other instead of being centred
+        drift_target
+    };
     Kind kind = Kind::blank;
-    std::string text; ///< UTF-8, for Kind::text; paragraphs split by newlines
+    std::string text; ///< UTF-8, for text and form; paragraphs split by newlines
 };
 
 /// How the display shows things: known once the presenter is open.
@@ -132,13 +140,32 @@ class EyeTracker {
 struct ResponsePress {
     enum class Key : std::uint8_t {
         next,
-        abort, ///< the session ends
-        reject ///< the operator rejects the trial that is running
+        back,
+        // Of a decision.
+        yes,
+        no,
+        // Of an entry; digits of a decision, too, are characters.
+        character,
+        erase,
+        up,
+        down,
+        left,
+        right,
+        // The operator's.
+        pause,
+        recalibrate,
+        repeat, ///< the trial that is running, at once
+        reject, ///< the same, when the protocol says
+        skip,   ///< it for good
+        abort,  ///< the session
     };
     Key key = Key::next;
     SessionTime pressed_at;
+    char32_t character = 0;
 };
+constexpr bool is_operators(ResponsePress::Key key) { return key >= ResponsePress::Key::pause; }
 
+/// Keys that the operator pressed are never forgotten, whatever is waited for.
 class ResponsePanel {
   public:
     virtual ~ResponsePanel() = default;
@@ -146,10 +173,39 @@ class ResponsePanel {
     virtual void await_key(SessionTime since) = 0;
     /// The question of a trial is to be answered from now on. Forgets earlier presses.
     virtual void await_response(const Trial& trial, SessionTime since) = 0;
-    /// The next press, if there was one.
+    /// Yes or no, or a digit. `is_consent`: the observer decides whether to take part, else the operator.
+    /// Forgets earlier presses.
+    virtual void await_decision(bool is_consent, SessionTime since) = 0;
+    /// A form is being filled in: keys of letters are letters. Forgets earlier presses.
+    virtual void await_entry(SessionTime since) = 0;
+    /// The next press, if there was one. Allocates and throws nothing: it is called during presentations.
     virtual std::optional<ResponsePress> poll() noexcept = 0;
     /// What was said or typed in answer, once the press has come; empty if the panel takes none.
     virtual std::string answer() = 0;
+    /// The session has come to this phase; `trial` is -1 outside of trials.
+    virtual void entered(SessionPhase /*phase*/, int /*trial*/) noexcept {}
+};
+
+/// A spoken answer that is being recorded, with all that belongs to it: nothing is shared with the one before
+/// or after. No call waits for the sound device or the disk.
+class AnswerRecording {
+  public:
+    virtual ~AnswerRecording() = default;
+    /// The response screen was lit; to be told once, after the recording has begun.
+    virtual void response_screen_lit(SessionTime onset) noexcept = 0;
+    virtual AudioLevel level() const noexcept = 0;
+    /// What is said up to then belongs to it.
+    virtual void end(SessionTime at) noexcept = 0;
+    /// What became of it, once its file is complete; some time after end().
+    virtual std::optional<RecordedAnswer> result() = 0;
+};
+
+/// Where spoken answers go.
+class AnswerRecorder {
+  public:
+    virtual ~AnswerRecorder() = default;
+    /// Begins now. One at a time.
+    virtual std::unique_ptr<AnswerRecording> begin(const Trial& trial) = 0;
 };
 
 /// What happened, besides flips and samples.
@@ -184,6 +240,9 @@ class SessionLog {
     virtual void event(const SessionEvent& event) = 0;
     /// What the observer filled in; replaces what was noted before.
     virtual void observer_fields(const std::vector<RecordedObserverField>& /*fields*/) {}
+    virtual void consent(const RecordedConsent& /*consent*/) {}
+    /// Of the attempt that was started last.
+    virtual void answer_recorded(const RecordedAnswer& /*answer*/) {}
     virtual void trial_started(const Trial& trial, SessionTime at) = 0;
     /// All of the trial's rows are on disk when this returns.
     virtual void trial_finished(const Trial& trial, const TrialOutcome& outcome) = 0;

@@ -6,7 +6,7 @@
 
 #include "experiment/error.h"
 #include "experiment/protocol/protocol_keys.h"
-#include "render/text_layout.h"
+#include "render/screen_text.h"
 
 namespace overt {
 
@@ -187,13 +187,9 @@ FlipReport PagePresenter::show(const Screen& screen) {
     const float background = static_cast<float>(display_.background),
                 grey = static_cast<float>(screens_.text_grey);
     LinearImage picture;
-    if (screen.kind == Screen::Kind::text && !screen.text.empty()) {
-        TextStyle style;
-        style.line_height_px = std::max(8, static_cast<int>(screens_.text_height_deg * px_per_deg));
-        style.wrap_width_px = static_cast<int>(0.8 * geometry_.screen_px.x);
-        style.grey = grey;
-        style.background = background;
-        picture = draw_text(screen.text, style);
+    const bool is_form = screen.kind == Screen::Kind::form;
+    if ((screen.kind == Screen::Kind::text || is_form) && !screen.text.empty()) {
+        picture = draw_screen_text(screen.text, is_form, geometry_, screens_, display_.background);
     } else if (screen.kind == Screen::Kind::drift_target) {
         picture = draw_fixation_target(fixation_target_deg * px_per_deg, grey, background);
     }

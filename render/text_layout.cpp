@@ -1,5 +1,6 @@
 #include "render/text_layout.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -69,12 +70,34 @@ Layout lay_out(cairo_t* cairo, const std::string& text, const TextStyle& style) 
 
 int even(int size) { return (size + 1) & ~1; }
 
+void require_utf8(const std::string& text) {
+    if (!g_utf8_validate(text.data(), static_cast<gssize>(text.size()), nullptr))
+        throw InputError(fmt::format("a text to be shown is not UTF-8: «{:.40}»", text));
+}
+
 } // namespace
 
-LinearImage draw_text(const std::string& text, const TextStyle& style) {
-    if (!g_utf8_validate(text.data(), static_cast<gssize>(text.size()), nullptr)) {
-        throw InputError(fmt::format("a text to be shown is not UTF-8: «{:.40}»", text));
+TextMeasure measure_text(const std::string& text, const TextStyle& style) {
+    require_utf8(text);
+    CoverageSurface measuring({1, 1});
+    const Layout layout = lay_out(measuring.cairo(), text, style);
+    TextMeasure measure;
+    PangoRectangle extent{};
+    pango_layout_get_pixel_extents(layout.get(), nullptr, &extent);
+    measure.size_px = {even(extent.width + 4), even(extent.height + 4)};
+    measure.lines = pango_layout_get_line_count(layout.get());
+    measure.unknown_glyphs = pango_layout_get_unknown_glyphs_count(layout.get());
+    for (int line = 0; line < measure.lines; ++line) {
+        PangoRectangle of_line{};
+        pango_layout_line_get_pixel_extents(pango_layout_get_line_readonly(layout.get(), line), nullptr,
+                                            &of_line);
+        measure.widest_line_px = std::max(measure.widest_line_px, of_line.width);
     }
+    return measure;
+}
+
+LinearImage draw_text(const std::string& text, const TextStyle& style) {
+    require_utf8(text);
     CoverageSurface measuring({1, 1});
     PangoRectangle extent{};
     const Layout measured = lay_out(measuring.cairo(), text, style);

@@ -15,6 +15,15 @@ struct TextStyle {
     bool centred = true;
 };
 
+/// What a text comes out as.
+struct TextMeasure {
+    glm::ivec2 size_px{0};
+    int lines = 0;
+    int widest_line_px = 0;
+    int unknown_glyphs = 0; ///< characters that no font of this machine has; boxes stand for them
+};
+TextMeasure measure_text(const std::string& text, const TextStyle& style);
+
 /// UTF-8 text in any script, wrapped between words. The picture is as large as the text needs, at most
 /// wrap_width_px wide; its width is even. Alpha is the letters' coverage. Throws InputError if the text is
 /// not UTF-8.

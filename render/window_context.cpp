@@ -203,21 +203,50 @@ struct WindowContext::State {
         static_cast<State*>(glfwGetWindowUserPointer(window))->dragging.wheel_steps += steps;
     }
 
-    static void on_key(GLFWwindow* window, int key, int, int action, int) {
-        if (action != GLFW_PRESS)
-            return;
-        auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
-        if (state.count == state.presses.size())
-            return;
-        const WindowKey pressed = key == GLFW_KEY_SPACE    ? WindowKey::space
-                                  : key == GLFW_KEY_ENTER  ? WindowKey::enter
-                                  : key == GLFW_KEY_ESCAPE ? WindowKey::escape
-                                  : key == GLFW_KEY_LEFT   ? WindowKey::left
-                                  : key == GLFW_KEY_RIGHT  ? WindowKey::right
-                                  : key == GLFW_KEY_UP     ? WindowKey::up
-                                  : key == GLFW_KEY_DOWN   ? WindowKey::down
-                                                           : WindowKey::other;
-        state.presses[(state.first + state.count++) % state.presses.size()] = {pressed};
+    static WindowKey key_of(int key, int modifiers) {
+        if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12)
+            return static_cast<WindowKey>(static_cast<int>(WindowKey::f1) + key - GLFW_KEY_F1);
+        switch (key) {
+        case GLFW_KEY_SPACE:
+            return WindowKey::space;
+        case GLFW_KEY_ENTER:
+        case GLFW_KEY_KP_ENTER:
+            return WindowKey::enter;
+        case GLFW_KEY_ESCAPE:
+            return WindowKey::escape;
+        case GLFW_KEY_LEFT:
+            return WindowKey::left;
+        case GLFW_KEY_RIGHT:
+            return WindowKey::right;
+        case GLFW_KEY_UP:
+            return WindowKey::up;
+        case GLFW_KEY_DOWN:
+            return WindowKey::down;
+        case GLFW_KEY_TAB:
+            return (modifiers & GLFW_MOD_SHIFT) != 0 ? WindowKey::back_tab : WindowKey::tab;
+        case GLFW_KEY_BACKSPACE:
+            return WindowKey::backspace;
+        case GLFW_KEY_PAUSE:
+            return WindowKey::pause;
+        default:
+            return WindowKey::other;
+        }
+    }
+
+    void push(const WindowKeyPress& press) {
+        if (count < presses.size())
+            presses[(first + count++) % presses.size()] = press;
+    }
+
+    static void on_key(GLFWwindow* window, int key, int, int action, int modifiers) {
+        if (action != GLFW_RELEASE)
+            static_cast<State*>(glfwGetWindowUserPointer(window))
+                ->push({key_of(key, modifiers), 0, action == GLFW_REPEAT});
+    }
+
+    static void on_character(GLFWwindow* window, unsigned character) {
+        static_cast<State*>(glfwGetWindowUserPointer(window))
+            ->push({WindowKey::character, static_cast<char32_t>(character)});
     }
 };
 
@@ -255,6 +284,7 @@ WindowContext::WindowContext(const WindowRequest& request) : state_(std::make_un
     glfwSetFramebufferSizeCallback(state_->window, &State::on_size);
     glfwSetWindowPosCallback(state_->window, &State::on_position);
     glfwSetKeyCallback(state_->window, &State::on_key);
+    glfwSetCharCallback(state_->window, &State::on_character);
     glfwGetCursorPos(state_->window, &state_->pointer_px.x, &state_->pointer_px.y);
     glfwSetCursorPosCallback(state_->window, &State::on_pointer);
     glfwSetScrollCallback(state_->window, &State::on_wheel);

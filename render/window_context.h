@@ -24,10 +24,38 @@ struct WindowRequest {
     std::optional<int> monitor = {};
 };
 
-/// Keys that a window reports.
-enum class WindowKey { space, enter, escape, left, right, up, down, other };
+/// Keys that a window reports. f1 to f12 lie together.
+enum class WindowKey : std::uint8_t {
+    space,
+    enter,
+    escape,
+    left,
+    right,
+    up,
+    down,
+    tab,
+    back_tab,
+    backspace,
+    pause,
+    f1,
+    f2,
+    f3,
+    f4,
+    f5,
+    f6,
+    f7,
+    f8,
+    f9,
+    f10,
+    f11,
+    f12,
+    character, ///< what a key or several wrote; comes besides the key's own press
+    other
+};
 struct WindowKeyPress {
     WindowKey key;
+    char32_t character = 0;   ///< of WindowKey::character
+    bool is_repeated = false; ///< the key is held
 };
 
 /// A screen as the window system knows it.

@@ -20,7 +20,8 @@ template <class Entry> int index_of(const std::vector<Entry>& entries, const std
 } // namespace
 
 std::string_view name_of(TrialFailure failure) {
-    constexpr std::string_view names[] = {"none", "missed refreshes", "gaze lost", "rejected"};
+    constexpr std::string_view names[] = {"none",     "missed refreshes", "gaze lost",
+                                          "rejected", "repeated",         "skipped"};
     return names[static_cast<int>(failure)];
 }
 
@@ -84,6 +85,10 @@ AttemptVerdict TrialQueue::judge(const AttemptResult& result) const {
     const RepeatSettings& repeat = protocol_.repeat;
     // What the operator says comes before what was measured, and a picture that came late before an eye that
     // looked away from it.
+    if (result.is_skipped)
+        return {TrialFailure::skipped, RepeatWhen::never, false};
+    if (result.is_repeated)
+        return {TrialFailure::repeated, RepeatWhen::now, false};
     if (result.is_rejected)
         return {TrialFailure::rejected, repeat.rejected, false};
     if (repeat.missed_refreshes != RepeatWhen::never &&
@@ -101,11 +106,11 @@ AttemptVerdict TrialQueue::tell(const AttemptResult& result) {
     running_.reset();
     if (verdict.failure == TrialFailure::none)
         return verdict;
-    if (again.number > protocol_.repeat.most_attempts)
+    if (again.number > protocol_.repeat.most_attempts && verdict.failure != TrialFailure::repeated)
         verdict.comes_again = RepeatWhen::never;
     switch (verdict.comes_again) {
     case RepeatWhen::never:
-        verdict.counts = verdict.failure != TrialFailure::rejected;
+        verdict.counts = verdict.failure < TrialFailure::rejected;
         break;
     case RepeatWhen::now:
         waiting_.push_front(again);

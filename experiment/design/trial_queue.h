@@ -29,10 +29,13 @@ struct SessionStep {
 struct AttemptResult {
     int missed_refreshes = 0;
     double gaze_lost_share = 0.0; ///< of the samples taken during the presentation, 0 … 1
-    bool is_rejected = false;     ///< by the operator
+    // By the operator.
+    bool is_rejected = false;
+    bool is_repeated = false; ///< to come again at once, however often it was attempted
+    bool is_skipped = false;  ///< not to come again
 };
 
-enum class TrialFailure : std::uint8_t { none, missed_refreshes, gaze_lost, rejected };
+enum class TrialFailure : std::uint8_t { none, missed_refreshes, gaze_lost, rejected, repeated, skipped };
 std::string_view name_of(TrialFailure failure);
 
 /// What is made of an attempt.
@@ -40,12 +43,12 @@ struct AttemptVerdict {
     TrialFailure failure = TrialFailure::none;
     RepeatWhen comes_again = RepeatWhen::never;
     /// The attempt counts: it did not fail, or fails by nothing that it would be repeated for, or all
-    /// attempts are used up. An attempt that was rejected never counts.
+    /// attempts are used up. An attempt that the operator broke off never counts.
     bool counts = true;
 };
 
 /// Plans a session step by step. It ends for any outcomes: no trial is attempted more than
-/// repeat.most_attempts times.
+/// repeat.most_attempts times, but for what the operator repeats by hand.
 class TrialQueue {
   public:
     /// Both must outlive the queue.

@@ -35,8 +35,12 @@ Section<PracticeSettings> practice();
 Section<BreakSettings> breaks();
 Section<RepeatSettings> repeat();
 
-// What happens before the first trial (sitting_keys.cpp).
+// What surrounds the trials (sitting_keys.cpp).
+Section<ConsentSettings> consent();
+Section<InstructionSettings> instructions();
 Section<ObserverFieldSettings> observer_fields();
+Section<OperatorSettings> operators();
+Section<AnswerSettings> answers();
 
 // Names of enumerations, in the order of their values.
 inline constexpr std::string_view output_modes[] = {"native-8bit", "native-10bit", "mono++",   "color++",
@@ -55,6 +59,7 @@ inline constexpr std::string_view level_orders[] = {"random", "fixed", "cyclic",
 inline constexpr std::string_view square_kinds[] = {"cyclic", "balanced", "random-square"};
 inline constexpr std::string_view break_paces[] = {"self", "timed"};
 inline constexpr std::string_view repeat_whens[] = {"never", "now", "end-of-block"};
+inline constexpr std::string_view answer_uses[] = {"none", "optional", "required"};
 inline constexpr std::string_view field_kinds[] = {"text", "number", "choice"};
 inline constexpr std::string_view repetition_orders[] = {"in-turn", "mixed"};
 inline constexpr std::string_view material_kinds[] = {"smooth-conductor", "rough-conductor",

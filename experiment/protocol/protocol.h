@@ -18,6 +18,7 @@
 #include "experiment/protocol/design_settings.h"
 #include "experiment/protocol/key_places.h"
 #include "experiment/protocol/protocol_sources.h"
+#include "experiment/protocol/sitting_settings.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/units.h"
 
@@ -249,6 +250,10 @@ struct Protocol {
     Animation animation;
     ScheduleSettings schedule;
     ScreenSettings screens;
+    ConsentSettings consent;
+    InstructionSettings instructions;
+    OperatorSettings operators;
+    AnswerSettings answers;
     std::vector<ObserverFieldSettings> observer_fields; ///< what the observer is asked before the session
     std::vector<Task> tasks;
     std::vector<BlockSettings> blocks; ///< none: all trials are one block in random order

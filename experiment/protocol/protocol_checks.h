@@ -54,7 +54,8 @@ void check_blocks(ProtocolExamination& examination);
 void check_groups(ProtocolExamination& examination);
 void check_practice(ProtocolExamination& examination);
 void check_breaks(ProtocolExamination& examination);
-void check_observer_fields(ProtocolExamination& examination);
+/// Consent, form, the operator's keys and spoken answers.
+void check_sitting(ProtocolExamination& examination);
 
 /// Reads the characterisation of the display, if the protocol names one and `look_at_files`, and finds what
 /// in the protocol contradicts it or asks for it. Turns luminances into linear light.

@@ -43,7 +43,7 @@ using KeyMember =
                  BakeQuality Struct::*, PixelFilter Struct::*, StandardObserver Struct::*,
                  std::optional<TaskCoverage> Struct::*, OrderMethod Struct::*, TrialFactor Struct::*,
                  SquareKind Struct::*, LevelOrder Struct::*, RepetitionOrder Struct::*, BreakPace Struct::*,
-                 RepeatWhen Struct::*, FieldKind Struct::*>;
+                 RepeatWhen Struct::*, FieldKind Struct::*, AnswerUse Struct::*>;
 
 template <class Struct> struct Key {
     KeyRule rule;
@@ -64,10 +64,11 @@ template <class Struct> struct Section {
 using ProtocolSections =
     std::tuple<Section<Protocol>, Section<DisplaySettings>, Section<TrackerSettings>, Section<ViewSettings>,
                Section<LightSettings>, Section<BakingSettings>, Section<Animation>, Section<ScheduleSettings>,
-               Section<ScreenSettings>, Section<ObserverFieldSettings>, Section<Task>, Section<BlockSettings>,
-               Section<GroupSettings>, Section<PracticeSettings>, Section<BreakSettings>,
-               Section<RepeatSettings>, Section<SculptureSettings>, Section<MaterialSettings>,
-               Section<FrameSequenceSettings>>;
+               Section<ScreenSettings>, Section<ConsentSettings>, Section<InstructionSettings>,
+               Section<ObserverFieldSettings>, Section<OperatorSettings>, Section<AnswerSettings>,
+               Section<Task>, Section<BlockSettings>, Section<GroupSettings>, Section<PracticeSettings>,
+               Section<BreakSettings>, Section<RepeatSettings>, Section<SculptureSettings>,
+               Section<MaterialSettings>, Section<FrameSequenceSettings>>;
 
 /// All sections, in the order of the documentation. Made once; safe from any thread.
 const ProtocolSections& protocol_sections();

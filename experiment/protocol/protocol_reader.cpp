@@ -277,7 +277,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_groups(examination);
         check_practice(examination);
         check_breaks(examination);
-        check_observer_fields(examination);
+        check_sitting(examination);
         check_sculptures(examination, shipped_sculptures);
         check_materials(examination);
         check_frames(examination);

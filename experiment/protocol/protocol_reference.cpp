@@ -28,7 +28,8 @@ experiment amounts to. To begin with, read [protocols/overt_2019.toml](../protoc
 is the experiment of the 2019 paper with every choice explained;
 [protocols/quick_look.toml](../protocols/quick_look.toml) is the smallest that runs. How to use laser scans
 and other meshes of your own is in [laser_scans.md](laser_scans.md); blocks, limits, squares, groups, breaks and repeated
-trials are shown by examples in [design.md](design.md). `overt new FILE` writes a protocol to begin with, and
+trials are shown by examples in [design.md](design.md); the form, the operator's keys and spoken answers in
+[sitting.md](sitting.md). `overt new FILE` writes a protocol to begin with, and
 `overt schema` a JSON Schema by which editors complete and check protocols as they are written.
 
 - A key that is left out has its default.

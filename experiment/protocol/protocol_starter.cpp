@@ -31,6 +31,13 @@ const std::map<std::string_view, std::vector<Values>>& starter_values() {
            {"output", "\"native-8bit\""},
            {"gamma", "2.2"}}}},
         {"tracker", {{{"rate_hz", "1000"}}}},
+        {"consent",
+         {{{"text", "\"You will look at sculptures on a screen, and your eyes are recorded.\\n"
+                    "You may stop at any time.\\n\\nDo you agree to take part?    Y: yes    N: no\""}}}},
+        {"instructions",
+         {{{"pages", "[\"Before each sculpture you read what to look for.\", "
+                     "\"Look at the dot when it appears. Answer aloud, then press the space bar.\"]"}}}},
+        {"answers", {{{"record", "\"optional\""}}}},
         {"observer_fields",
          {{{"id", "\"age\""}}, {{"id", "\"sex\""}}, {{"id", "\"vision\""}}, {{"id", "\"handedness\""}}}},
         {"animation", {{{"duration_s", "4"}}}},

@@ -1,11 +1,14 @@
-#include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "experiment/protocol/protocol_checks.h"
 
 namespace overt {
+
+namespace {
 
 void check_observer_fields(ProtocolExamination& examination) {
     const std::vector<ObserverFieldSettings>& fields = examination.protocol.observer_fields;
@@ -32,6 +35,43 @@ void check_observer_fields(ProtocolExamination& examination) {
                                               "space at an end",
                                               choice));
     }
+}
+
+/// Two keys of the operator with the same name, or one that is also an answer.
+void check_keys(ProtocolExamination& examination) {
+    const OperatorSettings& keys = examination.protocol.operators;
+    const std::pair<std::string_view, const std::string*> named[] = {
+        {"operator.pause", &keys.pause},   {"operator.recalibrate", &keys.recalibrate},
+        {"operator.repeat", &keys.repeat}, {"operator.reject", &keys.reject},
+        {"operator.skip", &keys.skip},     {"operator.abort", &keys.abort},
+        {"operator.yes", &keys.yes},       {"operator.no", &keys.no}};
+    std::map<std::string_view, std::string_view> taken;
+    for (const auto& [path, key] : named) {
+        const auto [earlier, is_free] = taken.emplace(*key, path);
+        if (!is_free)
+            examination.error({path, earlier->second},
+                              fmt::format("the key \"{}\" is also that of \"{}\"", *key, earlier->second));
+    }
+    constexpr std::size_t digits = 9;
+    if (keys.skip_reasons.size() > digits)
+        examination.error({"operator.skip_reasons"}, "there are more reasons than digits to choose them by",
+                          "keep to nine");
+    const ConsentSettings& consent = examination.protocol.consent;
+    if (consent.accept_key == consent.decline_key)
+        examination.error({"consent.accept_key", "consent.decline_key"},
+                          fmt::format("the key \"{}\" both accepts and declines", consent.accept_key));
+}
+
+} // namespace
+
+void check_sitting(ProtocolExamination& examination) {
+    check_observer_fields(examination);
+    check_keys(examination);
+    const AnswerSettings& answers = examination.protocol.answers;
+    if (answers.bits != 16 && answers.bits != 24)
+        examination.error({"answers.bits"}, fmt::format("{} bits: sound is kept in 16 or 24", answers.bits));
+    if (answers.record == AnswerUse::none && examination.is_written("answers.device"))
+        examination.warning({"answers.device"}, "no answers are recorded: \"record\" is \"none\"");
 }
 
 } // namespace overt

@@ -2,6 +2,115 @@
 
 namespace overt::key_rows {
 
+namespace {
+
+/// Keys that every keyboard has: named ones, and letters and digits by what they write.
+constexpr std::string_view key_names[] = {"escape", "f1",  "f2",  "f3",    "f4", "f5", "f6", "f7", "f8", "f9",
+                                          "f10",    "f11", "f12", "pause", "a",  "b",  "c",  "d",  "e",  "f",
+                                          "g",      "h",   "i",   "j",     "k",  "l",  "m",  "n",  "o",  "p",
+                                          "q",      "r",   "s",   "t",     "u",  "v",  "w",  "x",  "y",  "z"};
+constexpr std::string_view letter_names[] = {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l", "m",
+                                             "n", "o", "p", "q", "r", "s", "t", "u", "v", "w", "x", "y", "z"};
+
+} // namespace
+
+Section<ConsentSettings> consent() {
+    using C = ConsentSettings;
+    return {
+        .name = "consent",
+        .explanation = "A text that the observer has to agree to before anything else. Who declines ends the "
+                       "session: that is all that is recorded then. The record keeps who agreed, when, and "
+                       "the SHA-256 of the text.",
+        .keys =
+            {
+                {{.name = "text",
+                  .if_left_out = "nobody is asked",
+                  .explanation = "What is read; it should name both keys."},
+                 &C::text},
+                {{.name = "accept_key", .choices = letter_names, .explanation = "Agrees."}, &C::accept_key},
+                {{.name = "decline_key", .choices = letter_names, .explanation = "Declines."},
+                 &C::decline_key},
+            },
+        .one = &Protocol::consent};
+}
+
+Section<InstructionSettings> instructions() {
+    using I = InstructionSettings;
+    return {.name = "instructions",
+            .explanation =
+                "What the observer reads after the welcome, page by page: the space bar, enter or the "
+                "right arrow go on, backspace or the left arrow go back.",
+            .keys =
+                {
+                    {{.name = "pages", .if_left_out = "none", .explanation = "The texts."}, &I::pages},
+                },
+            .one = &Protocol::instructions};
+}
+
+Section<OperatorSettings> operators() {
+    using O = OperatorSettings;
+    const auto key = [](std::string_view name, std::string O::*member, std::string_view explanation) {
+        return Key<O>{{.name = name, .choices = key_names, .explanation = explanation}, member};
+    };
+    return {
+        .name = "operator",
+        .explanation =
+            "Keys with which the operator leads a session. All but pausing ask first, and all are in the "
+            "record. "
+            "What is pressed during an animation is acted on after its last refresh; `abort` alone ends it. "
+            "Whether a trial that was broken off and yet not given up comes again is as for one that is "
+            "rejected.",
+        .keys =
+            {
+                key("pause", &O::pause, "Pauses, and goes on."),
+                key("recalibrate", &O::recalibrate, "Calibrates the eye tracker anew."),
+                key("repeat", &O::repeat, "Breaks the trial off; it comes again at once."),
+                key("reject", &O::reject,
+                    "Breaks the trial off; it comes again as `[repeat] rejected` says."),
+                key("skip", &O::skip, "Breaks the trial off; it does not come again."),
+                key("abort", &O::abort, "Ends the session; in an animation, the trial first."),
+                {{.name = "yes", .choices = letter_names, .explanation = "Confirms."}, &O::yes},
+                {{.name = "no", .choices = letter_names, .explanation = "Takes it back."}, &O::no},
+                {{.name = "pause_text", .explanation = "What stands on the screen in a pause."},
+                 &O::pause_text},
+                {{.name = "skip_reasons",
+                  .if_left_out = "eye lost, observer's wish, equipment, other",
+                  .explanation = "Why a trial is skipped, to be chosen by a digit."},
+                 &O::skip_reasons},
+            },
+        .one = &Protocol::operators};
+}
+
+Section<AnswerSettings> answers() {
+    using A = AnswerSettings;
+    return {
+        .name = "answers",
+        .explanation =
+            "Spoken answers: a WAV file for each trial that counts, from the end of the animation to the key "
+            "that ends the answer, with the sample at the response screen's onset, the onset of the voice, "
+            "clipping and silence in the record.",
+        .keys =
+            {
+                {{.name = "record",
+                  .choices = answer_uses,
+                  .explanation = "Required: no session without a sound device. Optional: a machine without "
+                                 "one says so, and goes on."},
+                 &A::record},
+                {{.name = "device",
+                  .if_left_out = "the system's default",
+                  .explanation = "Part of the sound device's name, as `overt doctor` lists it."},
+                 &A::device},
+                {{.name = "sample_rate_hz",
+                  .unit = "Hz",
+                  .low = 8000,
+                  .high = 192000,
+                  .explanation = "Of the recording."},
+                 &A::sample_rate_hz},
+                {{.name = "bits", .low = 16, .high = 24, .explanation = "Of a sample: 16 or 24."}, &A::bits},
+            },
+        .one = &Protocol::answers};
+}
+
 Section<ObserverFieldSettings> observer_fields() {
     using F = ObserverFieldSettings;
     return {

@@ -184,6 +184,34 @@ void RowWriter::box_clock(const std::vector<BoxClockReading>& readings) {
         run_statement(insert, sitting_, reading.before, reading.box_us, reading.after);
 }
 
+void RowWriter::consent(const RecordedConsent& consent) {
+    begin();
+    database_.exec(observer_tables_sql);
+    SQLite::Statement insert(database_, "INSERT INTO consent (sitting, observer, accepted, at_ns, at_utc, "
+                                        "text_sha256) VALUES (?,?,?,?,?,?)");
+    run_statement(insert, sitting_, consent.observer, consent.accepted ? 1 : 0, consent.at, consent.utc,
+                  consent.text_sha256);
+}
+
+void RowWriter::answer(const RecordedAnswer& answer) {
+    begin();
+    database_.exec(observer_tables_sql);
+    SQLite::Statement insert(
+        database_, "INSERT OR REPLACE INTO answer_recording (trial_id, file, sha256, device, sample_rate_hz, "
+                   "measured_rate_hz, bits, input_latency_ns, samples, onset_sample, onset_uncertainty_ns, "
+                   "overruns, lost_samples, peak_dbfs, noise_dbfs, clipped_samples, voice_onset_ns, "
+                   "voice_end_ns, fault) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+    const auto ns = [](const std::optional<SessionDuration>& time) {
+        return time ? std::optional<std::int64_t>(time->count()) : std::nullopt;
+    };
+    run_statement(insert, trial_counts_.trial_id, answer.file, answer.sha256, answer.device,
+                  answer.sample_rate_hz, answer.measured_rate_hz, answer.bits,
+                  static_cast<std::int64_t>(answer.input_latency.count()), answer.samples,
+                  answer.onset_sample, static_cast<std::int64_t>(answer.onset_uncertainty.count()),
+                  answer.overruns, answer.lost_samples, answer.peak_dbfs, answer.noise_dbfs,
+                  answer.clipped_samples, ns(answer.voice_onset), ns(answer.voice_end), answer.fault);
+}
+
 void RowWriter::observer_fields(const std::vector<RecordedObserverField>& fields) {
     begin();
     database_.exec(observer_tables_sql);

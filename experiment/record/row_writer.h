@@ -41,6 +41,8 @@ class RowWriter {
     void map(const RecordedMap& map);
     void display_box(const RecordedBox& box);
     void box_clock(const std::vector<BoxClockReading>& readings);
+    void consent(const RecordedConsent& consent);
+    void answer(const RecordedAnswer& answer);
     void observer_fields(const std::vector<RecordedObserverField>& fields);
     void start_trial(const Trial& trial, SessionTime at);
 

@@ -294,6 +294,60 @@ void SessionRecord::read_events(const std::function<void(const RecordedEvent&)>&
     });
 }
 
+std::vector<RecordedConsent> SessionRecord::consents() const {
+    return reading(file_, [&] {
+        std::vector<RecordedConsent> consents;
+        if (!has_table(*database_, "consent"))
+            return consents;
+        for (Query row(*database_,
+                       "SELECT observer, accepted, at_ns, at_utc, text_sha256 FROM consent ORDER BY n");
+             row.step();)
+            consents.push_back({row.text(), row.integer() != 0, row.session_time(), row.text(), row.text()});
+        return consents;
+    });
+}
+
+std::optional<RecordedAnswer> SessionRecord::answer_recording(const TrialRecord& trial) const {
+    return reading(file_, [&]() -> std::optional<RecordedAnswer> {
+        if (!has_table(*database_, "answer_recording"))
+            return std::nullopt;
+        Query row(*database_,
+                  "SELECT file, sha256, device, sample_rate_hz, measured_rate_hz, bits, "
+                  "input_latency_ns, samples, onset_sample, onset_uncertainty_ns, overruns, "
+                  "lost_samples, peak_dbfs, noise_dbfs, clipped_samples, fault, "
+                  "COALESCE(voice_onset_ns, 0), voice_onset_ns IS NULL, COALESCE(voice_end_ns, 0), "
+                  "voice_end_ns IS NULL FROM answer_recording WHERE trial_id = ?");
+        row.bind(1, trial.id);
+        if (!row.step())
+            return std::nullopt;
+        RecordedAnswer answer;
+        answer.trial = trial.trial.index;
+        answer.file = row.text();
+        answer.sha256 = row.text();
+        answer.device = row.text();
+        answer.sample_rate_hz = row.real();
+        answer.measured_rate_hz = row.real();
+        answer.bits = row.small();
+        answer.input_latency = SessionDuration(row.integer());
+        answer.samples = row.integer();
+        answer.onset_sample = row.real();
+        answer.onset_uncertainty = SessionDuration(row.integer());
+        answer.overruns = row.integer();
+        answer.lost_samples = row.integer();
+        answer.peak_dbfs = row.real();
+        answer.noise_dbfs = row.real();
+        answer.clipped_samples = row.integer();
+        answer.fault = row.text();
+        const auto time_or_nothing = [&]() -> std::optional<SessionDuration> {
+            const SessionDuration time(row.integer());
+            return row.integer() == 0 ? std::optional(time) : std::nullopt;
+        };
+        answer.voice_onset = time_or_nothing();
+        answer.voice_end = time_or_nothing();
+        return answer;
+    });
+}
+
 std::vector<RecordedObserverField> SessionRecord::observer_fields() const {
     return reading(file_, [&] {
         std::vector<RecordedObserverField> fields;

@@ -104,6 +104,12 @@ class SessionRecord {
     /// The same one by one, so that memory does not grow with the session.
     void read_events(const std::function<void(const RecordedEvent&)>& take) const;
 
+    /// Each time that somebody agreed to take part, or did not.
+    std::vector<RecordedConsent> consents() const;
+
+    /// The spoken answer of an attempt, if one was recorded. Its `trial` is the attempt's.
+    std::optional<RecordedAnswer> answer_recording(const TrialRecord& trial) const;
+
     /// What the observer filled in, in the order of the form. Sessions of earlier programs have nothing.
     std::vector<RecordedObserverField> observer_fields() const;
 

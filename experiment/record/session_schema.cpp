@@ -111,6 +111,19 @@ CREATE TABLE IF NOT EXISTS box_clock_pair (
 const char* const observer_tables_sql = R"sql(
 CREATE TABLE IF NOT EXISTS observer_field (n INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEXT NOT NULL,
                                            value TEXT NOT NULL) STRICT;
+CREATE TABLE IF NOT EXISTS consent (
+    n INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting, observer TEXT NOT NULL,
+    accepted INTEGER NOT NULL CHECK (accepted IN (0, 1)), at_ns INTEGER NOT NULL, at_utc TEXT NOT NULL,
+    text_sha256 TEXT NOT NULL
+) STRICT;
+CREATE TABLE IF NOT EXISTS answer_recording (
+    trial_id INTEGER PRIMARY KEY, file TEXT NOT NULL, sha256 TEXT NOT NULL, device TEXT NOT NULL,
+    sample_rate_hz REAL NOT NULL, measured_rate_hz REAL NOT NULL, bits INTEGER NOT NULL,
+    input_latency_ns INTEGER NOT NULL, samples INTEGER NOT NULL, onset_sample REAL NOT NULL,
+    onset_uncertainty_ns INTEGER NOT NULL, overruns INTEGER NOT NULL, lost_samples INTEGER NOT NULL,
+    peak_dbfs REAL NOT NULL, noise_dbfs REAL NOT NULL, clipped_samples INTEGER NOT NULL,
+    voice_onset_ns INTEGER, voice_end_ns INTEGER, fault TEXT NOT NULL
+) STRICT;
 )sql";
 
 const char* const ledger_tables_sql = R"sql(

@@ -22,7 +22,7 @@ extern const char* const session_schema_sql;
 /// none.
 extern const char* const box_tables_sql;
 
-/// The same for what the observer was asked.
+/// The same for what the observer was asked and what was said.
 extern const char* const observer_tables_sql;
 
 /// The same for the ledger's table of missed refreshes.

@@ -11,6 +11,7 @@
 #include <utility>
 #include <variant>
 
+#include <fmt/chrono.h>
 #include <semaphore.h>
 
 #include "experiment/error.h"
@@ -75,7 +76,7 @@ struct TrialFinish {
 /// What is too large or too rare for the ring itself: it carries the pointer, so that the order holds.
 struct Message {
     std::variant<Event, TrialStart, TrialFinish, RecordedMap, RecordedBox, std::vector<BoxClockReading>,
-                 std::vector<RecordedObserverField>>
+                 std::vector<RecordedObserverField>, RecordedConsent, RecordedAnswer>
         content;
     std::promise<void> written;
 };
@@ -230,6 +231,10 @@ void SessionStore::Writer::write_message(const Message& message) {
         rows_.box_clock(*readings);
     } else if (const auto* fields = std::get_if<std::vector<RecordedObserverField>>(&message.content)) {
         rows_.observer_fields(*fields);
+    } else if (const auto* consent = std::get_if<RecordedConsent>(&message.content)) {
+        rows_.consent(*consent);
+    } else if (const auto* answer = std::get_if<RecordedAnswer>(&message.content)) {
+        rows_.answer(*answer);
     } else {
         const auto& finish = std::get<TrialFinish>(message.content);
         rows_.finish_trial(finish.trial, finish.outcome, finish.lost.flips, finish.lost.samples);
@@ -312,6 +317,15 @@ void SessionStore::trial_finished(const Trial& trial, const TrialOutcome& outcom
     writer_->wake();
     written.get();
 }
+
+void SessionStore::consent(const RecordedConsent& consent) {
+    RecordedConsent dated = consent;
+    if (dated.utc.empty())
+        dated.utc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+    writer_->send(std::move(dated));
+}
+
+void SessionStore::answer_recorded(const RecordedAnswer& answer) { writer_->send(answer); }
 
 void SessionStore::observer_fields(const std::vector<RecordedObserverField>& fields) {
     writer_->send(fields);

@@ -49,6 +49,8 @@ class SessionStore final : public SessionLog {
     void sample(int trial, const GazeSample& sample) noexcept override;
     void clock_pair(const ClockPair& pair) noexcept override;
     void event(const SessionEvent& event) override;
+    void consent(const RecordedConsent& consent) override;
+    void answer_recorded(const RecordedAnswer& answer) override;
     void observer_fields(const std::vector<RecordedObserverField>& fields) override;
     void trial_started(const Trial& trial, SessionTime at) override;
     void trial_finished(const Trial& trial, const TrialOutcome& outcome) override;

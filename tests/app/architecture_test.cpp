@@ -43,15 +43,22 @@ const std::vector<Layer> layers{
     // A recorded session is read without the protocol that it came from.
     {"experiment/record/", "^experiment/([^/]+|(scene|timing|analysis|record)/.*)$",
      opengl + "|" + usb + "|" + drawing},
+    {"experiment/audio/", "^experiment/([^/]+|audio/.*)$",
+     opengl + "|" + usb + "|" + drawing + "|" + database},
+    {"experiment/session/", "^experiment/([^/]+|(timing|protocol|design|session)/.*)$",
+     opengl + "|" + usb + "|" + drawing + "|" + database},
     // These three are rules about protocols, the rest of the folder is words that everybody uses.
-    {"experiment/session.", "^experiment/([^/]+|(timing|protocol|design)/.*)$",
+    {"experiment/session.", "^experiment/([^/]+|(timing|protocol|design|session)/.*)$",
      opengl + "|" + usb + "|" + drawing},
     {"experiment/schedule.", "^experiment/([^/]+|(protocol|design)/.*)$", opengl + "|" + usb + "|" + drawing},
     {"experiment/sculpture.", "^experiment/([^/]+|(protocol|scene)/.*)$", opengl + "|" + usb + "|" + drawing},
     {"experiment/", "^experiment/[^/]+$", opengl + "|" + usb + "|" + drawing + "|" + database},
     {"render/", "^(experiment/([^/]+|(colour|scene|timing|protocol|analysis)/.*)|render/.*)$",
      usb + "|" + database},
-    {"devices/", "^(experiment/([^/]+|(colour|scene|timing|protocol|analysis)/.*)|devices/.*)$",
+    // The ring between two threads is the record's, and knows nothing of records.
+    {"devices/",
+     "^(experiment/([^/]+|(audio|colour|scene|timing|protocol|analysis)/.*|record/spsc_ring\\.h)|devices/"
+     ".*)$",
      opengl + "|" + drawing + "|" + database},
     {"app/", "^(experiment|render|devices|app)/.*$", "^$"},
 };

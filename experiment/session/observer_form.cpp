@@ -1,0 +1,175 @@
+#include "experiment/session/observer_form.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+namespace overt {
+
+namespace {
+
+/// Longer than any answer; a key that is stuck must not fill the memory.
+constexpr std::size_t longest_value = 400;
+
+void append_utf8(std::string& text, char32_t character) {
+    const auto byte = [&](char32_t value) { text += static_cast<char>(static_cast<unsigned char>(value)); };
+    if (character < 0x80) {
+        byte(character);
+    } else if (character < 0x800) {
+        byte(0xC0 | (character >> 6));
+        byte(0x80 | (character & 0x3F));
+    } else if (character < 0x10000) {
+        byte(0xE0 | (character >> 12));
+        byte(0x80 | ((character >> 6) & 0x3F));
+        byte(0x80 | (character & 0x3F));
+    } else {
+        byte(0xF0 | (character >> 18));
+        byte(0x80 | ((character >> 12) & 0x3F));
+        byte(0x80 | ((character >> 6) & 0x3F));
+        byte(0x80 | (character & 0x3F));
+    }
+}
+
+/// Neither a control character nor half of a pair: such are no text.
+bool is_text(char32_t character) {
+    return character >= 0x20 && (character < 0x7F || character > 0x9F) && character <= 0x10FFFF &&
+           (character < 0xD800 || character > 0xDFFF);
+}
+
+} // namespace
+
+ObserverForm::ObserverForm(std::span<const ObserverFieldSettings> fields, FieldValues given)
+    : fields_(fields), values_(std::move(given)) {
+    values_.resize(fields_.size());
+    const auto empty = std::find(values_.begin(), values_.end(), std::string());
+    if (empty != values_.end())
+        focus_ = static_cast<std::size_t>(empty - values_.begin());
+}
+
+bool ObserverForm::take(const ResponsePress& press) {
+    using Key = ResponsePress::Key;
+    switch (press.key) {
+    case Key::character:
+        type(press.character);
+        return false;
+    case Key::erase:
+        erase();
+        return false;
+    case Key::left:
+        choose(-1);
+        return false;
+    case Key::right:
+        choose(1);
+        return false;
+    case Key::up:
+        focus_ = (focus_ + fields_.size() - 1) % fields_.size();
+        return false;
+    case Key::down:
+        focus_ = (focus_ + 1) % fields_.size();
+        return false;
+    case Key::next:
+        if (focus_ + 1 == fields_.size())
+            return submit();
+        ++focus_;
+        return false;
+    default:
+        return false;
+    }
+}
+
+void ObserverForm::type(char32_t character) {
+    message_.clear();
+    if (!is_text(character))
+        return;
+    std::string& value = values_[focus_];
+    if (field().kind != FieldKind::choice) {
+        if (value.size() < longest_value)
+            append_utf8(value, character);
+        return;
+    }
+    if (character == U' ') {
+        choose(1);
+        return;
+    }
+    // The next choice that begins so, round from the one that stands there.
+    std::string typed;
+    append_utf8(typed, character < 0x80 ? static_cast<char32_t>(std::tolower(static_cast<int>(character)))
+                                        : character);
+    const auto& choices = field().choices;
+    const auto now = std::find(choices.begin(), choices.end(), value);
+    const std::size_t first = now == choices.end() ? 0 : static_cast<std::size_t>(now - choices.begin()) + 1;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+        const std::string& choice = choices[(first + i) % choices.size()];
+        std::string begin = choice.substr(0, typed.size());
+        if (begin.size() == 1)
+            begin[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(begin[0])));
+        if (begin == typed) {
+            value = choice;
+            return;
+        }
+    }
+}
+
+void ObserverForm::erase() {
+    message_.clear();
+    std::string& value = values_[focus_];
+    if (field().kind == FieldKind::choice) {
+        value.clear();
+        return;
+    }
+    // The last character with all its bytes.
+    while (!value.empty() && (static_cast<unsigned char>(value.back()) & 0xC0) == 0x80)
+        value.pop_back();
+    if (!value.empty())
+        value.pop_back();
+}
+
+void ObserverForm::choose(int step) {
+    message_.clear();
+    if (field().kind != FieldKind::choice)
+        return;
+    const auto& choices = field().choices;
+    const int count = static_cast<int>(choices.size());
+    const auto now = std::find(choices.begin(), choices.end(), values_[focus_]);
+    const int index = now == choices.end() ? (step > 0 ? -1 : 0) : static_cast<int>(now - choices.begin());
+    values_[focus_] = choices[static_cast<std::size_t>((index + step + count) % count)];
+}
+
+bool ObserverForm::submit() {
+    for (std::string& value : values_)
+        value = trimmed(value);
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+        if (const auto fault = fault_of(fields_[i], values_[i])) {
+            message_ = *fault;
+            focus_ = i;
+            return false;
+        }
+    }
+    return true;
+}
+
+std::string ObserverForm::text() const {
+    std::string text;
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+        const ObserverFieldSettings& field = fields_[i];
+        const bool is_here = i == focus_;
+        std::string value = values_[i];
+        if (field.kind == FieldKind::choice)
+            value = is_here ? fmt::format("‹ {} ›", value.empty() ? "…" : value) : value;
+        else if (is_here)
+            value += "▏";
+        text += fmt::format("{} {}{}:  {}\n", is_here ? "▸" : "  ", field.title,
+                            field.required ? "" : " (optional)", value);
+    }
+    const ObserverFieldSettings& here = field();
+    if (!message_.empty())
+        text += fmt::format("\n{}\n", message_);
+    else if (!here.note.empty())
+        text += fmt::format("\n{}\n", here.note);
+    text += here.kind == FieldKind::choice ? "\n← → choose    " : "\n";
+    text += focus_ + 1 == fields_.size() ? "↑ back    Enter: done" : "↑ ↓ other fields    Enter: next";
+    return text;
+}
+
+} // namespace overt

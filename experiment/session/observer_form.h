@@ -1,0 +1,42 @@
+/// The observer's form while it is filled in on the screen.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "experiment/observer_field.h"
+#include "experiment/ports.h"
+
+namespace overt {
+
+class ObserverForm {
+  public:
+    /// `fields` must outlive the form. `given`: what is filled in already.
+    ObserverForm(std::span<const ObserverFieldSettings> fields, FieldValues given);
+
+    /// Takes a key: characters are typed, in a choice they go to the next that begins with them; left and
+    /// right choose; up and down (tab) go to other fields; next goes on, and from the last field submits.
+    /// What is at fault then is said and gone to. Whether the form is submitted.
+    bool take(const ResponsePress& press);
+
+    const FieldValues& values() const { return values_; }
+    int focus() const { return static_cast<int>(focus_); }
+    const std::string& message() const { return message_; } ///< what is at fault, or empty
+
+    /// The form as text: a line for each field, the one that is being filled in marked.
+    std::string text() const;
+
+  private:
+    const ObserverFieldSettings& field() const { return fields_[focus_]; }
+    void type(char32_t character);
+    void erase();
+    void choose(int step);
+    bool submit();
+
+    std::span<const ObserverFieldSettings> fields_;
+    FieldValues values_;
+    std::size_t focus_ = 0;
+    std::string message_;
+};
+
+} // namespace overt

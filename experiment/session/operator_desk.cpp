@@ -1,0 +1,207 @@
+#include "experiment/session/operator_desk.h"
+
+#include <fmt/format.h>
+
+namespace overt {
+
+namespace {
+
+/// How often the keys are looked at while a screen stands still.
+constexpr SessionDuration key_interval = std::chrono::milliseconds(4);
+
+using Key = ResponsePress::Key;
+
+std::string upper(std::string key) {
+    for (char& letter : key)
+        letter = static_cast<char>(letter >= 'a' && letter <= 'z' ? letter - 'a' + 'A' : letter);
+    return key;
+}
+
+} // namespace
+
+void OperatorDesk::rest_a_little() {
+    stage_.ports.presenter.use_spare_time();
+    stage_.ports.clock.wait_until(stage_.now() + key_interval);
+}
+
+OperatorDesk::Press OperatorDesk::wait(const Waiting& waiting) {
+    SessionTime earliest = waiting.onset + from_seconds(waiting.min_s);
+    SessionTime latest = waiting.onset + from_seconds(waiting.max_s);
+    const auto await = [&](SessionTime since) {
+        if (waiting.await)
+            waiting.await(since);
+        else
+            stage_.ports.panel.await_key(since);
+    };
+    await(waiting.onset);
+    while (stage_.now() < latest) {
+        while (const std::optional<ResponsePress> press = stage_.ports.panel.poll()) {
+            if (is_operators(press->key)) {
+                const SessionTime began = stage_.now();
+                if (!act_on(press->key))
+                    return {stage_.is_over() ? How::session_over : How::trial_over, press->pressed_at};
+                const SessionTime shown_again = stage_.show(waiting.screen);
+                earliest += shown_again - began;
+                latest += shown_again - began;
+                await(shown_again);
+                continue;
+            }
+            if (!waiting.takes_keys || press->pressed_at < earliest)
+                continue;
+            switch (press->key) {
+            case Key::next:
+                return {How::next, press->pressed_at};
+            case Key::back:
+            case Key::left:
+                if (waiting.turns_pages)
+                    return {How::back, press->pressed_at};
+                break;
+            case Key::right:
+                if (waiting.turns_pages)
+                    return {How::next, press->pressed_at};
+                break;
+            case Key::yes:
+                return {How::yes, press->pressed_at};
+            case Key::no:
+                return {How::no, press->pressed_at};
+            default:
+                break;
+            }
+        }
+        if (stage_.ends_by_itself())
+            return {How::session_over, stage_.now()};
+        if (waiting.meanwhile)
+            waiting.meanwhile();
+        rest_a_little();
+    }
+    return {How::timed_out, latest};
+}
+
+bool OperatorDesk::act_on(Key key) {
+    const SessionPhase phase = stage_.phase();
+    const int trial = stage_.trial();
+    switch (key) {
+    case Key::pause:
+        pause();
+        break;
+    case Key::recalibrate:
+        if (confirm("Calibrate the eye tracker anew?\nThe session then goes on where it is."))
+            calibrate();
+        break;
+    case Key::repeat:
+    case Key::reject:
+    case Key::skip:
+        if (!end_trial(key))
+            return !stage_.is_over();
+        return false;
+    case Key::abort:
+        if (confirm(is_in_trial(phase) ? "End the session?\nThis trial is recorded as broken off; what was "
+                                         "recorded before stays."
+                                       : "End the session?\nWhat was recorded stays.")) {
+            stage_.note("operator", "ends the session");
+            stage_.end_session("aborted by a key");
+        }
+        break;
+    default:
+        break;
+    }
+    if (stage_.is_over())
+        return false;
+    if (stage_.phase() != phase)
+        stage_.enter(phase, trial);
+    return true;
+}
+
+/// Whether the trial is over.
+bool OperatorDesk::end_trial(Key key) {
+    if (!is_in_trial(stage_.phase())) {
+        stage_.note("operator", "a key for trials had no effect: none is running");
+        return false;
+    }
+    const OperatorSettings& settings = stage_.protocol.operators;
+    if (key != Key::skip) {
+        const bool at_once = key == Key::repeat;
+        if (!confirm(at_once ? "Break this trial off and repeat it at once?"
+                             : "Reject this trial?\nIt comes again as the protocol says."))
+            return false;
+        decision_ = {at_once ? TrialDecision::Word::repeated : TrialDecision::Word::rejected, {}};
+        stage_.note("operator", at_once ? "repeats the trial" : "rejects the trial");
+        return true;
+    }
+    std::string question = "Skip this trial?\nIt does not come again.";
+    for (std::size_t i = 0; i < settings.skip_reasons.size(); ++i)
+        question += fmt::format("{}{}: yes, {}", i == 0 ? "\n\n" : "\n", i + 1, settings.skip_reasons[i]);
+    const std::optional<int> answer = confirm(question);
+    if (!answer)
+        return false;
+    const auto reason = static_cast<std::size_t>(*answer);
+    decision_ = {TrialDecision::Word::skipped, reason >= 1 && reason <= settings.skip_reasons.size()
+                                                   ? settings.skip_reasons[reason - 1]
+                                                   : "no reason given"};
+    stage_.note("operator", "skips the trial: " + decision_.why);
+    return true;
+}
+
+std::optional<int> OperatorDesk::confirm(const std::string& question) {
+    const OperatorSettings& keys = stage_.protocol.operators;
+    stage_.note("operator asked", question);
+    const SessionTime onset =
+        stage_.show({Screen::Kind::text,
+                     fmt::format("{}\n\n{}: yes        {}: no", question, upper(keys.yes), upper(keys.no))});
+    stage_.ports.panel.await_decision(false, onset);
+    std::optional<int> answer;
+    for (bool is_decided = false; !is_decided && !stage_.ends_by_itself();) {
+        while (const std::optional<ResponsePress> press = stage_.ports.panel.poll()) {
+            const bool is_digit =
+                press->key == Key::character && press->character >= U'1' && press->character <= U'9';
+            if (press->key == Key::yes)
+                answer = 0;
+            else if (is_digit)
+                answer = static_cast<int>(press->character - U'0');
+            else if (press->key != Key::no && press->key != Key::abort)
+                continue;
+            is_decided = true;
+            break;
+        }
+        if (!is_decided)
+            rest_a_little();
+    }
+    stage_.note("operator answered", answer ? "yes" : "no");
+    return stage_.is_over() ? std::nullopt : answer;
+}
+
+void OperatorDesk::pause() {
+    stage_.note("operator", "pauses");
+    stage_.enter(SessionPhase::pause, stage_.trial());
+    const SessionTime onset = stage_.show({Screen::Kind::text, stage_.protocol.operators.pause_text});
+    stage_.ports.panel.await_key(onset);
+    for (bool goes_on = false; !goes_on && !stage_.ends_by_itself();) {
+        while (const std::optional<ResponsePress> press = stage_.ports.panel.poll()) {
+            // The observer's key does not end the operator's pause.
+            if (press->key == Key::pause) {
+                goes_on = true;
+                break;
+            }
+            if (press->key == Key::abort || press->key == Key::recalibrate) {
+                if (!act_on(press->key))
+                    return;
+                stage_.ports.panel.await_key(
+                    stage_.show({Screen::Kind::text, stage_.protocol.operators.pause_text}));
+            }
+        }
+        if (!goes_on)
+            rest_a_little();
+    }
+    stage_.note("operator", fmt::format("goes on after {:.1f} s", to_seconds(stage_.now() - onset)));
+}
+
+void OperatorDesk::calibrate() {
+    if (stage_.phase() != SessionPhase::calibration)
+        stage_.enter(SessionPhase::calibration, stage_.trial());
+    stage_.show({});
+    const ValidationResult result = stage_.ports.tracker.calibrate();
+    stage_.note("validation", fmt::format("mean error {:.3f} deg, largest {:.3f} deg",
+                                          result.mean_error.value, result.max_error.value));
+}
+
+} // namespace overt

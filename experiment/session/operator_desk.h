@@ -1,0 +1,74 @@
+/// Waits for the observer's key while the operator may lead the session by others.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "experiment/session/session_stage.h"
+
+namespace overt {
+
+/// What the operator decided about the trial that is running.
+struct TrialDecision {
+    enum class Word : std::uint8_t {
+        none,
+        rejected, ///< comes again as the protocol says
+        repeated, ///< comes again at once
+        skipped   ///< does not come again
+    };
+    Word word = Word::none;
+    std::string why; ///< of a skipped one
+};
+
+/// How a screen is waited at.
+struct Waiting {
+    Screen screen; ///< that stands there; shown again after whatever came between
+    SessionTime onset;
+    double min_s = 0.0; ///< earlier presses do not count
+    double max_s = 0.0; ///< after which it ends by itself
+    /// Tells the panel what is waited for, from a time on; empty: a key.
+    std::function<void(SessionTime)> await = {};
+    /// Called a few hundred times a second; may be empty.
+    std::function<void()> meanwhile = {};
+    bool turns_pages = false; ///< left and back go back, right goes on
+    bool takes_keys = true; ///< of the observer; else only time ends it
+};
+
+class OperatorDesk {
+  public:
+    /// The stage must outlive the desk.
+    explicit OperatorDesk(SessionStage& stage) : stage_(stage) {}
+
+    enum class How : std::uint8_t { next, back, yes, no, timed_out, trial_over, session_over };
+    struct Press {
+        How how = How::next;
+        SessionTime at;
+    };
+    /// Waits until the observer presses a key or the time is up, or until the operator ends the trial or the
+    /// session. Pauses and calibrations in between are done here; pauses do not count as waiting.
+    Press wait(const Waiting& waiting);
+
+    /// Acts on an operator's key, with a question before it where there is one. Whether things go on: if not,
+    /// the trial or the session is over.
+    bool act_on(ResponsePress::Key key);
+
+    /// Shows a question and waits for yes or no. Gives what yes was said with: a digit's number, or 0.
+    std::optional<int> confirm(const std::string& question);
+
+    /// Of the trial that is running. begin_trial() forgets the one before.
+    const TrialDecision& decision() const { return decision_; }
+    void begin_trial() { decision_ = {}; }
+
+    void calibrate();
+
+  private:
+    void pause();
+    bool end_trial(ResponsePress::Key key);
+    void rest_a_little();
+
+    SessionStage& stage_;
+    TrialDecision decision_;
+};
+
+} // namespace overt

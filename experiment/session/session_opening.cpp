@@ -1,0 +1,120 @@
+#include "experiment/session/session_opening.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiment/content_hash.h"
+#include "experiment/session/observer_form.h"
+
+namespace overt {
+
+namespace {
+
+/// Who reads for longer than this has left.
+constexpr double longest_reading_s = 3600.0;
+
+constexpr SessionDuration key_interval = std::chrono::milliseconds(4);
+
+} // namespace
+
+bool read_text(SessionStage& stage, OperatorDesk& desk, const std::string& text, double max_s) {
+    if (text.empty())
+        return true;
+    const Screen screen{Screen::Kind::text, text};
+    const auto how = desk.wait({.screen = screen, .onset = stage.show(screen), .max_s = max_s}).how;
+    return how != OperatorDesk::How::session_over && how != OperatorDesk::How::trial_over;
+}
+
+void SessionOpening::run(bool is_known) {
+    if (!is_known && (!ask_for_consent() || !fill_in_form()))
+        return;
+    if (!read_text(stage_, desk_, stage_.protocol.screens.welcome_text,
+                   stage_.protocol.screens.response_max_s))
+        return;
+    read_instructions();
+}
+
+bool SessionOpening::ask_for_consent() {
+    const std::string& text = stage_.protocol.consent.text;
+    if (text.empty())
+        return true;
+    const Screen screen{Screen::Kind::text, text};
+    const auto await = [&](SessionTime since) { stage_.ports.panel.await_decision(true, since); };
+    for (;;) {
+        const OperatorDesk::Press press = desk_.wait(
+            {.screen = screen, .onset = stage_.show(screen), .max_s = longest_reading_s, .await = await});
+        using How = OperatorDesk::How;
+        if (press.how == How::next || press.how == How::back)
+            continue; // neither accepts nor declines
+        if (press.how == How::session_over)
+            return false;
+        const bool accepted = press.how == How::yes;
+        stage_.log().consent({stage_.ports.observer, accepted, press.at, {}, hash_of_text(text)});
+        if (!accepted)
+            stage_.end_session(press.how == How::no ? "the observer declined to take part"
+                                                    : "nobody agreed to take part");
+        return accepted;
+    }
+}
+
+bool SessionOpening::fill_in_form() {
+    const std::vector<ObserverFieldSettings>& fields = stage_.protocol.observer_fields;
+    const bool is_full =
+        std::none_of(fields_.begin(), fields_.end(), [](const auto& value) { return value.empty(); });
+    if (fields.empty())
+        return true;
+    if (!is_full && stage_.ports.can_type) {
+        ObserverForm form(fields, fields_);
+        const auto show = [&] {
+            stage_.ports.panel.await_entry(stage_.show({Screen::Kind::form, form.text()}));
+        };
+        show();
+        for (bool is_submitted = false; !is_submitted;) {
+            bool is_changed = false;
+            while (const std::optional<ResponsePress> press = stage_.ports.panel.poll()) {
+                if (is_operators(press->key)) {
+                    if (!desk_.act_on(press->key))
+                        return false;
+                    show();
+                } else if (form.take(*press)) {
+                    is_submitted = true;
+                    break;
+                }
+                is_changed = true;
+            }
+            if (stage_.ends_by_itself())
+                return false;
+            // Several keys in one look: drawn once. Presses that come while it is drawn are kept.
+            if (is_changed && !is_submitted)
+                stage_.show({Screen::Kind::form, form.text()});
+            if (!is_changed)
+                stage_.ports.clock.wait_until(stage_.now() + key_interval);
+        }
+        fields_ = form.values();
+    }
+    stage_.log().observer_fields(filled_in(fields, fields_));
+    return true;
+}
+
+void SessionOpening::read_instructions() {
+    const std::vector<std::string>& pages = stage_.protocol.instructions.pages;
+    for (std::size_t page = 0; page < pages.size();) {
+        const std::string text = pages.size() == 1
+                                     ? pages[page]
+                                     : fmt::format("{}\n\n{} / {}", pages[page], page + 1, pages.size());
+        const Screen screen{Screen::Kind::text, text};
+        const OperatorDesk::Press press = desk_.wait({.screen = screen,
+                                                      .onset = stage_.show(screen),
+                                                      .max_s = longest_reading_s,
+                                                      .turns_pages = true});
+        if (press.how == OperatorDesk::How::session_over)
+            return;
+        if (press.how != OperatorDesk::How::back)
+            ++page;
+        else if (page > 0)
+            --page;
+    }
+}
+
+} // namespace overt

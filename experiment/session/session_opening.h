@@ -1,0 +1,31 @@
+/// What comes before the first trial: consent, the observer's form, the welcome and the instructions.
+#pragma once
+
+#include "experiment/session/operator_desk.h"
+
+namespace overt {
+
+class SessionOpening {
+  public:
+    /// Both must outlive this. `fields`: what of the form is filled in already.
+    SessionOpening(SessionStage& stage, OperatorDesk& desk, FieldValues fields)
+        : stage_(stage), desk_(desk), fields_(std::move(fields)) {}
+
+    /// Until calibration may begin, or the session is over. Of an observer who declines nothing else is
+    /// recorded. `is_known`: consent and form are in the record already.
+    void run(bool is_known);
+
+  private:
+    bool ask_for_consent();
+    bool fill_in_form();
+    void read_instructions();
+
+    SessionStage& stage_;
+    OperatorDesk& desk_;
+    FieldValues fields_;
+};
+
+/// Shows a text until a key is pressed; whether things go on.
+bool read_text(SessionStage& stage, OperatorDesk& desk, const std::string& text, double max_s);
+
+} // namespace overt

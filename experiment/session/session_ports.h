@@ -1,0 +1,27 @@
+/// Everything that a session talks to.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "experiment/ports.h"
+
+namespace overt {
+
+/// All of it must outlive the session.
+struct SessionPorts {
+    Clock& clock;
+    Presenter& presenter;
+    EyeTracker& tracker;
+    ResponsePanel& panel;
+    SessionLog& log;
+    std::vector<DisplayWitness*> witnesses;
+    std::string observer = {};          ///< label, for the record of consent
+    bool can_type = false;              ///< somebody sits at the panel's keyboard and can fill in the form
+    AnswerRecorder* recorder = nullptr; ///< null: spoken answers are not recorded
+    /// Told every now and then while an answer is recorded, between presentations; may be empty.
+    std::function<void(const AudioLevel&)> on_level = {};
+};
+
+} // namespace overt

@@ -1,0 +1,57 @@
+/// What all parts of a session work on: its ports, its phase, and whether it is over.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "experiment/protocol/protocol.h"
+#include "experiment/session/session_ports.h"
+#include "experiment/session_phase.h"
+
+namespace overt {
+
+class SessionStage {
+  public:
+    /// Both must outlive the stage.
+    SessionStage(const Protocol& of, SessionPorts& on) : protocol(of), ports(on), log_(&on.log) {}
+
+    const Protocol& protocol;
+    SessionPorts& ports;
+
+    SessionTime now() const noexcept { return ports.clock.now(); }
+
+    /// The record; in practice, one that keeps events only.
+    SessionLog& log() { return *log_; }
+    void log_to(SessionLog& log) { log_ = &log; }
+
+    SessionPhase phase() const noexcept { return phase_; }
+    int trial() const noexcept { return trial_; } ///< -1 outside of trials
+    /// Notes the change, and tells the panel. `trial` is kept until the next change.
+    void enter(SessionPhase phase, int trial = -1);
+
+    /// An event now, of the trial that is running.
+    void note(std::string_view kind, std::string detail = {});
+
+    /// Shows a screen and tells the witnesses; gives its onset.
+    SessionTime show(const Screen& screen);
+
+    /// The display or the tracker has gone away.
+    bool went_away() const noexcept { return ports.presenter.closed() || ports.tracker.lost(); }
+
+    /// The session ends after what is under way. The first reason stays.
+    void end_session(std::string why);
+    bool is_over() const noexcept { return is_over_; }
+    const std::string& why_over() const noexcept { return why_over_; }
+
+    /// Ends the session if the display or the tracker went away; whether it did.
+    bool ends_by_itself();
+
+  private:
+    SessionLog* log_;
+    SessionPhase phase_ = SessionPhase::set_up;
+    int trial_ = -1;
+    bool is_over_ = false;
+    std::string why_over_;
+};
+
+} // namespace overt

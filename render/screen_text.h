@@ -1,0 +1,30 @@
+/// The texts of a session on its screen: how large they are set, and whether they fit.
+#pragma once
+
+#include <string>
+
+#include "experiment/protocol/protocol.h"
+#include "experiment/screen_geometry.h"
+#include "render/linear_image.h"
+#include "render/text_layout.h"
+
+namespace overt {
+
+/// How a screen's text comes out.
+struct ScreenTextFit {
+    TextMeasure measure;
+    int line_height_px = 0;
+    bool is_shrunk = false; ///< it is set smaller than the protocol says, so that all of it is seen
+};
+
+/// The texts stand in the middle eight tenths of the screen's width and nine tenths of its height: lines are
+/// wrapped at the one, and a text that is too high for the other is set smaller. `is_form`: lines begin below
+/// each other. Throws InputError for a text that is not UTF-8.
+ScreenTextFit fit_screen_text(const std::string& text, bool is_form, const ScreenGeometry& geometry,
+                              double text_height_deg);
+
+/// The text as it is shown, of the colours of the screens on the display's background.
+LinearImage draw_screen_text(const std::string& text, bool is_form, const ScreenGeometry& geometry,
+                             const ScreenSettings& screens, double background);
+
+} // namespace overt
