@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "experiment/error.h"
+#include "render/window_keys.h"
 
 namespace overt {
 
@@ -203,36 +204,6 @@ struct WindowContext::State {
         static_cast<State*>(glfwGetWindowUserPointer(window))->dragging.wheel_steps += steps;
     }
 
-    static WindowKey key_of(int key, int modifiers) {
-        if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12)
-            return static_cast<WindowKey>(static_cast<int>(WindowKey::f1) + key - GLFW_KEY_F1);
-        switch (key) {
-        case GLFW_KEY_SPACE:
-            return WindowKey::space;
-        case GLFW_KEY_ENTER:
-        case GLFW_KEY_KP_ENTER:
-            return WindowKey::enter;
-        case GLFW_KEY_ESCAPE:
-            return WindowKey::escape;
-        case GLFW_KEY_LEFT:
-            return WindowKey::left;
-        case GLFW_KEY_RIGHT:
-            return WindowKey::right;
-        case GLFW_KEY_UP:
-            return WindowKey::up;
-        case GLFW_KEY_DOWN:
-            return WindowKey::down;
-        case GLFW_KEY_TAB:
-            return (modifiers & GLFW_MOD_SHIFT) != 0 ? WindowKey::back_tab : WindowKey::tab;
-        case GLFW_KEY_BACKSPACE:
-            return WindowKey::backspace;
-        case GLFW_KEY_PAUSE:
-            return WindowKey::pause;
-        default:
-            return WindowKey::other;
-        }
-    }
-
     void push(const WindowKeyPress& press) {
         if (count < presses.size())
             presses[(first + count++) % presses.size()] = press;
@@ -241,7 +212,7 @@ struct WindowContext::State {
     static void on_key(GLFWwindow* window, int key, int, int action, int modifiers) {
         if (action != GLFW_RELEASE)
             static_cast<State*>(glfwGetWindowUserPointer(window))
-                ->push({key_of(key, modifiers), 0, action == GLFW_REPEAT});
+                ->push({window_key_of(key, modifiers), 0, action == GLFW_REPEAT});
     }
 
     static void on_character(GLFWwindow* window, unsigned character) {
