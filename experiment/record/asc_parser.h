@@ -37,6 +37,9 @@ class AscListener {
     virtual void malformed(std::int64_t line, std::string_view why, std::string_view text) = 0;
 };
 
+/// Longer than any line that a tracker writes.
+inline constexpr std::size_t longest_asc_line = 16384;
+
 /// Takes one line after another. Lines may end with a carriage return; parts that some files lack may be
 /// missing: the header, START and END, SAMPLES and EVENTS, the status column. Time stamps may be whole or
 /// with a fraction; where whole ones are repeated, as at 2000 Hz, the second is taken to be half a
