@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "experiment/error.h"
 #include "experiment/record/bids_gaze_events.h"
 #include "experiment/record/bids_tracker.h"
 #include "experiment/record/export_tables.h"
@@ -177,6 +178,11 @@ BidsGazeCounts write_bids_gaze(const SessionRecord& record, int run, const Looku
                 const auto of_eye = std::find_if(files.begin(), files.end(), [&](const auto& file) {
                     return file->eye() == samples[i].eye;
                 });
+                if (of_eye == files.end())
+                    throw RecordError(
+                        fmt::format("{}: a sample is of an eye that no trial's samples are of: the "
+                                    "session file is damaged.",
+                                    record.directory().string()));
                 (*of_eye)->sample(samples[i]);
                 if (has_places)
                     (*of_eye)->place(samples[i], joined[i], cells);

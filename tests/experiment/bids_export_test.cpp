@@ -230,11 +230,33 @@ TEST_CASE("sessions join a dataset one by one and change nothing of the others",
           "participant_id\tage\tglasses\nsub-AB7\t33\tyes\nsub-C2\t44\tno\n");
     dataset.add("D3");
     CHECK_THAT(bytes_of(dataset.path / "participants.tsv"),
-               Contains("sub-AB7\t33\tyes") && Contains("sub-D3\tn/a\tn/a"));
+               Contains("sub-AB7\t33\tyes") && Contains("sub-D3\t34\tn/a"));
     int hidden = 0;
     for (const auto& entry : fs::directory_iterator(dataset.root.path()))
         hidden += entry.path().filename().string().starts_with(".");
     CHECK(hidden == 0);
+}
+
+TEST_CASE("the observer's form stands in the table of participants, in words that BIDS knows", "[unit]") {
+    Dataset dataset;
+    const std::string rows = bytes_of(dataset.path / "participants.tsv");
+    CHECK(rows == "participant_id\tspecies\tage\tsex\thandedness\tvision\n"
+                  "sub-AB7\thomo sapiens\t34\tfemale\tn/a\tmit\\tBrille\n");
+    const auto json = dataset.json(dataset.path / "participants.json");
+    CHECK(json["vision"]["Description"] == "Sehen, 視力");
+    CHECK(json["age"]["Units"] == "year");
+    REQUIRE(dataset.counts.remarks.size() == 1);
+    CHECK_THAT(dataset.counts.remarks[0], Contains("handedness is «beide»"));
+    // The same observer once more, a year older: the table stays, and it is said.
+    const fs::path session = make_eye_session(dataset.root.path() / "later");
+    {
+        SessionStore store(session / session_file_name, patient());
+        store.observer_fields({{"age", "Alter", "35"}});
+        store.close();
+    }
+    const auto counts = export_bids(SessionRecord(session), no_surface, dataset.path, {true, {}});
+    CHECK(bytes_of(dataset.path / "participants.tsv") == rows);
+    CHECK_THAT(counts.remarks.back(), Contains("age is 34 in participants.tsv, and 35 in this session"));
 }
 
 TEST_CASE("a folder that is no dataset of ours is left alone", "[unit]") {

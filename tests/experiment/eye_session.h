@@ -75,6 +75,10 @@ inline std::filesystem::path make_eye_session(const std::filesystem::path& root,
     {
         SessionStore store(session / session_file_name, patient());
         clocks(store, 1);
+        store.observer_fields({{"age", "Alter", "34"},
+                               {"sex", "Geschlecht", "female"},
+                               {"handedness", "Hand", "beide"},
+                               {"vision", "Sehen, 視力", "mit\tBrille"}});
         store.event({at_ms(5), -1, "validation", "mean error 0.312 deg, largest 0.754 deg"});
         record_attempt(store, 1, header.schedule.trials[0], 10'000, 400, Status::completed);
         record_attempt(store, 1, header.schedule.trials[1], 20'000, 200, Status::aborted);
