@@ -87,6 +87,19 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
     run_when_chosen(command, chosen, [given] { return run_import(*given); });
 }
 
+void add_verify(CLI::App& app, ChosenCommand& chosen) {
+    const auto given = std::make_shared<VerifyOptions>();
+    VerifyOptions& options = *given;
+    CLI::App& command = add_command(
+        app, "verify", "Whether sessions on disk are what was recorded, and where they are not",
+        "overt verify sessions/overt_2019/sub-*\n"
+        "  overt verify sessions/overt_2019/sub-07_ses-01 --json\n"
+        "Exit codes: 0 all are sound (an interrupted one, too), 1 one is damaged, 2 one is no session.");
+    command.add_option("SESSION", options.sessions, "Folders of sessions")->required();
+    command.add_flag("--json", options.json, "Print JSON");
+    run_when_chosen(command, chosen, [given] { return run_verify(*given); });
+}
+
 void add_show(CLI::App& app, ChosenCommand& chosen) {
     const auto given = std::make_shared<ShowOptions>();
     ShowOptions& options = *given;
@@ -119,6 +132,7 @@ void add_record_commands(CLI::App& app, ChosenCommand& chosen) {
     add_export(app, chosen);
     add_import(app, chosen);
     add_show(app, chosen);
+    add_verify(app, chosen);
 }
 
 } // namespace overt

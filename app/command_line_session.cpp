@@ -7,6 +7,10 @@ namespace {
 const std::map<std::string, MapTime> map_times{
     {"auto", MapTime::automatic}, {"live", MapTime::live}, {"prepared", MapTime::prepared}};
 
+const std::map<std::string, ResumePolicy> resume_policies{{"redo", ResumePolicy::redo},
+                                                          {"skip", ResumePolicy::skip},
+                                                          {"restart-block", ResumePolicy::restart_block}};
+
 const std::map<std::string, AskAt> places_to_ask{
     {"window", AskAt::window}, {"terminal", AskAt::terminal}, {"nobody", AskAt::nobody}};
 
@@ -39,6 +43,7 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
     RunOptions& options = *given;
     CLI::App& command = add_command(app, "run", "Runs a session",
                                     "overt run protocols/overt_2019.toml --observer 07\n"
+                                    "  overt run protocols/overt_2019.toml --observer 07 --resume\n"
                                     "  overt run protocols/overt_2019.toml --observer 07 --simulate-observer "
                                     "1 --virtual-time --context osmesa");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
@@ -53,6 +58,17 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
                     "Number of this sitting (default: the next free one)")
         ->type_name("N")
         ->check(CLI::PositiveNumber);
+    command
+        .add_option_function<std::string>(
+            "--resume",
+            [&options](const std::string& policy) { options.resume = resume_policies.at(policy); },
+            "Go on with this observer's interrupted session (with --session that one, else the last): its "
+            "interrupted trial is done again (redo, the default), given up (skip), or its block begins again "
+            "(restart-block)")
+        ->expected(0, 1)
+        ->default_str("redo")
+        ->check(CLI::IsMember({"redo", "skip", "restart-block"}))
+        ->type_name("POLICY");
     command
         .add_option("--seed", options.seed,
                     "Seed of the order and of all that is simulated (default: the protocol's, or a new one)")

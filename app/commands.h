@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/past_step.h"
 #include "experiment/protocol/protocol.h"
 #include "render/gl_context.h"
 
@@ -37,6 +38,7 @@ struct RunOptions {
     std::filesystem::path protocol;
     std::string observer;
     std::optional<int> session_number;
+    std::optional<ResumePolicy> resume; ///< take up an interrupted session: this one, or the last there is
     std::optional<std::uint64_t> seed;
     std::optional<std::uint64_t> simulate_observer;
     std::vector<std::string> observer_fields; ///< ID=VALUE
@@ -121,6 +123,12 @@ struct ImportOptions {
     bool json = false;
 };
 int run_import(const ImportOptions& options);
+
+struct VerifyOptions {
+    std::vector<std::filesystem::path> sessions;
+    bool json = false;
+};
+int run_verify(const VerifyOptions& options);
 
 struct ShowOptions {
     std::filesystem::path session;

@@ -62,13 +62,13 @@ std::vector<DisplayWitness*> Rig::witnesses() {
     return all;
 }
 
-void Rig::open(DisplayFaults faults) {
+void Rig::open(DisplayFaults faults, SessionTime start) {
     if (window_ && !request_.virtual_time && !faults.is_clean())
         throw InputError("faults are simulated where time is: give --virtual-time, or --context osmesa");
     if (request_.virtual_time) {
-        clock_ = std::make_unique<VirtualClock>();
+        clock_ = std::make_unique<VirtualClock>(start);
     } else {
-        clock_ = std::make_unique<SteadyClock>();
+        clock_ = std::make_unique<SteadyClock>(start);
     }
     const ScreenGeometry geometry = screen_geometry_of(*protocol_);
     const double refresh_hz = protocol_->display.refresh_hz;

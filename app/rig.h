@@ -58,9 +58,9 @@ class Rig {
     bool maps_are_live() const;
 
     /// Makes presenter, tracker and panel. To be called once, when all stimuli are prepared: the session
-    /// clock starts here. `faults`: what goes wrong with a display that only keeps time. Throws InputError
-    /// for faults of a real screen in real time.
-    void open(DisplayFaults faults = {});
+    /// clock starts here, with `start`. `faults`: what goes wrong with a display that only keeps time. Throws
+    /// InputError for faults of a real screen in real time.
+    void open(DisplayFaults faults = {}, SessionTime start = {});
 
     /// Shows a dark screen for so many seconds, watches its refreshes, and adds what it finds to
     /// screen_findings(); gives what was added. Only on a real screen, once open. Throws GraphicsError for a

@@ -15,11 +15,13 @@
 #include "app/progress_bar.h"
 #include "app/protocol_file.h"
 #include "app/protocol_inputs.h"
+#include "app/resumed_session.h"
 #include "app/rig.h"
 #include "app/session_recording.h"
 #include "devices/thread_priority.h"
 #include "experiment/error.h"
 #include "experiment/protocol/fault_file.h"
+#include "experiment/record/session_schema.h"
 #include "experiment/record/session_store.h"
 #include "experiment/record/timing_report.h"
 #include "experiment/schedule.h"
@@ -32,6 +34,16 @@ namespace {
 std::uint64_t fresh_seed() {
     std::random_device device;
     return (std::uint64_t{device()} << 32) | device();
+}
+
+Schedule new_schedule(const RunOptions& options, const Protocol& protocol, const Observer& observer) {
+    const std::uint64_t seed = options.seed             ? *options.seed
+                               : protocol.schedule.seed ? *protocol.schedule.seed
+                                                        : fresh_seed();
+    Schedule schedule = make_schedule(protocol, observer, seed);
+    if (options.trials && *options.trials < static_cast<int>(schedule.trials.size()))
+        schedule.trials.resize(static_cast<std::size_t>(*options.trials));
+    return schedule;
 }
 
 /// Prints where the session stands after each trial.
@@ -173,15 +185,18 @@ int run_session(const RunOptions& options) {
     const std::vector<Sculpture>& sculptures = experiment.sculptures;
     // What would refuse the session at its end is said before anything is drawn.
     const SessionPlace place{options.sessions, protocol.name, observer.label};
-    check_session_place(place, options.session_number);
+    if (options.resume && finish_manifest(options, place))
+        return 0;
+    std::optional<ResumedSession> resumed;
+    if (options.resume)
+        resumed = take_up_session(options, place, protocol);
+    else
+        check_session_place(place, options.session_number);
     const DisplayFaults faults = read_faults_or_report(options.faults);
-    const FieldValues fields = fill_in_form(protocol, options);
-    const std::uint64_t seed = options.seed             ? *options.seed
-                               : protocol.schedule.seed ? *protocol.schedule.seed
-                                                        : fresh_seed();
-    Schedule schedule = make_schedule(protocol, observer, seed);
-    if (options.trials && *options.trials < static_cast<int>(schedule.trials.size()))
-        schedule.trials.resize(static_cast<std::size_t>(*options.trials));
+    // Whoever goes on was asked already.
+    const bool asks = !resumed || !resumed->so_far.is_opened;
+    const FieldValues fields = asks ? fill_in_form(protocol, options) : FieldValues();
+    const Schedule schedule = resumed ? resumed->header.schedule : new_schedule(options, protocol, observer);
 
     switch_back_what_was_left();
     const BoxPlan box_plan = plan_box(protocol.display, wants_window(options.context), options.virtual_time);
@@ -194,7 +209,7 @@ int run_session(const RunOptions& options) {
                        options.virtual_time,
                        options.windowed,
                        options.simulate_observer.has_value(),
-                       options.simulate_observer.value_or(seed),
+                       options.simulate_observer.value_or(schedule.seed),
                        options.maps,
                        options.monitor,
                        operators_keys(options)};
@@ -213,7 +228,7 @@ int run_session(const RunOptions& options) {
     }
     say_frames(rig.library());
     const Interruption interruption;
-    rig.open(faults);
+    rig.open(faults, resumed ? resumed->clock_start : SessionTime());
     if (rig.is_on_a_real_screen() && options.refresh_check_s > 0.0)
         check_timing(rig, options.refresh_check_s);
     rig.presenter().close_on(Interruption::requested());
@@ -230,20 +245,34 @@ int run_session(const RunOptions& options) {
 
     AnswerEquipment answers(protocol.answers, rig.clock(),
                             options.simulate_observer ? &rig.simulated_observer() : nullptr,
-                            options.simulate_observer.value_or(seed));
+                            options.simulate_observer.value_or(schedule.seed));
     fmt::print("spoken answers: {}\n", answers.description());
 
     SessionHeader header =
         make_session_header(protocol, schedule, sculptures, rig.library(), rig.context().description(),
                             rig.tracker().description(), rig.clock_kind(), !rig.maps_are_live());
-    SessionDirectory directory(place, options.session_number);
-    header.session_number = directory.session_number();
-    put_files(directory, header, sculptures, rig.library());
-    directory.publish();
+    const std::string started_utc = header.started_utc;
+    std::filesystem::path folder;
+    if (resumed) {
+        require_same_stimuli(*resumed, header);
+        folder = resumed->folder;
+        header = resumed->header;
+        reopen_manifest(folder, header, this_program());
+    } else {
+        SessionDirectory directory(place, options.session_number);
+        header.session_number = directory.session_number();
+        put_files(directory, header, sculptures, rig.library());
+        directory.publish();
+        folder = directory.path();
+    }
 
-    SessionStore store(
-        directory.session_file(),
-        {.wait_when_full = options.virtual_time, .ring_capacity = 65536, .started_utc = header.started_utc});
+    SessionStore store(folder / session_file_name,
+                       {.wait_when_full = options.virtual_time,
+                        .ring_capacity = 65536,
+                        .started_utc = started_utc,
+                        .program_version = this_program().version,
+                        .program_sha256 = this_program().sha256,
+                        .resumption = resumed ? std::optional(resumed->resumption) : std::nullopt});
     if (box)
         box->write_beginning(store);
     else
@@ -255,7 +284,7 @@ int run_session(const RunOptions& options) {
         record_verification(rig.presenter(), rig.library(), protocol, schedule, rig.clock(), store,
                             [&](int done, int total) { bar.update("verifying the output", done, total); });
     }
-    answers.keep_in(directory.path());
+    answers.keep_in(folder);
     store.event({rig.clock().now(), -1, "answer recording", answers.description()});
     Session session(protocol, schedule, screen_geometry_of(protocol).centre(),
                     {.clock = rig.clock(),
@@ -272,29 +301,32 @@ int run_session(const RunOptions& options) {
     TrialProgress progress(protocol, static_cast<int>(schedule.trials.size()));
     note_faults(options.faults, rig.clock(), store);
     note_thread(prepare_thread({options.realtime, options.processor}), rig.clock(), store);
-    const SessionResult result = session.run([&](const Trial& trial, const TrialOutcome& outcome, int done) {
-        if (LiveMaps* live = rig.live_maps())
-            record_live_maps(live->take_finished(), directory, header, store);
-        progress(trial, outcome, done);
-        if (const VirtualRefresh* display = rig.virtual_refresh())
-            note_struck(*display, trial, rig.clock(), store);
-        if (box)
-            box->check(store);
-    });
+    const SessionResult result = session.run(
+        [&](const Trial& trial, const TrialOutcome& outcome, int done) {
+            if (LiveMaps* live = rig.live_maps())
+                record_live_maps(live->take_finished(), folder, header, store);
+            progress(trial, outcome, done);
+            if (const VirtualRefresh* display = rig.virtual_refresh())
+                note_struck(*display, trial, rig.clock(), store);
+            if (box)
+                box->check(store);
+        },
+        resumed ? resumed->so_far : SessionSoFar());
     progress.finish();
     if (box)
         box->leave(store);
     store.close();
+    close_manifest(folder);
     const LostRows lost = store.lost();
     if (lost.flips + lost.samples > 0)
         fmt::print(stderr, "the disk was too slow: {} flips and {} samples were not recorded\n", lost.flips,
                    lost.samples);
 
     fmt::print("{} of {} trials completed, {} refreshes missed\nsession: {}\n", result.completed_trials,
-               schedule.trials.size(), result.missed_refreshes, directory.path().string());
+               schedule.trials.size(), result.missed_refreshes, folder.string());
     if (!options.print_session_to.empty()) {
         std::ofstream file(options.print_session_to);
-        file << directory.path().string() << "\n";
+        file << folder.string() << "\n";
         if (!file.flush())
             throw RecordError(fmt::format("{}: cannot be written", options.print_session_to.string()));
     }

@@ -129,8 +129,10 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
     return header;
 }
 
-void put_files(const SessionDirectory& directory, const SessionHeader& header,
-               std::span<const Sculpture> sculptures, const StimulusLibrary& library) {
+namespace {
+
+void put_all_files(const SessionDirectory& directory, const SessionHeader& header,
+                   std::span<const Sculpture> sculptures, const StimulusLibrary& library) {
     for (std::size_t i = 0; i < sculptures.size(); ++i) {
         if (!sculptures[i].has_mesh())
             continue;
@@ -157,16 +159,41 @@ void put_files(const SessionDirectory& directory, const SessionHeader& header,
         write_text(directory.path() / name, included.text);
     }
     create_session_file(directory.session_file(), header);
+    begin_manifest(directory.path(), header, this_program());
 }
 
-void record_live_maps(std::vector<LiveMap> maps, const SessionDirectory& directory,
+} // namespace
+
+void put_files(const SessionDirectory& directory, const SessionHeader& header,
+               std::span<const Sculpture> sculptures, const StimulusLibrary& library) {
+    try {
+        put_all_files(directory, header, sculptures, library);
+    } catch (const std::exception& error) {
+        throw RecordError(
+            fmt::format("{}\nThe session was not begun, and nothing is left of it. Make room on the "
+                        "disk or name another folder with --sessions, then run it again.",
+                        error.what()));
+    }
+}
+
+SessionManifest::Program this_program() {
+    static const ContentHash sha256 = hash_of_file("/proc/self/exe");
+    return {"overt", build::version, sha256};
+}
+
+void record_live_maps(std::vector<LiveMap> maps, const std::filesystem::path& folder,
                       const SessionHeader& header, SessionStore& store) {
+    std::erase_if(maps, [&](const LiveMap& map) {
+        return std::any_of(header.maps.begin(), header.maps.end(), [&](const RecordedMap& recorded) {
+            return recorded.sculpture == map.sculpture && recorded.pose == map.pose;
+        });
+    });
     std::vector<RecordedMap> recorded(maps.size());
     parallel_for(static_cast<int>(maps.size()), [&](int i) {
         const LiveMap& map = maps[static_cast<std::size_t>(i)];
         const RecordedSculpture& sculpture = header.sculptures[static_cast<std::size_t>(map.sculpture)];
         const std::string name = map_name(sculpture.id, map.pose);
-        const std::filesystem::path file = directory.path() / name;
+        const std::filesystem::path file = folder / name;
         std::filesystem::create_directories(file.parent_path());
         const double angle_deg = header.poses.angles[static_cast<std::size_t>(map.pose.value)].value;
         write_triangle_map(

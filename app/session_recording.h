@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "experiment/record/manifest.h"
 #include "experiment/record/preview_file.h"
 #include "experiment/record/session_directory.h"
 #include "experiment/record/session_header.h"
@@ -20,12 +21,17 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
                                   ClockKind clock, bool with_prepared_maps);
 
 /// Puts the meshes, the maps and a picture of each stimulus into the directory as the header names them, the
-/// header itself into a new session file, and a copy of the protocol beside it. Throws RecordError.
+/// header itself into a new session file, a copy of the protocol beside it, and a manifest of it all. Throws
+/// RecordError.
 void put_files(const SessionDirectory& directory, const SessionHeader& header,
                std::span<const Sculpture> sculptures, const StimulusLibrary& library);
 
-/// Writes maps that were made live into a published session. Throws RecordError.
-void record_live_maps(std::vector<LiveMap> maps, const SessionDirectory& directory,
+/// This program as a manifest names it.
+SessionManifest::Program this_program();
+
+/// Writes maps that were made live into a published session's folder; those that the header has already, from
+/// before the session was resumed, stay. Throws RecordError.
+void record_live_maps(std::vector<LiveMap> maps, const std::filesystem::path& folder,
                       const SessionHeader& header, SessionStore& store);
 
 /// Now, by the wall clock: 2026-11-21T09:30:00Z.

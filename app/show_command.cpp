@@ -21,7 +21,7 @@ namespace {
 
 const TrialRecord& trial_numbered(const SessionRecord& record, int number) {
     for (const TrialRecord& trial : record.trials()) {
-        if (trial.trial.index + 1 == number && trial.status == TrialRecord::Status::completed)
+        if (trial.trial.index + 1 == number && trial.counts)
             return trial;
     }
     throw InputError(fmt::format("{}: has no completed trial {}", record.directory().string(), number));
@@ -37,7 +37,9 @@ nlohmann::ordered_json session_json(const SessionRecord& record) {
                           {"task", header.tasks[static_cast<std::size_t>(trial.trial.task)].id},
                           {"sculpture", header.sculptures[sculpture].id},
                           {"material", header.materials[material].id},
+                          {"attempt", trial.attempt},
                           {"status", name_of(trial.status)},
+                          {"counts", trial.counts},
                           {"shown_refreshes", trial.outcome.shown_refreshes},
                           {"missed_refreshes", trial.outcome.missed_refreshes},
                           {"answer", trial.outcome.answer}});

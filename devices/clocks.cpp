@@ -38,7 +38,8 @@ Clock::Disturbance others_ahead() noexcept {
 
 } // namespace
 
-SteadyClock::SteadyClock() : origin_(std::chrono::steady_clock::now()), at_start_(others_ahead()) {}
+SteadyClock::SteadyClock(SessionTime start)
+    : origin_(std::chrono::steady_clock::now() - start.time_since_epoch()), at_start_(others_ahead()) {}
 
 Clock::Disturbance SteadyClock::disturbance() const noexcept {
     const Disturbance now = others_ahead();

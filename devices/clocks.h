@@ -8,10 +8,12 @@
 
 namespace overt {
 
-/// Time since this was made, by CLOCK_MONOTONIC. Any thread may read it and wait on it.
+/// Time since this was made, by CLOCK_MONOTONIC, plus what it starts with. Any thread may read it and wait on
+/// it.
 class SteadyClock final : public Clock {
   public:
-    SteadyClock();
+    /// `start`: what it shows at first; a resumed session goes on from its last time.
+    explicit SteadyClock(SessionTime start = {});
 
     SessionTime now() const noexcept override;
 
@@ -31,13 +33,15 @@ class SteadyClock final : public Clock {
 /// Moves only when it is waited on, and then jumps. Any thread may read it and wait on it.
 class VirtualClock final : public Clock {
   public:
+    explicit VirtualClock(SessionTime start = {}) : nanoseconds_(start.time_since_epoch().count()) {}
+
     SessionTime now() const noexcept override;
 
     /// Moves the clock to `time`, never back.
     void wait_until(SessionTime time) noexcept override;
 
   private:
-    std::atomic<SessionClock::rep> nanoseconds_{0};
+    std::atomic<SessionClock::rep> nanoseconds_;
     static_assert(std::atomic<SessionClock::rep>::is_always_lock_free);
 };
 

@@ -11,6 +11,14 @@ namespace {
 /// Nobody rests for longer without meaning to leave.
 constexpr double longest_break_s = 3600.0;
 
+TrialOutcome::Afterwards afterwards_of(const AttemptVerdict& verdict) {
+    using enum TrialOutcome::Afterwards;
+    if (verdict.failure == TrialFailure::none)
+        return never;
+    constexpr TrialOutcome::Afterwards of[] = {never, now, end_of_block};
+    return of[static_cast<int>(verdict.comes_again)];
+}
+
 /// Of practice, events alone are kept: rows of flips and samples are of trials that count.
 class PracticeLog final : public SessionLog {
   public:
@@ -39,14 +47,16 @@ Session::Session(const Protocol& protocol, const Schedule& schedule, const Scree
     fields_.resize(protocol.observer_fields.size());
 }
 
-SessionResult Session::run(const TrialDone& trial_done) {
+SessionResult Session::run(const TrialDone& trial_done, const SessionSoFar& so_far) {
     SessionResult result;
+    result.completed_trials = so_far.counted_trials;
     stage_.note(phase_event, std::string(name_of(SessionPhase::set_up)));
     ports_.panel.entered(SessionPhase::set_up, -1);
-    SessionOpening(stage_, desk_, fields_).run(false);
+    SessionOpening(stage_, desk_, fields_).run(so_far.is_opened);
     if (!stage_.is_over()) {
         desk_.calibrate();
         TrialQueue queue(stage_.protocol, schedule_);
+        queue.go_through(so_far.steps);
         while (!stage_.is_over()) {
             const std::optional<SessionStep> step = queue.next();
             if (!step)
@@ -107,8 +117,10 @@ void Session::judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& at
         return;
     const AttemptVerdict verdict = queue.tell(attempt.result);
     attempt.outcome.status = verdict.counts ? TrialOutcome::Status::completed : TrialOutcome::Status::aborted;
+    attempt.outcome.afterwards = afterwards_of(verdict);
     if (verdict.failure == TrialFailure::none)
         return;
+    attempt.outcome.failure = name_of(verdict.failure);
     constexpr std::string_view afterwards[] = {"does not come again", "comes again now",
                                                "comes again at the end of the block"};
     const std::string& why = desk_.decision().why;
@@ -138,7 +150,7 @@ void Session::run_practice(const SessionStep& step, const std::optional<Conditio
     stage_.log_to(ports_.log);
     if (stage_.is_over())
         return;
-    ports_.log.event({stage_.now(), -1, "practice answered", attempt.outcome.answer});
+    ports_.log.event({stage_.now(), -1, practice_answered_event, attempt.outcome.answer});
     if (practice.feedback.empty() || stage_.phase() != SessionPhase::response_screen)
         return;
     stage_.enter(SessionPhase::feedback);
@@ -148,7 +160,7 @@ void Session::run_practice(const SessionStep& step, const std::optional<Conditio
 void Session::run_break() {
     const BreakSettings& breaks = stage_.protocol.breaks;
     stage_.enter(SessionPhase::rest);
-    stage_.note("break begins");
+    stage_.note(break_begins_event);
     const Screen screen{Screen::Kind::text, breaks.text};
     const bool is_timed = breaks.pace == BreakPace::timed;
     desk_.wait({.screen = screen,

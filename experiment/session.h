@@ -32,8 +32,9 @@ class Session {
 
     /// Runs all trials in their order, with what comes before, between and after them. An attempt that does
     /// not count is recorded as aborted. Throws DeviceError, GraphicsError or RecordError for what breaks
-    /// between trials; what happens within one is in its outcome.
-    SessionResult run(const TrialDone& trial_done);
+    /// between trials; what happens within one is in its outcome. `so_far`: of an interrupted session, that is
+    /// taken up where it stood; its last step is that of being resumed.
+    SessionResult run(const TrialDone& trial_done, const SessionSoFar& so_far = {});
 
   private:
     void run_step(TrialQueue& queue, const SessionStep& step, SessionResult& result,

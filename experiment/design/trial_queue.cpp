@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "experiment/design/block_plan.h"
 #include "experiment/error.h"
 
@@ -25,7 +27,8 @@ std::string_view name_of(TrialFailure failure) {
     return names[static_cast<int>(failure)];
 }
 
-TrialQueue::TrialQueue(const Protocol& protocol, const Schedule& schedule) : protocol_(protocol) {
+TrialQueue::TrialQueue(const Protocol& protocol, const Schedule& schedule)
+    : protocol_(protocol), schedule_(schedule) {
     for (const Trial& trial : schedule.trials)
         waiting_.push_back({trial});
     if (!waiting_.empty())
@@ -57,8 +60,8 @@ bool TrialQueue::needs_pause(bool is_new_block) const {
            (breaks.between_blocks && is_new_block);
 }
 
-std::optional<SessionStep> TrialQueue::next() {
-    OVERT_EXPECTS(!running_);
+/// Finds what comes before the next trial, where that is not done already.
+void TrialQueue::look_ahead() {
     if (before_.empty() && !waiting_.empty()) {
         const int block = waiting_.front().trial.block;
         if (needs_pause(block != block_)) {
@@ -68,6 +71,11 @@ std::optional<SessionStep> TrialQueue::next() {
         if (block != block_)
             begin_block(block);
     }
+}
+
+std::optional<SessionStep> TrialQueue::next() {
+    OVERT_EXPECTS(!running_);
+    look_ahead();
     if (!before_.empty()) {
         const SessionStep step = before_.front();
         before_.pop_front();
@@ -108,21 +116,117 @@ AttemptVerdict TrialQueue::tell(const AttemptResult& result) {
         return verdict;
     if (again.number > protocol_.repeat.most_attempts && verdict.failure != TrialFailure::repeated)
         verdict.comes_again = RepeatWhen::never;
-    switch (verdict.comes_again) {
-    case RepeatWhen::never:
+    if (verdict.comes_again == RepeatWhen::never)
         verdict.counts = verdict.failure < TrialFailure::rejected;
+    put_back(again, verdict.comes_again);
+    return verdict;
+}
+
+void TrialQueue::put_back(const Attempt& attempt, RepeatWhen when) {
+    const auto is_of_another_block = [&](const Attempt& other) {
+        return other.trial.block != attempt.trial.block;
+    };
+    if (when == RepeatWhen::now)
+        waiting_.push_front(attempt);
+    else if (when == RepeatWhen::end_of_block)
+        waiting_.insert(std::find_if(waiting_.begin(), waiting_.end(), is_of_another_block), attempt);
+}
+
+void TrialQueue::go_through(std::span<const PastStep> steps) {
+    for (const PastStep& step : steps) {
+        switch (step.kind) {
+        case PastStep::Kind::practice:
+            leave_out_to_practice();
+            break;
+        case PastStep::Kind::pause:
+            look_ahead();
+            if (!before_.empty() && before_.front().kind == SessionStep::Kind::pause)
+                before_.pop_front();
+            break;
+        case PastStep::Kind::trial:
+            go_on_to_trial(step.trial);
+            take_fate(step.fate);
+            break;
+        case PastStep::Kind::resumed:
+            resume(step.policy);
+            break;
+        }
+    }
+}
+
+void TrialQueue::leave_out_to_practice() {
+    look_ahead();
+    const auto practice = std::find_if(before_.begin(), before_.end(), [](const SessionStep& step) {
+        return step.kind == SessionStep::Kind::practice;
+    });
+    if (practice == before_.end())
+        throw RecordError("the record tells of practice where its protocol has none: it cannot be gone on "
+                          "with");
+    before_.erase(before_.begin(), practice + 1);
+}
+
+/// What comes before it was read and done.
+void TrialQueue::go_on_to_trial(int trial) {
+    std::optional<SessionStep> step;
+    do
+        step = next();
+    while (step && step->kind != SessionStep::Kind::trial);
+    if (!step || step->trial.index != trial)
+        throw RecordError(fmt::format("the record has an attempt at trial {} where its order has another "
+                                      "one: it cannot be gone on with",
+                                      trial + 1));
+}
+
+void TrialQueue::take_fate(AttemptFate fate) {
+    const Attempt attempt = *running_;
+    running_.reset();
+    const Attempt again{attempt.trial, attempt.number + 1};
+    switch (fate) {
+    case AttemptFate::counted:
+    case AttemptFate::given_up:
         break;
-    case RepeatWhen::now:
-        waiting_.push_front(again);
+    case AttemptFate::comes_again_now:
+        put_back(again, RepeatWhen::now);
         break;
-    case RepeatWhen::end_of_block:
-        waiting_.insert(
-            std::find_if(waiting_.begin(), waiting_.end(),
-                         [&](const Attempt& other) { return other.trial.block != again.trial.block; }),
-            again);
+    case AttemptFate::comes_again_at_end:
+        put_back(again, RepeatWhen::end_of_block);
+        break;
+    case AttemptFate::interrupted:
+        interrupted_ = attempt;
         break;
     }
-    return verdict;
+}
+
+ResumeEffect TrialQueue::resume(ResumePolicy policy) {
+    OVERT_EXPECTS(!running_);
+    ResumeEffect effect;
+    if (policy == ResumePolicy::restart_block) {
+        const bool is_running = interrupted_ || (!waiting_.empty() && waiting_.front().trial.block == block_);
+        if (is_running)
+            effect.restarted_block = block_;
+    }
+    if (interrupted_ && policy == ResumePolicy::redo) {
+        waiting_.push_front(*interrupted_);
+        --attempts_since_pause_;
+    }
+    if (interrupted_ && policy == ResumePolicy::skip)
+        effect.given_up = interrupted_->trial.index;
+    interrupted_.reset();
+    if (effect.restarted_block)
+        restart_block();
+    return effect;
+}
+
+void TrialQueue::restart_block() {
+    std::erase_if(waiting_, [&](const Attempt& attempt) { return attempt.trial.block == block_; });
+    for (auto trial = schedule_.trials.rbegin(); trial != schedule_.trials.rend(); ++trial)
+        if (trial->block == block_)
+            waiting_.push_front({*trial});
+    // Practice that is not done yet still comes.
+    std::erase_if(before_, [](const SessionStep& step) { return step.kind != SessionStep::Kind::practice; });
+    if (const BlockSettings& settings = block_at(protocol_, block_); !settings.instructions.empty())
+        before_.push_front({SessionStep::Kind::instructions, {}, 1, block_});
+    attempts_since_pause_ = 0;
 }
 
 std::optional<Condition> TrialQueue::expected() const {

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 #include <string>
 
+#include "experiment/past_step.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/trial.h"
 
@@ -47,6 +49,12 @@ struct AttemptVerdict {
     bool counts = true;
 };
 
+/// What taking up a session again made of the trial that it was interrupted in.
+struct ResumeEffect {
+    std::optional<int> given_up;        ///< index of the trial that is skipped
+    std::optional<int> restarted_block; ///< whose attempts no longer count
+};
+
 /// Plans a session step by step. It ends for any outcomes: no trial is attempted more than
 /// repeat.most_attempts times, but for what the operator repeats by hand.
 class TrialQueue {
@@ -60,6 +68,19 @@ class TrialQueue {
     /// How the trial went that next() gave last.
     AttemptVerdict tell(const AttemptResult& result);
 
+    /// Goes through what an interrupted session had done; what is next then is what would have been next, but
+    /// for the trial that was interrupted: resume() decides about that. Practice and breaks that were done do
+    /// not come again. Only before the first next(). Throws RecordError for steps that this queue would not
+    /// have gone.
+    void go_through(std::span<const PastStep> steps);
+
+    /// Takes up the interrupted trial. Having been interrupted uses up none of repeat.most_attempts. Without
+    /// such a trial redo and skip do nothing.
+    ResumeEffect resume(ResumePolicy policy);
+
+    /// No trial is waiting, and none was interrupted.
+    bool is_done() const { return waiting_.empty() && !interrupted_; }
+
     /// The stimulus that will be shown next if nothing fails.
     std::optional<Condition> expected() const;
 
@@ -71,13 +92,20 @@ class TrialQueue {
         int number = 1;
     };
     AttemptVerdict judge(const AttemptResult& result) const;
+    void put_back(const Attempt& attempt, RepeatWhen when);
+    void look_ahead();
+    void leave_out_to_practice();
+    void go_on_to_trial(int trial);
+    void take_fate(AttemptFate fate);
+    void restart_block();
     void begin_block(int block);
     bool needs_pause(bool is_new_block) const;
 
     const Protocol& protocol_;
+    const Schedule& schedule_;
     std::deque<Attempt> waiting_;
     std::deque<SessionStep> before_; ///< what comes before the next trial
-    std::optional<Attempt> running_;
+    std::optional<Attempt> running_, interrupted_;
     int block_ = -1; ///< of the last trial
     int attempts_since_pause_ = 0;
 };

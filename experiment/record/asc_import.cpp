@@ -87,7 +87,8 @@ void insert_trial(SQLite::Database& database, const AscTrialTimes& times,
 
 void insert_sitting(SQLite::Database& database, const SessionHeader& header, const AscSurvey& survey,
                     const SessionClockOf& session_time) {
-    SQLite::Statement sitting(database, "INSERT INTO sitting VALUES (1, ?, 1)");
+    SQLite::Statement sitting(database,
+                              "INSERT INTO sitting (sitting, started_utc, closed) VALUES (1, ?, 1)");
     run_statement(sitting, header.started_utc);
     SQLite::Statement pair(database, "INSERT INTO clock_pair VALUES (NULL, 1, ?1, ?2, ?1)");
     for (const TrackerTime time : {survey.first, survey.last})
@@ -183,6 +184,7 @@ AscImportSummary import_asc(const fs::path& file, const AscImportOptions& option
         parse_asc_file(file, parser, part_of(options.progress, 1));
         sink.end();
     });
+    finish_imported_session(session_file.parent_path(), options.program);
     if (by_place)
         by_place->publish();
     else

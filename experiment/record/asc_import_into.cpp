@@ -243,6 +243,7 @@ AscImportSummary import_asc_into(const fs::path& file, const fs::path& session,
             run_statement(insert, match.sitting, pair.before,
                           static_cast<std::int64_t>(pair.tracker.time_since_epoch().count()), pair.after);
     });
+    finish_imported_session(partial.path(), options.program);
     partial.publish();
     summary.session = partial.path();
     add_remarks(summary, record, match, keeps_clock);

@@ -66,8 +66,7 @@ void AscTrial::add_missing(const SessionRecord& record, const TrialRecord& trial
     const auto at = [&](SessionTime time) { return asc_milliseconds(clock_map->to_tracker(time)); };
     // A screen that the attempt did not get to has no time.
     const auto add_screen = [&](std::string_view word, SessionTime time, int recording) {
-        if (was_presented && clock_map && time > trial.started && trial.status != TrialRecord::Status::open &&
-            !has(word))
+        if (was_presented && clock_map && time > trial.started && trial.has_outcome() && !has(word))
             add_message(at(time), recording, std::string(word));
     };
 
@@ -122,9 +121,9 @@ void AscTrial::add_missing(const SessionRecord& record, const TrialRecord& trial
         for (const Line& line : lines_)
             last = std::max(last, line.ms);
         add_message(last + 1, 1,
-                    trial.status == TrialRecord::Status::completed
-                        ? "TRIAL_RESULT 0"
-                        : fmt::format("TRIAL_RESULT {}", name_of(trial.status)));
+                    trial.counts          ? "TRIAL_RESULT 0"
+                    : trial.is_superseded ? "TRIAL_RESULT superseded"
+                                          : fmt::format("TRIAL_RESULT {}", name_of(trial.status)));
     }
 }
 

@@ -55,7 +55,13 @@ Table events_table(const SessionHeader& header) {
               "",
               {{"completed", "all of it was done"},
                {"aborted", "broken off, or failed and to come again"},
+               {"interrupted", "cut off when the program was killed, and the session went on later"},
                {"open", "cut off when the program was killed"}}},
+             {"counts",
+              "Whether this is the attempt that counts",
+              "",
+              {{"yes", "completed"},
+               {"no", "not completed, or its block was begun again later: the attempt there counts"}}},
              {"block", "The block that the trial is of, where there are blocks", "", std::move(blocks)},
              {"question", "Which question was asked", "", std::move(tasks)},
              {"sculpture", "Which sculpture was shown", "", levels_of(header.sculptures)},
@@ -91,6 +97,7 @@ class EventRows {
 void EventRows::end(const TrialRecord& trial) {
     const Condition condition = trial.trial.condition;
     row_.integer(trial.trial.index + 1).integer(trial.attempt).word(name_of(trial.status));
+    row_.word(trial.counts ? "yes" : "no");
     const auto block = static_cast<std::size_t>(trial.trial.block);
     block < header_.blocks.size() ? row_.text(header_.blocks[block]) : row_.missing();
     row_.text(item(header_.tasks, trial.trial.task).id)
@@ -100,7 +107,7 @@ void EventRows::end(const TrialRecord& trial) {
 
 void EventRows::write(const TrialRecord& trial) {
     const TrialOutcome& outcome = trial.outcome;
-    const bool is_open = trial.status == TrialRecord::Status::open;
+    const bool is_open = !trial.has_outcome();
     // Screens that the attempt did not get to have no time.
     const auto was = [&](SessionTime time) { return !is_open && time > trial.started; };
     begin(trial.started, was(outcome.responded_at) ? outcome.responded_at : trial.started, "trial");

@@ -62,7 +62,7 @@ std::vector<GazeEvent> screens_of(const TrialRecord& trial, const ClockMap& cloc
         {response_screen_message, outcome.response_screen_onset},
         {response_message, outcome.responded_at}};
     for (const auto& [word, at] : screens)
-        if (trial.status != TrialRecord::Status::open && at > trial.started)
+        if (trial.has_outcome() && at > trial.started)
             add(at, std::string(word));
     return messages;
 }

@@ -2,6 +2,7 @@
 
 #include "experiment/error.h"
 #include "experiment/record/header_rows.h"
+#include "experiment/record/seal_chain.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
 
@@ -108,16 +109,13 @@ void create_session_file(const std::filesystem::path& file, const SessionHeader&
                                   "PRAGMA synchronous = FULL",
                                   session_application_id, session_schema_version));
         SQLite::Transaction transaction(database);
-        database.exec(session_schema_sql);
-        database.exec(box_tables_sql);
-        database.exec(observer_tables_sql);
-        database.exec(ledger_tables_sql);
-        database.exec(gaze_tables_sql);
+        make_session_tables(database);
         insert_session(database, header);
         if (header.characterisation)
             insert_characterisation(database, *header.characterisation);
         insert_design(database, header);
         insert_sculptures(database, header);
+        SealWriter(database).begin(0);
         transaction.commit();
     } catch (const SQLite::Exception& reason) {
         throw_record_error(file, "writing the session's header", reason);

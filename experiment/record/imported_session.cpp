@@ -1,6 +1,10 @@
 #include "experiment/record/imported_session.h"
 
+#include "experiment/record/manifest.h"
+#include "experiment/record/seal_chain.h"
 #include "experiment/record/session_file.h"
+#include "experiment/record/session_record.h"
+#include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
 
 namespace overt {
@@ -18,6 +22,17 @@ void write_session_rows(const std::filesystem::path& session_file,
     } catch (const SQLite::Exception& reason) {
         throw_record_error(session_file, "writing imported gaze", reason);
     }
+}
+
+void finish_imported_session(const std::filesystem::path& folder, const ProgramBuild& program) {
+    write_session_rows(folder / session_file_name, [](SQLite::Database& database) {
+        Query version(database, "PRAGMA user_version");
+        if (version.step() && version.small() >= first_version_with_seals)
+            seal_all_anew(database);
+    });
+    const SessionRecord record(folder);
+    reopen_manifest(folder, record.header(), {"overt", program.version, hash_of_file("/proc/self/exe")});
+    close_manifest(folder);
 }
 
 } // namespace overt

@@ -1,14 +1,10 @@
 #include "experiment/record/row_writer.h"
 
-#include <cerrno>
-#include <cstring>
-
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
+#include <sqlite3.h>
 
 #include "experiment/error.h"
+#include "experiment/record/schema_migration.h"
 #include "experiment/record/session_file.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
@@ -19,14 +15,11 @@ namespace {
 /// Write-ahead log: a transaction costs a write to the end of a file and no wait for the disk. Checkpoints
 /// never happen by themselves (they flush the disk): the end of a trial is the time for them.
 SQLite::Database open_for_rows(const std::filesystem::path& file) {
+    migrate_session_file(file);
     SQLite::Database database = open_session_file(file, SessionFileUse::write);
     try {
         database.exec(
             "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 0");
-        // A session that an earlier program began goes on as one of this.
-        database.exec(ledger_tables_sql);
-        if (!has_column(database, "flip", "uncertainty_ns"))
-            database.exec("ALTER TABLE flip ADD COLUMN uncertainty_ns INTEGER NOT NULL DEFAULT 0");
     } catch (const SQLite::Exception& reason) {
         throw_record_error(file, "opening the session for writing", reason);
     }
@@ -39,23 +32,32 @@ std::int64_t number(const SQLite::Database& database, const char* sql, std::int6
     return query.step() ? query.integer() : 0;
 }
 
+std::optional<std::string> word_for(TrialOutcome::Afterwards afterwards) {
+    switch (afterwards) {
+    case TrialOutcome::Afterwards::never:
+        return "never";
+    case TrialOutcome::Afterwards::now:
+        return "now";
+    case TrialOutcome::Afterwards::end_of_block:
+        return "end-of-block";
+    case TrialOutcome::Afterwards::undecided:
+        break;
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 SessionLock::SessionLock(const std::filesystem::path& directory)
-    : descriptor_(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (descriptor_ < 0)
-        throw RecordError(
-            fmt::format("{}: there is no session here: {}.", directory.string(), std::strerror(errno)));
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        ::close(descriptor_);
+    : lock_(directory, FolderLock::Patience::none) {
+    if (!lock_.has_folder())
+        throw RecordError(fmt::format("{}: there is no session here.", directory.string()));
+    if (lock_.is_refused())
         throw RecordError(fmt::format("{}: another program is running this session: wait until it has ended.",
                                       directory.string()));
-    }
 }
 
-SessionLock::~SessionLock() { ::close(descriptor_); }
-
-RowWriter::RowWriter(const std::filesystem::path& session_file, const std::string& started_utc) try
+RowWriter::RowWriter(const std::filesystem::path& session_file, const Sitting& sitting) try
     : lock_(session_file.parent_path()), database_(open_for_rows(session_file)),
       insert_flip_(database_,
                    "INSERT INTO flip (trial_id, n, refresh_in_trial, refresh, planned, shown, pose, "
@@ -76,12 +78,10 @@ RowWriter::RowWriter(const std::filesystem::path& session_file, const std::strin
           database_,
           "UPDATE trial SET status = ?, task_screen_onset_ns = ?, presentation_onset_ns = ?, "
           "presentation_end_ns = ?, response_screen_onset_ns = ?, responded_ns = ?, shown_refreshes = ?, "
-          "missed_refreshes = ?, drift_deg = ?, answer = ?, lost_flips = ?, lost_samples = ? "
-          "WHERE trial_id = ?"),
-      outside_counts_(counts_so_far(0)) {
-    sitting_ = static_cast<int>(number(database_, "SELECT COALESCE(MAX(sitting), 0) + 1 + ?1 FROM sitting"));
-    SQLite::Statement insert_sitting(database_, "INSERT INTO sitting VALUES (?,?,0)");
-    run_statement(insert_sitting, sitting_, started_utc);
+          "missed_refreshes = ?, drift_deg = ?, answer = ?, lost_flips = ?, lost_samples = ?, "
+          "failure = ?, comes_again = ? WHERE trial_id = ?"),
+      outside_counts_(counts_so_far(0)), seals_(database_) {
+    begin_sitting(sitting);
 } catch (const SQLite::Exception& reason) {
     throw_record_error(session_file, "opening the session for writing", reason);
 }
@@ -90,6 +90,42 @@ RowWriter::Counts RowWriter::counts_so_far(std::int64_t trial_id) {
     return {trial_id,
             number(database_, "SELECT COALESCE(MAX(n) + 1, 0) FROM flip WHERE trial_id = ?1", trial_id),
             number(database_, "SELECT COALESCE(MAX(n) + 1, 0) FROM sample WHERE trial_id = ?1", trial_id)};
+}
+
+void RowWriter::begin_sitting(const Sitting& sitting) {
+    SQLite::Transaction transaction(database_);
+    sitting_ = static_cast<int>(number(database_, "SELECT COALESCE(MAX(sitting), 0) + 1 + ?1 FROM sitting"));
+    if (seals_.is_new())
+        seals_.begin(sitting_);
+    // Whatever is still open was left by a program that has ended: the lock says so.
+    std::vector<std::int64_t> left_open;
+    for (Query row(database_, "SELECT trial_id FROM trial WHERE status = 'open' ORDER BY trial_id");
+         row.step();)
+        left_open.push_back(row.integer());
+    database_.exec("UPDATE trial SET status = 'interrupted' WHERE status = 'open'");
+    for (const std::int64_t trial_id : left_open)
+        seals_.seal_trial(sitting_, trial_id);
+
+    const std::optional<Resumption>& resumed = sitting.resumption;
+    SQLite::Statement insert_sitting(
+        database_, "INSERT INTO sitting (sitting, started_utc, closed, resumed, program_version, "
+                   "program_sha256) VALUES (?,?,0,?,?,?)");
+    run_statement(insert_sitting, sitting_, sitting.started_utc,
+                  resumed ? std::optional(std::string(name_of(resumed->policy))) : std::nullopt,
+                  sitting.program_version, sitting.program_sha256);
+    if (resumed) {
+        SQLite::Statement supersede(database_, "INSERT OR IGNORE INTO superseded VALUES (?,?,?)");
+        for (const std::int64_t attempt_id : resumed->superseded)
+            run_statement(supersede, attempt_id, sitting_, "the block was restarted");
+        SQLite::Statement take_back(database_, "DELETE FROM given_up WHERE trial = ?");
+        for (const int trial : resumed->restarted)
+            run_statement(take_back, trial);
+        SQLite::Statement give_up(database_, "INSERT OR REPLACE INTO given_up VALUES (?,?,?)");
+        if (resumed->given_up)
+            run_statement(give_up, *resumed->given_up, sitting_, "interrupted, and skipped");
+    }
+    seals_.seal_rest(SealKind::sitting, sitting_);
+    transaction.commit();
 }
 
 void RowWriter::begin() {
@@ -102,6 +138,9 @@ void RowWriter::begin() {
 void RowWriter::commit() {
     if (!in_transaction_)
         return;
+    if (needs_seal_)
+        seals_.seal_rest(SealKind::other, sitting_);
+    needs_seal_ = false;
     database_.exec("COMMIT");
     in_transaction_ = false;
 }
@@ -156,13 +195,13 @@ void RowWriter::event(SessionTime at, int trial, const std::string& kind, const 
 }
 
 void RowWriter::map(const RecordedMap& map) {
-    begin();
+    begin_sealed();
     run_statement(insert_map_, map.sculpture, map.pose.value, map.file, map.sha256,
                   map.made == RecordedMap::Made::prepared ? "prepared" : "live");
 }
 
 void RowWriter::display_box(const RecordedBox& box) {
-    begin();
+    begin_sealed();
     database_.exec(box_tables_sql);
     SQLite::Statement insert(
         database_, "INSERT OR REPLACE INTO display_box (sitting, use, port, product, serial_number, "
@@ -185,7 +224,7 @@ void RowWriter::box_clock(const std::vector<BoxClockReading>& readings) {
 }
 
 void RowWriter::consent(const RecordedConsent& consent) {
-    begin();
+    begin_sealed();
     database_.exec(observer_tables_sql);
     SQLite::Statement insert(database_, "INSERT INTO consent (sitting, observer, accepted, at_ns, at_utc, "
                                         "text_sha256) VALUES (?,?,?,?,?,?)");
@@ -213,7 +252,7 @@ void RowWriter::answer(const RecordedAnswer& answer) {
 }
 
 void RowWriter::observer_fields(const std::vector<RecordedObserverField>& fields) {
-    begin();
+    begin_sealed();
     database_.exec(observer_tables_sql);
     database_.exec("DELETE FROM observer_field");
     SQLite::Statement insert(database_, "INSERT INTO observer_field (id, title, value) VALUES (?,?,?)");
@@ -242,11 +281,19 @@ void RowWriter::finish_trial(const Trial& trial, const TrialOutcome& outcome, st
                   outcome.response_screen_onset, outcome.responded_at, outcome.shown_refreshes,
                   outcome.missed_refreshes,
                   outcome.drift ? std::optional(outcome.drift->value) : std::nullopt, outcome.answer,
-                  lost_flips, lost_samples, trial_counts_.trial_id);
+                  lost_flips, lost_samples,
+                  outcome.failure.empty() ? std::nullopt : std::optional(outcome.failure),
+                  word_for(outcome.afterwards), trial_counts_.trial_id);
+    seals_.seal_trial(sitting_, trial_counts_.trial_id);
     commit_to_disk();
 }
 
-void RowWriter::checkpoint() noexcept { database_.tryExec("PRAGMA wal_checkpoint(PASSIVE)"); }
+void RowWriter::checkpoint() noexcept {
+    // Nobody is waited for who reads the session just now.
+    sqlite3_busy_timeout(database_.getHandle(), 0);
+    database_.tryExec("PRAGMA wal_checkpoint(TRUNCATE)");
+    sqlite3_busy_timeout(database_.getHandle(), writer_patience_ms);
+}
 
 void RowWriter::close() {
     commit();
@@ -254,6 +301,7 @@ void RowWriter::close() {
     begin();
     SQLite::Statement close_sitting(database_, "UPDATE sitting SET closed = 1 WHERE sitting = ?");
     run_statement(close_sitting, sitting_);
+    seals_.seal_rest(SealKind::end, sitting_);
     commit_to_disk();
     // One plain file can be read from any place, a read-only one too. Where somebody is reading it just now
     // it stays as it is, which is as good but for that.

@@ -7,7 +7,10 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "experiment/ports.h"
+#include "experiment/record/folder_lock.h"
 #include "experiment/record/recorded_box.h"
+#include "experiment/record/resumption.h"
+#include "experiment/record/seal_chain.h"
 #include "experiment/record/session_header.h"
 
 namespace overt {
@@ -17,20 +20,19 @@ class SessionLock {
   public:
     /// Throws RecordError if another program holds it.
     explicit SessionLock(const std::filesystem::path& directory);
-    ~SessionLock();
-    SessionLock(const SessionLock&) = delete;
-    SessionLock& operator=(const SessionLock&) = delete;
 
   private:
-    int descriptor_ = -1;
+    FolderLock lock_;
 };
 
 /// Inserts the rows of one sitting. One thread. All but the constructor throw SQLite::Exception; the caller
 /// then rolls back and writes no more.
 class RowWriter {
   public:
-    /// Opens the file, locks it and notes a new sitting. Throws RecordError.
-    RowWriter(const std::filesystem::path& session_file, const std::string& started_utc);
+    /// Opens the file, locks it and notes a new sitting. A session of an earlier version is brought to this
+    /// one; an attempt that was running when the program was killed is noted as interrupted. Throws
+    /// RecordError.
+    RowWriter(const std::filesystem::path& session_file, const Sitting& sitting);
 
     // The transaction begins by itself with the first row.
     void flip(const FlipRecord& flip);
@@ -46,8 +48,8 @@ class RowWriter {
     void observer_fields(const std::vector<RecordedObserverField>& fields);
     void start_trial(const Trial& trial, SessionTime at);
 
-    /// Commits what is open, then the outcome in a transaction of its own that is on the disk, with
-    /// everything before it, when this returns.
+    /// Commits what is open, then the outcome and the seal over the trial's rows in a transaction of their
+    /// own that is on the disk, with everything before it, when this returns.
     void finish_trial(const Trial& trial, const TrialOutcome& outcome, std::int64_t lost_flips,
                       std::int64_t lost_samples);
 
@@ -55,7 +57,8 @@ class RowWriter {
     void commit();
     void roll_back() noexcept;
 
-    /// Moves the write-ahead log's pages to the file. A failure does no harm: the log stays the truth.
+    /// Moves the write-ahead log's pages to the file and empties the log, so that a log only ever grows: what
+    /// does not fit in it is damage, and no remnant. A failure does no harm: the log stays the truth.
     void checkpoint() noexcept;
 
     /// Commits, syncs, notes that the sitting ended in order, and leaves one file without a log.
@@ -68,6 +71,12 @@ class RowWriter {
         std::int64_t samples = 0;
     };
     void begin();
+    /// For rows of tables that may be replaced: the transaction will end with a seal over them.
+    void begin_sealed() {
+        begin();
+        needs_seal_ = true;
+    }
+    void begin_sitting(const Sitting& sitting);
     void commit_to_disk();
     Counts& counts_of(int trial) {
         return trial >= 0 && trial == open_trial_ ? trial_counts_ : outside_counts_;
@@ -82,7 +91,9 @@ class RowWriter {
     int open_trial_ = -1; ///< index of the trial whose rows come in
     Counts trial_counts_;
     Counts outside_counts_; ///< of rows that belong to no started trial: trial_id 0
+    SealWriter seals_;
     bool in_transaction_ = false;
+    bool needs_seal_ = false;
 };
 
 } // namespace overt

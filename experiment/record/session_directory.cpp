@@ -46,6 +46,41 @@ fs::path nearest_existing(fs::path path) {
     return path;
 }
 
+/// Folders of this observer's sessions that are in the making, or were when their program was killed, and the
+/// numbers that they will have.
+std::vector<std::pair<int, fs::path>> unfinished_folders(const SessionPlace& place) {
+    const std::string prefix = "." + stem(place);
+    std::vector<std::pair<int, fs::path>> folders;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(place.root / place.protocol_name, none)) {
+        const std::string name = entry.path().filename().string();
+        if (!std::string_view(name).starts_with(prefix))
+            continue;
+        int number = 0;
+        const char* const end = name.data() + name.size();
+        const auto read = std::from_chars(name.data() + prefix.size(), end, number);
+        if (read.ec == std::errc() && std::string_view(read.ptr, end).starts_with(".partial-"))
+            folders.emplace_back(number, entry.path());
+    }
+    return folders;
+}
+
+/// Removes what killed programs left. Throws InputError if a living one is making the number that is wanted.
+void remove_remnants(const SessionPlace& place, std::optional<int> wanted) {
+    for (const auto& [number, folder] : unfinished_folders(place)) {
+        const FolderLock lock(folder, FolderLock::Patience::none);
+        if (!lock.is_refused()) {
+            std::error_code ignored;
+            fs::remove_all(folder, ignored);
+        } else if (number == wanted) {
+            throw InputError(
+                fmt::format("{}: another program is beginning this session just now. The next free "
+                            "session number is {}.",
+                            session_path(place, number).string(), next_session_number(place)));
+        }
+    }
+}
+
 } // namespace
 
 void check_observer_label(const std::string& label) {
@@ -77,10 +112,10 @@ fs::path session_path(const SessionPlace& place, int session_number) {
     return place.root / place.protocol_name / fmt::format("{}{:02}", stem(place), session_number);
 }
 
-int next_session_number(const SessionPlace& place) {
+std::vector<int> session_numbers(const SessionPlace& place) {
     check_names(place);
     const std::string prefix = stem(place);
-    int highest = 0;
+    std::vector<int> numbers;
     std::error_code none;
     for (const auto& entry : fs::directory_iterator(place.root / place.protocol_name, none)) {
         const std::string name = entry.path().filename().string();
@@ -90,19 +125,39 @@ int next_session_number(const SessionPlace& place) {
         const char* const end = name.data() + name.size();
         if (const auto read = std::from_chars(name.data() + prefix.size(), end, number);
             read.ec == std::errc() && read.ptr == end)
-            highest = std::max(highest, number);
+            numbers.push_back(number);
     }
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+}
+
+int next_session_number(const SessionPlace& place) {
+    int highest = 0;
+    for (const int number : session_numbers(place))
+        highest = std::max(highest, number);
+    for (const auto& [number, folder] : unfinished_folders(place))
+        if (number > highest && FolderLock(folder, FolderLock::Patience::none).is_refused())
+            highest = number;
     return highest + 1;
 }
 
 SessionDirectory::SessionDirectory(const SessionPlace& place, std::optional<int> session_number)
-    : place_(place), session_number_(session_number ? *session_number : next_session_number(place)) {
-    if (session_number_ < 1)
-        throw InputError(fmt::format("Session number {}: numbers count from 1.", session_number_));
+    : place_(place) {
+    if (session_number && *session_number < 1)
+        throw InputError(fmt::format("Session number {}: numbers count from 1.", *session_number));
+    check_names(place);
+    std::error_code error;
+    fs::create_directories(place.root / place.protocol_name, error); // or else PartialDirectory tells why not
+    // Numbers are taken one after the other.
+    const FolderLock one_at_a_time(place.root / place.protocol_name,
+                                   FolderLock::Patience::as_long_as_it_takes);
+    remove_remnants(place, session_number);
+    session_number_ = session_number ? *session_number : next_session_number(place);
     const fs::path path = session_path(place, session_number_);
     if (fs::exists(path))
         throw taken(path, place_);
     directory_.emplace(path);
+    claim_ = FolderLock(directory_->path(), FolderLock::Patience::as_long_as_it_takes);
 }
 
 fs::path SessionDirectory::session_file() const { return path() / session_file_name; }
@@ -111,6 +166,7 @@ void SessionDirectory::publish() {
     if (!directory_->is_published() && fs::exists(directory_->final_path()))
         throw taken(directory_->final_path(), place_);
     directory_->publish();
+    claim_ = {};
 }
 
 } // namespace overt

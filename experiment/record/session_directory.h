@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "experiment/record/folder_lock.h"
 #include "experiment/record/partial_directory.h"
 
 namespace overt {
@@ -26,15 +28,22 @@ void check_observer_label(const std::string& label);
 /// be a directory's, if a number is asked for that exists, or if nothing can be written there.
 void check_session_place(const SessionPlace& place, std::optional<int> session_number);
 
-/// One more than the highest number that this observer has in this protocol, from 1.
+/// One more than the highest number that this observer has in this protocol, from 1; sessions that other
+/// programs are just making count.
 int next_session_number(const SessionPlace& place);
 
+/// Numbers of the sessions that this observer has in this protocol, ascending.
+std::vector<int> session_numbers(const SessionPlace& place);
+
 /// A session's directory in the making: hidden under another name until publish(), so that a directory with a
-/// session's name always is a whole one. Without publish() it removes itself.
+/// session's name always is a whole one. Without publish() it removes itself; what a killed program left of
+/// one is removed by the next that makes one for this observer. The number is taken from the beginning on:
+/// of two programs that make sessions at once, each has its own.
 class SessionDirectory {
   public:
     /// Takes the next free number if none is asked for. Throws InputError if a number is asked for that
-    /// exists (naming the next free one), RecordError if the directory cannot be made.
+    /// exists, or that another program is making (naming the next free one), RecordError if the directory
+    /// cannot be made.
     explicit SessionDirectory(const SessionPlace& place, std::optional<int> session_number = std::nullopt);
 
     /// Where its files are to be put; after publish() where they are.
@@ -54,6 +63,7 @@ class SessionDirectory {
     SessionPlace place_;
     int session_number_ = 1;
     std::optional<PartialDirectory> directory_;
+    FolderLock claim_; ///< on what is being made, for others to see
 };
 
 } // namespace overt

@@ -42,13 +42,20 @@ SQLite::Database open_session_file(const std::filesystem::path& file, SessionFil
     try {
         SQLite::Database database(file.string(), use == SessionFileUse::write ? SQLite::OPEN_READWRITE
                                                                               : SQLite::OPEN_READONLY);
-        // Readers wait while a writer folds its file. A writer can wait longer for somebody who looks into
-        // the session with a tool that locks it: its ring holds what comes in meanwhile.
-        database.setBusyTimeout(use == SessionFileUse::write ? 20'000 : 2'000);
+        // Readers wait while a writer folds its file.
+        database.setBusyTimeout(use == SessionFileUse::write ? writer_patience_ms : 2'000);
         check_identity(database, file);
         return database;
     } catch (const SQLite::Exception& reason) {
         throw_record_error(file, "opening the session", reason);
+    }
+}
+
+void fold_session_file(const std::filesystem::path& file) {
+    try {
+        open_session_file(file, SessionFileUse::write).exec("PRAGMA journal_mode = DELETE");
+    } catch (const SQLite::Exception& reason) {
+        throw_record_error(file, "folding the session into one file", reason);
     }
 }
 

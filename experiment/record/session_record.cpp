@@ -1,6 +1,7 @@
 #include "experiment/record/session_record.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -25,9 +26,19 @@ template <class Read> auto reading(const std::filesystem::path& file, Read read)
 }
 
 TrialRecord::Status status_from(const std::string& word) {
-    if (word == "completed")
-        return TrialRecord::Status::completed;
-    return word == "aborted" ? TrialRecord::Status::aborted : TrialRecord::Status::open;
+    for (const auto status :
+         {TrialRecord::Status::completed, TrialRecord::Status::aborted, TrialRecord::Status::interrupted})
+        if (word == name_of(status))
+            return status;
+    return TrialRecord::Status::open;
+}
+
+TrialOutcome::Afterwards afterwards_from(const std::string& word) {
+    if (word == "now")
+        return TrialOutcome::Afterwards::now;
+    if (word == "end-of-block")
+        return TrialOutcome::Afterwards::end_of_block;
+    return word == "never" ? TrialOutcome::Afterwards::never : TrialOutcome::Afterwards::undecided;
 }
 
 TrialRecord read_trial(Query& row) {
@@ -56,18 +67,25 @@ TrialRecord read_trial(Query& row) {
     outcome.answer = row.text();
     record.lost_flips = row.integer();
     record.lost_samples = row.integer();
+    outcome.failure = row.text();
+    outcome.afterwards = afterwards_from(row.text());
+    record.is_superseded = row.integer() != 0;
+    record.counts = record.status == TrialRecord::Status::completed && !record.is_superseded;
     return record;
 }
 
 std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
     std::vector<TrialRecord> trials;
-    for (Query row(
-             database,
-             "SELECT trial_id, sitting, trial, attempt, task, sculpture, material, status, started_ns, "
-             "task_screen_onset_ns, presentation_onset_ns, presentation_end_ns, response_screen_onset_ns, "
-             "responded_ns, shown_refreshes, missed_refreshes, drift_deg, answer, lost_flips, "
-             "lost_samples FROM trial ORDER BY trial_id");
-         row.step();)
+    // Sessions of earlier programs know of nothing that was completed and does not count.
+    const bool tells_fates = has_column(database, "trial", "comes_again");
+    const std::string sql = fmt::format(
+        "SELECT trial_id, sitting, trial, attempt, task, sculpture, material, status, started_ns, "
+        "task_screen_onset_ns, presentation_onset_ns, presentation_end_ns, response_screen_onset_ns, "
+        "responded_ns, shown_refreshes, missed_refreshes, drift_deg, answer, lost_flips, lost_samples, {} "
+        "FROM trial ORDER BY trial_id",
+        tells_fates ? "failure, comes_again, trial_id IN (SELECT attempt_id FROM superseded)"
+                    : "NULL, NULL, 0");
+    for (Query row(database, sql.c_str()); row.step();)
         trials.push_back(read_trial(row));
     return trials;
 }
@@ -142,6 +160,8 @@ std::string_view name_of(TrialRecord::Status status) {
         return "completed";
     case TrialRecord::Status::aborted:
         return "aborted";
+    case TrialRecord::Status::interrupted:
+        return "interrupted";
     }
     return "unknown";
 }
@@ -454,13 +474,56 @@ SessionTime SessionRecord::last_time() const {
                   "(SELECT COALESCE(MAX(after_ns), 0) FROM clock_pair), "
                   "(SELECT COALESCE(MAX(vertical_blank_ns), 0) FROM flip))");
         row.step();
-        return row.session_time();
+        SessionTime last = row.session_time();
+        if (has_table(*database_, "box_clock_pair")) {
+            Query box(*database_, "SELECT COALESCE(MAX(after_ns), 0) FROM box_clock_pair");
+            box.step();
+            last = std::max(last, box.session_time());
+        }
+        return last;
     });
+}
+
+std::vector<std::pair<int, std::string>> SessionRecord::resumptions() const {
+    return reading(file_, [&] {
+        std::vector<std::pair<int, std::string>> resumptions;
+        const char* const sql =
+            has_column(*database_, "sitting", "resumed")
+                ? "SELECT sitting, resumed FROM sitting WHERE sitting > 1 ORDER BY sitting"
+                : "SELECT sitting, NULL FROM sitting WHERE sitting > 1 ORDER BY sitting";
+        for (Query row(*database_, sql); row.step();) {
+            const int sitting = row.small();
+            resumptions.emplace_back(sitting, row.text());
+        }
+        return resumptions;
+    });
+}
+
+std::vector<int> SessionRecord::given_up() const {
+    return reading(file_, [&] {
+        std::vector<int> trials;
+        if (!has_table(*database_, "given_up"))
+            return trials;
+        for (Query row(*database_, "SELECT trial FROM given_up ORDER BY trial"); row.step();)
+            trials.push_back(row.small());
+        return trials;
+    });
+}
+
+bool SessionRecord::is_complete() const {
+    std::set<int> done;
+    for (const int trial : given_up())
+        done.insert(trial);
+    for (const TrialRecord& attempt : trials_)
+        if (attempt.counts || (attempt.status == TrialRecord::Status::aborted && !attempt.is_superseded &&
+                               attempt.outcome.afterwards == TrialOutcome::Afterwards::never))
+            done.insert(attempt.trial.index);
+    return done.size() == header_.schedule.trials.size() && closed_in_order();
 }
 
 bool SessionRecord::closed_in_order() const {
     return reading(file_, [&] {
-        Query row(*database_, "SELECT COUNT(*) = 0 FROM sitting WHERE closed = 0");
+        Query row(*database_, "SELECT closed FROM sitting ORDER BY sitting DESC LIMIT 1");
         return row.step() && row.integer() != 0;
     });
 }

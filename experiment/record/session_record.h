@@ -13,6 +13,7 @@
 
 #include "experiment/analysis/flip_history.h"
 #include "experiment/clock_map.h"
+#include "experiment/past_step.h"
 #include "experiment/ports.h"
 #include "experiment/record/gaze_event.h"
 #include "experiment/record/recorded_box.h"
@@ -31,16 +32,22 @@ struct TrialRecord {
         open, ///< running, or cut off when the program was killed
         completed,
         aborted,
+        interrupted, ///< cut off, as a later sitting found
     };
     std::int64_t id = 0; ///< key of its flips and samples
     int sitting = 1;
     Trial trial;
     int attempt = 1; ///< counts from 1
     Status status = Status::open;
+    bool is_superseded = false; ///< its block was restarted later
+    bool counts = false;        ///< completed, and not superseded
     SessionTime started;
-    TrialOutcome outcome; ///< meaningless while open
+    TrialOutcome outcome; ///< meaningless while open, or interrupted
     std::int64_t lost_flips = 0;
     std::int64_t lost_samples = 0;
+
+    /// It came to its end, in order or not.
+    bool has_outcome() const { return status == Status::completed || status == Status::aborted; }
 };
 std::string_view name_of(TrialRecord::Status status);
 
@@ -135,8 +142,22 @@ class SessionRecord {
     /// The latest session time that any row names: from here on a resumed session's clock may go on.
     SessionTime last_time() const;
 
-    /// Each sitting was closed in order: nothing was killed or failed.
+    /// The last sitting was closed in order: nothing was killed or failed since. False before the first.
     bool closed_in_order() const;
+
+    /// How each sitting after the first took the session up, by the word of its resume policy; empty for
+    /// sessions of earlier programs.
+    std::vector<std::pair<int, std::string>> resumptions() const;
+
+    /// Indices of trials that were skipped when the session was taken up again.
+    std::vector<int> given_up() const;
+
+    /// Each trial has an attempt that counts or will not be attempted any more, and the session was closed in
+    /// order.
+    bool is_complete() const;
+
+    /// What was done, for a session that is taken up again, or to see whether it is complete.
+    SessionSoFar so_far() const;
 
     /// Reads the whole file and gives a sentence for each thing that is wrong with it; empty if it is sound.
     std::vector<std::string> damages() const;

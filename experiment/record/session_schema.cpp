@@ -1,5 +1,7 @@
 #include "experiment/record/session_schema.h"
 
+#include <SQLiteCpp/Database.h>
+
 namespace overt {
 
 // `flip` and `sample` are written thousands of times a second: their only key is the order of arrival within
@@ -64,18 +66,25 @@ CREATE TABLE map (sculpture INTEGER NOT NULL, pose INTEGER NOT NULL, file TEXT N
                   kind TEXT NOT NULL DEFAULT 'triangles' CHECK (kind IN ('triangles', 'coordinates')),
                   PRIMARY KEY (sculpture, pose)) STRICT, WITHOUT ROWID;
 CREATE TABLE sitting (sitting INTEGER PRIMARY KEY, started_utc TEXT NOT NULL,
-                      closed INTEGER NOT NULL) STRICT;
+                      closed INTEGER NOT NULL,
+                      resumed TEXT CHECK (resumed IN ('redo', 'skip', 'restart-block')),
+                      program_version TEXT NOT NULL DEFAULT '', program_sha256 TEXT NOT NULL DEFAULT '') STRICT;
 CREATE TABLE trial (
     trial_id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting,
     trial INTEGER NOT NULL, attempt INTEGER NOT NULL,
     task INTEGER NOT NULL, sculpture INTEGER NOT NULL, material INTEGER NOT NULL,
-    status TEXT NOT NULL CHECK (status IN ('open', 'completed', 'aborted')),
+    status TEXT NOT NULL CHECK (status IN ('open', 'completed', 'aborted', 'interrupted')),
     started_ns INTEGER NOT NULL,
     task_screen_onset_ns INTEGER, presentation_onset_ns INTEGER, presentation_end_ns INTEGER,
     response_screen_onset_ns INTEGER, responded_ns INTEGER,
     shown_refreshes INTEGER, missed_refreshes INTEGER, drift_deg REAL, answer TEXT,
-    lost_flips INTEGER, lost_samples INTEGER
+    lost_flips INTEGER, lost_samples INTEGER,
+    failure TEXT, comes_again TEXT CHECK (comes_again IN ('never', 'now', 'end-of-block'))
 ) STRICT;
+CREATE TABLE superseded (attempt_id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL, why TEXT NOT NULL) STRICT;
+CREATE TABLE given_up (trial INTEGER PRIMARY KEY, sitting INTEGER NOT NULL, why TEXT NOT NULL) STRICT;
+CREATE VIEW counted_trial AS SELECT * FROM trial
+    WHERE status = 'completed' AND trial_id NOT IN (SELECT attempt_id FROM superseded);
 CREATE TABLE flip (
     trial_id INTEGER NOT NULL, n INTEGER NOT NULL,
     refresh_in_trial INTEGER NOT NULL, refresh INTEGER NOT NULL,
@@ -93,6 +102,18 @@ CREATE TABLE clock_pair (id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERE
                          before_ns INTEGER NOT NULL, tracker_us INTEGER NOT NULL, after_ns INTEGER NOT NULL) STRICT;
 CREATE TABLE event (id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting,
                     at_ns INTEGER NOT NULL, trial INTEGER, kind TEXT NOT NULL, detail TEXT NOT NULL) STRICT;
+CREATE TABLE seal (
+    seal INTEGER PRIMARY KEY,
+    kind TEXT NOT NULL CHECK (kind IN ('beginning', 'sitting', 'trial', 'other', 'end')),
+    sitting INTEGER NOT NULL, trial_id INTEGER, previous TEXT NOT NULL, sha256 TEXT NOT NULL
+) STRICT;
+CREATE TABLE sealed_table (
+    seal INTEGER NOT NULL, name TEXT NOT NULL, columns TEXT NOT NULL,
+    covers TEXT NOT NULL CHECK (covers IN ('all', 'trial', 'no trial', 'new')),
+    after_id INTEGER NOT NULL, to_id INTEGER NOT NULL, row_count INTEGER NOT NULL,
+    sha256 TEXT NOT NULL, locator BLOB NOT NULL,
+    PRIMARY KEY (seal, name)
+) STRICT, WITHOUT ROWID;
 )sql";
 
 const char* const box_tables_sql = R"sql(
@@ -150,5 +171,11 @@ CREATE TABLE IF NOT EXISTS gaze_source (
     px_per_deg_x REAL, px_per_deg_y REAL, skipped_lines INTEGER NOT NULL
 ) STRICT;
 )sql";
+
+void make_session_tables(SQLite::Database& database) {
+    for (const char* const sql :
+         {session_schema_sql, box_tables_sql, observer_tables_sql, ledger_tables_sql, gaze_tables_sql})
+        database.exec(sql);
+}
 
 } // namespace overt

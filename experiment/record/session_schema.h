@@ -3,14 +3,22 @@
 
 #include <cstdint>
 
+namespace SQLite {
+class Database;
+}
+
 namespace overt {
 
 /// PRAGMA application_id of a session file: «Ovrt» in ASCII. file(1) and every reader can tell it from other
 /// SQLite files by it.
 inline constexpr std::int32_t session_application_id = 0x4f767274;
 
-/// PRAGMA user_version. Raised whenever a reader of an older version would misread the file.
-inline constexpr int session_schema_version = 2;
+/// PRAGMA user_version. Raised whenever a reader of an older version would misread the file: 2 has maps of
+/// coordinates, 3 attempts that are completed and do not count. See schema_migration.h.
+inline constexpr int session_schema_version = 3;
+
+/// Sessions of earlier versions have no chain of seals (seal_chain.h).
+inline constexpr int first_version_with_seals = 3;
 
 /// Name of the session file in a session's directory.
 inline constexpr const char* session_file_name = "session.sqlite";
@@ -30,5 +38,8 @@ extern const char* const ledger_tables_sql;
 
 /// The same for the tables of what a tracker said besides samples.
 extern const char* const gaze_tables_sql;
+
+/// Makes all of them in an empty database. Throws SQLite::Exception.
+void make_session_tables(SQLite::Database& database);
 
 } // namespace overt

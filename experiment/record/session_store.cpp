@@ -88,7 +88,9 @@ using Row = std::variant<FlipRecord, MissedRefresh, SampleRow, ClockPair, Messag
 class SessionStore::Writer {
   public:
     Writer(const std::filesystem::path& file, const Options& options)
-        : file_(file), wait_when_full_(options.wait_when_full), rows_(file, options.started_utc),
+        : file_(file), wait_when_full_(options.wait_when_full),
+          rows_(file,
+                {options.started_utc, options.program_version, options.program_sha256, options.resumption}),
           ring_(options.ring_capacity), thread_([this] { run(); }) {}
     ~Writer() { stop(); }
 

@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "experiment/ports.h"
 #include "experiment/record/recorded_box.h"
+#include "experiment/record/resumption.h"
 #include "experiment/record/session_header.h"
 
 namespace overt {
@@ -34,11 +36,13 @@ class SessionStore final : public SessionLog {
         std::size_t ring_capacity = 65536;
         /// Wall clock at the beginning of this sitting, ISO 8601.
         std::string started_utc;
+        std::string program_version = {}, program_sha256 = {}; ///< of the program that runs this sitting
+        std::optional<Resumption> resumption = {};             ///< of an interrupted session
     };
 
-    /// Opens a published session's file and begins a sitting: the first, or one that resumes the session.
-    /// Throws RecordError if it is no session file of this version, cannot be written to, or is being written
-    /// by another program.
+    /// Opens a published session's file and begins a sitting: the first, or one that resumes the session. A
+    /// file of an earlier version becomes one of this (schema_migration.h). Throws RecordError if it is no
+    /// session file or one of a newer version, cannot be written to, or is being written by another program.
     SessionStore(const std::filesystem::path& session_file, const Options& options);
 
     /// As close(), without complaint.

@@ -13,7 +13,8 @@ std::string_view remedy_for(int error_code) {
     case SQLITE_FULL:
         return "The disk is full: make room, then go on with --resume";
     case SQLITE_IOERR:
-        return "The disk refuses to write or read: check its space, its quota and its cable";
+        return "The disk refuses to write or read: check its space, its quota and its cable, then go on "
+               "with --resume";
     case SQLITE_CORRUPT:
         return "The file is damaged: work on a copy and try the sqlite3 program's .recover on it";
     case SQLITE_NOTADB:
@@ -79,6 +80,13 @@ double Query::real() { return sqlite3_column_double(statement_.get(), column_++)
 std::string Query::text() {
     const int column = column_++;
     const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
+    const int length = sqlite3_column_bytes(statement_.get(), column);
+    return bytes == nullptr ? std::string() : std::string(bytes, static_cast<std::size_t>(length));
+}
+
+std::string Query::bytes() {
+    const int column = column_++;
+    const auto* bytes = static_cast<const char*>(sqlite3_column_blob(statement_.get(), column));
     const int length = sqlite3_column_bytes(statement_.get(), column);
     return bytes == nullptr ? std::string() : std::string(bytes, static_cast<std::size_t>(length));
 }

@@ -68,6 +68,7 @@ class Query {
     int small() { return static_cast<int>(integer()); }
     double real();
     std::string text();
+    std::string bytes(); ///< of a blob
     /// Throw RecordError for times that are centuries away: differences of any two must be times, too.
     SessionTime session_time();
     TrackerTime tracker_time();

@@ -75,12 +75,13 @@ void TableExport::begin_trial_row(const TrialRecord& trial) {
     trials_.integer(number_of(trial.trial)).integer(trial.attempt).integer(trial.sitting);
     const std::string* const block = item(header_.blocks, trial.trial.block);
     block ? trials_.text(*block) : trials_.missing();
-    trials_.prepared(condition_cells(trial.trial)).word(name_of(trial.status)).seconds(trial.started);
+    trials_.prepared(condition_cells(trial.trial)).word(name_of(trial.status));
+    trials_.word(trial.counts ? "yes" : "no").seconds(trial.started);
 }
 
 void TableExport::write_attempt_without_rows(const TrialRecord& trial) {
     begin_trial_row(trial);
-    trials_.missing(static_cast<int>(tables_.trials.columns.size()) - 9).end_row();
+    trials_.missing(static_cast<int>(tables_.trials.columns.size()) - 10).end_row();
 }
 
 void TableExport::write_trial(const TrialRecord& trial, const SurfaceLookup* lookup) {
@@ -189,7 +190,7 @@ TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lo
     const int all = static_cast<int>(record.trials().size());
     int done = 0;
     for (const TrialRecord& trial : record.trials()) {
-        if (trial.status == TrialRecord::Status::completed)
+        if (trial.counts)
             tables.write_trial(trial, lookup_for(trial.trial.condition.sculpture));
         else
             tables.write_attempt_without_rows(trial);

@@ -83,7 +83,7 @@ void sum_up(TimingReport& report) {
     double onset_squares = 0.0, stamp_squares = 0.0, weights = 0.0, weighted = 0.0;
     int count = 0;
     for (const TrialTiming& trial : report.trials) {
-        if (trial.status != TrialRecord::Status::completed)
+        if (!trial.counts)
             continue;
         add_to_session(report, trial);
         onset_squares += trial.onset_deviation_ms * trial.onset_deviation_ms;
@@ -124,6 +124,7 @@ TimingReport timing_report(const SessionRecord& record) {
         timing.trial = trial.trial;
         timing.attempt = trial.attempt;
         timing.status = trial.status;
+        timing.counts = trial.counts;
         timing.planned_refreshes =
             make_page_cycle(header.animation, header.display.refresh_hz).total_refreshes;
         take_ledger(timing, *fit, recorded);

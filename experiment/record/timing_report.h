@@ -16,6 +16,7 @@ struct TrialTiming {
     Trial trial;
     int attempt = 1;
     TrialRecord::Status status = TrialRecord::Status::open;
+    bool counts = false; ///< as TrialRecord has it
     int planned_refreshes = 0;
     int flipped_refreshes = 0; ///< rows of flips within the plan's time
     int missed_refreshes = 0;  ///< within the plan's time and after it

@@ -53,6 +53,7 @@ TEST_CASE("the gaze of a file comes into the trials that its messages name, in a
     CHECK(record.gaze_source(1)->file == "tracker.asc");
     CHECK_FALSE(record.gaze_source(2));
     CHECK(record.damages().empty());
+    CHECK(verify_session(record.directory()).is_sound());
     CHECK_THROWS_WITH(import_asc_into(file, session, options_for(root.path() / "with_gaze")),
                       Contains("exists already"));
 }

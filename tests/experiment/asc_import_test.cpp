@@ -1,4 +1,5 @@
 #include "experiment/record/asc_import.h"
+#include "experiment/record/verification.h"
 
 #include <catch2/catch.hpp>
 
@@ -97,6 +98,7 @@ TEST_CASE("recordings of each rate, eye and layout give the samples that are in 
         CHECK(record.header().started_utc == "2024-02-29T23:59:59Z");
         CHECK(record.closed_in_order());
         CHECK(record.damages().empty());
+        CHECK(verify_session(record.directory()).is_sound());
     }
 }
 

@@ -54,7 +54,7 @@ TEST_CASE("a session begun before misses had rows is read, and goes on with them
     {
         SQLite::Database database((session / session_file_name).string(), SQLite::OPEN_READWRITE);
         database.exec("DROP TABLE missed_refresh; ALTER TABLE flip DROP COLUMN uncertainty_ns; "
-                      "ALTER TABLE session DROP COLUMN when_late");
+                      "ALTER TABLE session DROP COLUMN when_late; PRAGMA user_version = 2");
     }
     {
         const SessionRecord record(session);

@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,10 @@ namespace overt::test {
 
 class RunningProgram {
   public:
-    /// `overt ARGUMENTS`, what it says going to a file. `environment`: NAME=VALUE.
+    /// `overt ARGUMENTS`, what it says going to a file. `environment`: NAME=VALUE. `before` runs in the
+    /// program's process before it begins.
     RunningProgram(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
-                   const std::filesystem::path& said) {
+                   const std::filesystem::path& said, const std::function<void()>& before = {}) {
         std::vector<std::string> words{OVERT_PROGRAM};
         words.insert(words.end(), arguments.begin(), arguments.end());
         std::vector<char*> pointers;
@@ -31,6 +33,8 @@ class RunningProgram {
         const int file = open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
         dup2(file, 1);
         dup2(file, 2);
+        if (before)
+            before();
         execv(words.front().c_str(), pointers.data());
         _exit(127);
     }

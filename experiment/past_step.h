@@ -1,0 +1,55 @@
+/// What an interrupted session had done, as far as it matters to what comes next.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace overt {
+
+/// What becomes of the trial that a session was interrupted in.
+enum class ResumePolicy : std::uint8_t {
+    redo,         ///< it is attempted again
+    skip,         ///< it is given up
+    restart_block ///< its block begins again with its first trial
+};
+constexpr std::string_view name_of(ResumePolicy policy) {
+    constexpr std::string_view names[] = {"redo", "skip", "restart-block"};
+    return names[static_cast<int>(policy)];
+}
+
+/// What became of an attempt at a trial.
+enum class AttemptFate : std::uint8_t {
+    counted,
+    comes_again_now,
+    comes_again_at_end, ///< of its block
+    given_up,           ///< it failed and does not come again
+    interrupted         ///< the session ended in it
+};
+
+/// One thing that was done, in the order in which the record tells it.
+struct PastStep {
+    enum class Kind : std::uint8_t {
+        practice, ///< was answered
+        pause,    ///< had begun
+        trial,
+        resumed
+    };
+    Kind kind = Kind::trial;
+    int trial = -1;                           ///< of a trial, its index
+    AttemptFate fate = AttemptFate::counted;  ///< of a trial
+    ResumePolicy policy = ResumePolicy::redo; ///< of being resumed
+};
+
+/// Everything that was done before a session is taken up again; empty for a new one.
+struct SessionSoFar {
+    std::vector<PastStep> steps;
+    int counted_trials = 0;
+    bool is_opened = false; ///< consent and form are in the record
+};
+
+// Kinds of events by which the record tells of steps that have no rows of their own.
+inline constexpr std::string_view practice_answered_event = "practice answered";
+inline constexpr std::string_view break_begins_event = "break begins";
+
+} // namespace overt

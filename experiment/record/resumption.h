@@ -1,0 +1,28 @@
+/// How an interrupted session is taken up again.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment/past_step.h"
+
+namespace overt {
+
+/// What taking a session up again makes of what was there.
+struct Resumption {
+    ResumePolicy policy = ResumePolicy::redo;
+    std::optional<int> given_up;          ///< index of the trial that is skipped
+    std::vector<std::int64_t> superseded; ///< attempts (TrialRecord::id) of a restarted block
+    std::vector<int> restarted;           ///< its trials: none of them is given up any more
+};
+
+/// Who begins a sitting, and when.
+struct Sitting {
+    std::string started_utc; ///< wall clock, ISO 8601
+    std::string program_version, program_sha256;
+    std::optional<Resumption> resumption; ///< nothing for the first
+};
+
+} // namespace overt

@@ -1,0 +1,215 @@
+#include "experiment/record/verification.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+
+#include "experiment/error.h"
+#include "experiment/record/folder_lock.h"
+#include "experiment/record/log_check.h"
+#include "experiment/record/manifest.h"
+#include "experiment/record/session_file.h"
+#include "experiment/record/session_record.h"
+#include "experiment/record/session_schema.h"
+#include "experiment/record/sql.h"
+
+namespace fs = std::filesystem;
+
+namespace overt {
+namespace {
+
+class SessionVerification {
+  public:
+    explicit SessionVerification(const fs::path& folder) : folder_(folder) {}
+
+    Verification run() {
+        if (!fs::is_directory(folder_) ||
+            (!fs::exists(folder_ / session_file_name) && !fs::exists(folder_ / manifest_file_name)))
+            throw InputError(fmt::format("{}: there is no session here.", folder_.string()));
+        if (FolderLock(folder_, FolderLock::Patience::none).is_refused())
+            result_.state = Verification::State::running;
+        else
+            result_.state = Verification::State::interrupted; // until it is seen to be closed
+        const std::optional<SessionManifest> manifest = look_at_manifest();
+        look_at_log();
+        look_at_session_file();
+        if (manifest)
+            look_at_files(*manifest);
+        return std::move(result_);
+    }
+
+  private:
+    void damage(std::string file, std::string what) {
+        Damage damage{std::move(file), {}, {}, {}, {}, {}, std::move(what)};
+        result_.damages.push_back(std::move(damage));
+    }
+
+    std::optional<SessionManifest> look_at_manifest() {
+        try {
+            return read_manifest(folder_);
+        } catch (const RecordError& error) {
+            if (fs::exists(folder_ / manifest_file_name))
+                damage(manifest_file_name, "is not as it was written");
+            else
+                is_without_manifest_ = true;
+        }
+        return std::nullopt;
+    }
+
+    void look_at_log() {
+        // While it is written its end cannot be told from damage.
+        if (result_.state == Verification::State::running)
+            return;
+        if (const auto what = log_damage(folder_ / log_name_))
+            damage(log_name_, *what);
+    }
+
+    void look_at_session_file() {
+        try {
+            const SQLite::Database database =
+                open_session_file(folder_ / session_file_name, SessionFileUse::read);
+            SQLite::Statement(database, "BEGIN").exec(); // one state of it, also while it is written
+            look_at_database(database);
+        } catch (const Error& error) {
+            damage(session_file_name, fmt::format("cannot be opened: {}", error.what()));
+        } catch (const SQLite::Exception& error) {
+            damage(session_file_name, fmt::format("cannot be read: {}", error.what()));
+        }
+    }
+
+    void look_at_database(const SQLite::Database& database) {
+        Query version(database, "PRAGMA user_version");
+        version.step();
+        const bool has_seals = version.small() >= first_version_with_seals;
+        if (is_without_manifest_ && has_seals)
+            damage(manifest_file_name, "is missing");
+        look_at_structure(database);
+        bool is_closed = false;
+        Query closed(database, "SELECT closed FROM sitting ORDER BY sitting DESC LIMIT 1");
+        if (closed.step())
+            is_closed = closed.integer() == 1;
+        if (is_closed && result_.state != Verification::State::running)
+            result_.state = Verification::State::closed;
+        look_for_missing_log(database);
+        learn_files(database);
+        if (!has_seals) {
+            result_.notes.push_back(
+                "an earlier overt recorded this session, without seals: only the structure "
+                "of session.sqlite can be looked at");
+            return;
+        }
+        SealFindings findings = check_seals(database, is_closed);
+        result_.seals = findings.seals;
+        if (findings.unsealed_rows > 0)
+            result_.notes.push_back(fmt::format("{} rows are not sealed yet: those of the trial that was "
+                                                "running, and what came after the last seal",
+                                                findings.unsealed_rows));
+        std::move(findings.damages.begin(), findings.damages.end(), std::back_inserter(result_.damages));
+    }
+
+    /// Of what is made while the session runs: maps and spoken answers.
+    void learn_files(const SQLite::Database& database) {
+        for (const std::string_view table : {"map", "answer_recording"}) {
+            if (!has_column(database, std::string(table).c_str(), "sha256"))
+                continue;
+            for (Query row(database, fmt::format("SELECT file, sha256 FROM {}", table).c_str());
+                 row.step();) {
+                const std::string file = row.text();
+                recorded_files_[file] = row.text();
+            }
+        }
+    }
+
+    void look_at_structure(const SQLite::Database& database) {
+        try {
+            for (Query row(database, "PRAGMA integrity_check(20)"); row.step();)
+                if (const std::string finding = row.text(); finding != "ok")
+                    damage(session_file_name, finding);
+        } catch (const SQLite::Exception& error) {
+            damage(session_file_name, error.what());
+        }
+    }
+
+    void look_for_missing_log(const SQLite::Database& database) {
+        if (result_.state != Verification::State::interrupted || fs::exists(folder_ / log_name_))
+            return;
+        Query mode(database, "PRAGMA journal_mode");
+        if (mode.step() && mode.text() == "wal")
+            damage(log_name_,
+                   "is missing: an interrupted session needs it, unless another program has folded "
+                   "it into session.sqlite");
+    }
+
+    void look_at_files(const SessionManifest& manifest) {
+        std::set<std::string> known;
+        for (const SessionManifest::File& file : manifest.files) {
+            known.insert(file.path);
+            if (file.path == session_file_name && result_.state != Verification::State::closed)
+                continue; // it has gone on since
+            look_at_file(file);
+        }
+        for (const std::string& name : files_of_session(folder_, false)) {
+            if (known.contains(name))
+                continue;
+            // What was made while the session ran has its hash in the record.
+            if (const auto map = recorded_files_.find(name); map != recorded_files_.end())
+                look_at_file({name, fs::file_size(folder_ / name), map->second});
+            else
+                result_.notes.push_back(fmt::format(
+                    "{}: is not in the manifest: {}", name,
+                    manifest.is_closed ? "it was added later" : "it came after the session was begun"));
+        }
+        if (!manifest.is_closed && result_.state == Verification::State::closed)
+            result_.notes.push_back("the session ended in order, but its manifest was not finished: "
+                                    "overt run … --resume finishes it");
+    }
+
+    void look_at_file(const SessionManifest::File& file) {
+        const fs::path path = folder_ / file.path;
+        std::error_code error;
+        if (!fs::is_regular_file(path, error))
+            return damage(file.path, "is missing");
+        ++result_.files;
+        result_.bytes += static_cast<std::int64_t>(fs::file_size(path, error));
+        if (fs::file_size(path, error) != file.bytes)
+            return damage(file.path, fmt::format("has {} bytes where {} were recorded",
+                                                 fs::file_size(path, error), file.bytes));
+        try {
+            if (hash_of_file(path) == file.sha256)
+                return;
+        } catch (const InputError&) {
+            return damage(file.path, "cannot be read");
+        }
+        const bool is_in_a_row =
+            std::any_of(result_.damages.begin(), result_.damages.end(),
+                        [](const Damage& other) { return other.file == session_file_name; });
+        damage(file.path, file.path != session_file_name ? "is not what was recorded"
+                          : is_in_a_row                  ? "is not as it was when the session ended"
+                                        : "is not as it was when the session ended; all rows "
+                                          "are as they were sealed");
+    }
+
+    fs::path folder_;
+    std::string log_name_ = std::string(session_file_name) + "-wal";
+    bool is_without_manifest_ = false;
+    std::map<std::string, std::string> recorded_files_; ///< hash by file
+    Verification result_;
+};
+
+} // namespace
+
+std::string_view name_of(Verification::State state) {
+    constexpr std::string_view names[] = {"closed", "interrupted", "running"};
+    return names[static_cast<int>(state)];
+}
+
+Verification verify_session(const fs::path& folder) {
+    // The session file itself may be named, as everywhere.
+    const bool is_file = folder.filename() == session_file_name;
+    return SessionVerification(is_file ? folder.parent_path() : folder).run();
+}
+
+} // namespace overt
