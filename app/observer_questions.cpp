@@ -22,7 +22,7 @@ std::size_t field_called(std::span<const ObserverFieldSettings> fields, const st
     if (found != ids.end())
         return static_cast<std::size_t>(found - ids.begin());
     throw InputError(ids.empty()
-                         ? fmt::format("--observer-field {}: the protocol has no [[observer_fields]]", id)
+                         ? fmt::format("--observer-field {}: the protocol has no [[observer_field]]", id)
                          : fmt::format("--observer-field {}: there is no such field; there are: {}", id,
                                        fmt::join(ids, ", ")));
 }

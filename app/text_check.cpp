@@ -32,7 +32,7 @@ std::vector<ShownText> shown_texts(const Protocol& protocol) {
         texts.push_back({fmt::format("practice[{}].feedback", i), &protocol.practice[i].feedback});
     for (std::size_t i = 0; i < protocol.observer_fields.size(); ++i)
         texts.push_back(
-            {fmt::format("observer_fields[{}].title", i), &protocol.observer_fields[i].title, true});
+            {fmt::format("observer_field[{}].title", i), &protocol.observer_fields[i].title, true});
     return texts;
 }
 

@@ -13,7 +13,7 @@ namespace overt {
 
 enum class FieldKind : std::uint8_t { text, number, choice };
 
-/// [[observer_fields]]
+/// [[observer_field]]
 struct ObserverFieldSettings {
     std::string id;    ///< age, sex, vision and handedness have all else by default
     std::string title; ///< what is asked

@@ -218,7 +218,7 @@ void complete(Protocol& protocol) {
         protocol.title = protocol.name;
     for (std::size_t i = 0; i < protocol.observer_fields.size(); ++i)
         complete_field(protocol.observer_fields[i],
-                       protocol.places.is_written(fmt::format("observer_fields[{}].kind", i)));
+                       protocol.places.is_written(fmt::format("observer_field[{}].kind", i)));
     for (std::size_t i = 0; i < protocol.sculptures.size(); ++i) {
         SculptureSettings& sculpture = protocol.sculptures[i];
         const auto folder = folder_of(protocol, fmt::format("sculpture[{}]", i));

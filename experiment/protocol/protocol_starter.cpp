@@ -38,7 +38,7 @@ const std::map<std::string_view, std::vector<Values>>& starter_values() {
          {{{"pages", "[\"Before each sculpture you read what to look for.\", "
                      "\"Look at the dot when it appears. Answer aloud, then press the space bar.\"]"}}}},
         {"answers", {{{"record", "\"optional\""}}}},
-        {"observer_fields",
+        {"observer_field",
          {{{"id", "\"age\""}}, {{"id", "\"sex\""}}, {{"id", "\"vision\""}}, {{"id", "\"handedness\""}}}},
         {"animation", {{{"duration_s", "4"}}}},
         {"schedule", {{{"observers", "4"}, {"max_sculpture_run", "2"}}}},

@@ -15,9 +15,9 @@ void check_observer_fields(ProtocolExamination& examination) {
     std::set<std::string_view> ids;
     for (std::size_t i = 0; i < fields.size(); ++i) {
         const ObserverFieldSettings& field = fields[i];
-        const auto path = [&](std::string_view key) { return fmt::format("observer_fields[{}].{}", i, key); };
+        const auto path = [&](std::string_view key) { return fmt::format("observer_field[{}].{}", i, key); };
         if (!field.id.empty() && !ids.insert(field.id).second)
-            examination.error({path("id")}, fmt::format("observer_fields \"{}\" is there twice", field.id));
+            examination.error({path("id")}, fmt::format("observer_field \"{}\" is there twice", field.id));
         if (field.kind == FieldKind::choice && field.choices.empty())
             examination.error({path("kind")}, "a choice needs \"choices\"", "add choices = [\"…\", \"…\"]");
         if (field.kind != FieldKind::choice && examination.is_written(path("choices")))

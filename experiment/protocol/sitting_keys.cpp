@@ -114,7 +114,7 @@ Section<AnswerSettings> answers() {
 Section<ObserverFieldSettings> observer_fields() {
     using F = ObserverFieldSettings;
     return {
-        .name = "observer_fields",
+        .name = "observer_field",
         .explanation =
             "Something to be known of the observer. The form is filled in with `--observer-field ID=VALUE`, "
             "or before the session in its window or in the terminal. Standard fields have all but their id "

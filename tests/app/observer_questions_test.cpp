@@ -16,11 +16,11 @@ using Catch::Contains;
 namespace {
 
 const std::string form = R"(
-[[observer_fields]]
+[[observer_field]]
 id = "age"
-[[observer_fields]]
+[[observer_field]]
 id = "handedness"
-[[observer_fields]]
+[[observer_field]]
 id = "remark"
 required = false
 )";

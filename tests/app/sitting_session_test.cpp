@@ -144,7 +144,7 @@ TEST_CASE("the same seeds speak the same bytes", "[session]") {
 TEST_CASE("consent is in the record with the hash of its text, before the form", "[session]") {
     const SmallExperiment experiment(std::string(small_protocol) +
                                      "[consent]\ntext = \"Stimmen Sie zu? ✓ J/N\"\naccept_key = \"j\"\n"
-                                     "[[observer_fields]]\nid = \"age\"\n");
+                                     "[[observer_field]]\nid = \"age\"\n");
     REQUIRE(experiment.run({"--trials", "1"}).exit_code == 0);
     const auto consents = SessionRecord(experiment.session()).consents();
     REQUIRE(consents.size() == 1);

@@ -21,17 +21,17 @@ std::vector<ObserverFieldSettings> fields_of(std::string_view more) {
 }
 
 constexpr std::string_view all_kinds = R"(
-[[observer_fields]]
+[[observer_field]]
 id = "age"
-[[observer_fields]]
+[[observer_field]]
 id = "handedness"
-[[observer_fields]]
+[[observer_field]]
 id = "glasses"
 title = "Dioptres of the glasses"
 kind = "number"
 min = -20
 required = false
-[[observer_fields]]
+[[observer_field]]
 id = "job"
 )";
 
@@ -47,8 +47,8 @@ TEST_CASE("standard fields know their kind, title, limits and choices; others ar
     CHECK(fields[1].choices == std::vector<std::string>{"left", "right", "ambidextrous"});
     CHECK(fields[3].kind == FieldKind::text);
     CHECK(fields[3].title == "job");
-    const auto own = fields_of("[[observer_fields]]\nid = \"sex\"\nchoices = [\"f\", \"m\"]\n"
-                               "[[observer_fields]]\nid = \"age\"\nkind = \"text\"\n");
+    const auto own = fields_of("[[observer_field]]\nid = \"sex\"\nchoices = [\"f\", \"m\"]\n"
+                               "[[observer_field]]\nid = \"age\"\nkind = \"text\"\n");
     CHECK(own[0].choices.size() == 2);
     CHECK(own[1].kind == FieldKind::text);
 }
@@ -90,12 +90,12 @@ TEST_CASE("what a simulated observer says depends on the seed, and is never at f
 
 TEST_CASE("faults of observer fields are found where they stand", "[unit]") {
     const ReadText read(minimal_protocol,
-                        "[[observer_fields]]\nid = \"a b\"\n"
-                        "[[observer_fields]]\nid = \"x\"\nkind = \"choice\"\n"
-                        "[[observer_fields]]\nid = \"x\"\nmin = 3\n"
-                        "[[observer_fields]]\nid = \"n\"\nkind = \"number\"\nmin = 3\nmax = 2\n"
-                        "[[observer_fields]]\nid = \"t\"\nchoices = [\"a\"]\n"
-                        "[[observer_fields]]\nid = \"c\"\nkind = \"choice\"\n"
+                        "[[observer_field]]\nid = \"a b\"\n"
+                        "[[observer_field]]\nid = \"x\"\nkind = \"choice\"\n"
+                        "[[observer_field]]\nid = \"x\"\nmin = 3\n"
+                        "[[observer_field]]\nid = \"n\"\nkind = \"number\"\nmin = 3\nmax = 2\n"
+                        "[[observer_field]]\nid = \"t\"\nchoices = [\"a\"]\n"
+                        "[[observer_field]]\nid = \"c\"\nkind = \"choice\"\n"
                         "choices = [\"a\", \"a\"]\n");
     CHECK_FALSE(read.protocol);
     std::string all;

@@ -44,7 +44,7 @@ TEST_CASE("who agrees is recorded with the hash of the text, before anything els
 
 TEST_CASE("who declines ends the session, and nothing but that is recorded", "[unit]") {
     Sitting sitting(
-        short_protocol("[consent]\ntext = \"Do you agree?\"\n[[observer_fields]]\nid = \"age\"\n"));
+        short_protocol("[consent]\ntext = \"Do you agree?\"\n[[observer_field]]\nid = \"age\"\n"));
     sitting.fields = {"31"};
     sitting.panel.tell = [](ScriptedPanel& panel) -> std::optional<ResponsePress> {
         return panel.is_deciding() ? std::optional(ResponsePress{Key::no, {}}) : std::nullopt;
@@ -125,7 +125,7 @@ TEST_CASE("characters that are no text are not typed, and a stuck key fills no m
 
 TEST_CASE("the session shows the form where somebody can type, with what is known, and records it",
           "[unit]") {
-    Sitting sitting(short_protocol("[[observer_fields]]\nid = \"age\"\n[[observer_fields]]\nid = \"sex\"\n"));
+    Sitting sitting(short_protocol("[[observer_field]]\nid = \"age\"\n[[observer_field]]\nid = \"sex\"\n"));
     sitting.fields = {"", "male"};
     const std::u32string typed = U"200";
     std::size_t next = 0;
@@ -146,7 +146,7 @@ TEST_CASE("the session shows the form where somebody can type, with what is know
     CHECK(sitting.log.fields ==
           std::vector<RecordedObserverField>{{"age", "Age in years", "20"}, {"sex", "Sex", "male"}});
     // Where all is known nobody is asked.
-    Sitting known(short_protocol("[[observer_fields]]\nid = \"age\"\n"));
+    Sitting known(short_protocol("[[observer_field]]\nid = \"age\"\n"));
     known.fields = {"44"};
     CHECK(known.run().completed_trials == 2);
     CHECK(known.log.fields.size() == 1);
