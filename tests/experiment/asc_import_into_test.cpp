@@ -5,6 +5,7 @@
 #include "experiment/eye_session.h"
 #include "experiment/record/asc_export.h"
 #include "experiment/record/asc_import.h"
+#include "experiment/record/verification.h"
 #include "support/asc_text.h"
 
 using namespace overt;
