@@ -26,6 +26,13 @@ id = "second"
 tasks = ["clothes"]
 materials = ["matt"]
 
+[consent]
+text = "Do you want to take part?"
+
+[[observer_fields]]
+id = "age"
+kind = "number"
+
 [[practice]]
 task = "face"
 sculpture = "bust"
@@ -74,7 +81,10 @@ TEST_CASE("an interrupted trial is done again, and the session is as planned", "
     CHECK(record.trials()[2].sitting == 2);
     // The clock goes on, and what was lost at the end still fits before.
     CHECK(record.trials()[2].started > last + std::chrono::milliseconds(250));
+    // What was asked and practised before is not asked and practised again.
     CHECK(count_of(record, practice_answered_event) == 1);
+    CHECK(record.consents().size() == 1);
+    CHECK(record.observer_fields().size() == 1);
 
     const ProgramRun again = resume(experiment, {"--resume"});
     CHECK(again.exit_code == 2);
