@@ -29,7 +29,7 @@ materials = ["matt"]
 [consent]
 text = "Do you want to take part?"
 
-[[observer_fields]]
+[[observer_field]]
 id = "age"
 kind = "number"
 
