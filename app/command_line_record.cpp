@@ -32,6 +32,10 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
                     "tracker that is so far off on average (a usual accuracy: 0.5); in tables")
         ->type_name("DEG")
         ->check(CLI::Range(0.0, 20.0));
+    command.add_flag(
+        "--fractional-times", options.fractional_times,
+        "Samples' times with their microseconds, for MNE above 1000 Hz; PyGazeAnalyser reads whole "
+        "milliseconds only; in asc");
     command.add_flag("--overwrite", options.overwrite, "Replace an export that is there");
     run_when_chosen(command, chosen, [given] { return run_export(*given); });
 }

@@ -106,6 +106,7 @@ struct ExportOptions {
     std::filesystem::path out;
     bool overwrite = false;
     std::optional<double> cone_deg; ///< add the probabilities of a gaze cone of this accuracy
+    bool fractional_times = false;  ///< of the samples in ASC
 };
 int run_export(const ExportOptions& options);
 

@@ -50,7 +50,8 @@ void export_as_tables(const ExportOptions& options, const SessionRecord& record)
 void export_as_asc(const ExportOptions& options, const SessionRecord& record) {
     ProgressBar bar;
     const std::filesystem::path out = folder_of(options, record);
-    const AscExportCounts counts = export_asc(record, out, {options.overwrite, progress_on(bar, record)});
+    const AscExportCounts counts =
+        export_asc(record, out, {options.overwrite, options.fractional_times, progress_on(bar, record)});
     bar.finish();
     if (counts.sittings_without_samples > 0)
         fmt::print("{} sittings have no samples, and no file\n", counts.sittings_without_samples);
@@ -69,8 +70,8 @@ void export_as_bids(const ExportOptions& options, const SessionRecord& record) {
     bar.finish();
     for (const std::string& remark : counts.remarks)
         fmt::print("{}\n", remark);
-    fmt::print("runs: {}, recordings of an eye: {}, samples: {}\ndataset: {}\n", counts.runs, counts.recordings,
-               counts.samples, out.string());
+    fmt::print("runs: {}, recordings of an eye: {}, samples: {}\ndataset: {}\n", counts.runs,
+               counts.recordings, counts.samples, out.string());
 }
 
 } // namespace

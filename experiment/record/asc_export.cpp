@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 #include <span>
@@ -78,6 +79,8 @@ void write_header(AscWriter& writer, const SessionRecord& record, int sitting) {
                     "EyeLink files");
         writer.line("**");
     }
+    if (const std::int64_t base = writer.layout().base_ms; base != 0)
+        writer.line(fmt::format("** REMARK: {} ms were taken from the tracker's times", base));
     writer.line("");
 }
 
@@ -171,6 +174,19 @@ std::int64_t first_time(const SessionRecord& record, int sitting) {
     return 0;
 }
 
+/// What to take from all times: nothing, as long as they fit into the 31 bits that R has for whole numbers.
+std::int64_t time_base(const SessionRecord& record, int sitting) {
+    const std::int64_t first = first_time(record, sitting);
+    std::int64_t last = first;
+    for (const TrialRecord& trial : record.trials())
+        if (const auto span = record.sample_span(trial); span && trial.sitting == sitting)
+            last = std::max(last, asc_milliseconds(span->second));
+    constexpr std::int64_t room_s = 100'000; // for messages before the first trial, and after the last
+    if (first >= 0 && last + 1000 * room_s <= std::numeric_limits<std::int32_t>::max())
+        return 0;
+    return 1000 * ((first >= 0 ? first : first - 999) / 1000 - room_s);
+}
+
 bool is_export_of(const std::string& name) { return name.starts_with("sub-") && name.ends_with(".asc"); }
 
 } // namespace
@@ -191,8 +207,10 @@ AscExportCounts export_asc(const SessionRecord& record, const fs::path& director
         if (eyes.none()) {
             ++counts.sittings_without_samples;
         } else {
-            writer.emplace(folder.path() / file_name(record.header(), sitting),
-                           layout_of(record, sitting, eyes));
+            AscLayout layout = layout_of(record, sitting, eyes);
+            layout.base_ms = time_base(record, sitting);
+            layout.fractional_times = options.fractional_times;
+            writer.emplace(folder.path() / file_name(record.header(), sitting), layout);
             write_header(*writer, record, sitting);
             lines.emplace(record, sitting, *writer);
             lines->write_screen(first_time(record, sitting));

@@ -11,6 +11,7 @@ namespace overt {
 
 struct AscExportOptions {
     bool overwrite = false;                          ///< replace an earlier export
+    bool fractional_times = false;                   ///< samples' times with their microseconds
     std::function<void(int done, int all)> progress; ///< told after each trial; may be empty
 };
 
@@ -23,8 +24,9 @@ struct AscExportCounts {
 
 /// Writes a file for each sitting, for the tracker may have been started anew between them:
 /// sub-LABEL_ses-NN_run-NN.asc. All attempts at trials are in it, with all their samples. Times are whole
-/// milliseconds of the tracker's clock; coordinates and pupils have the decimals of the tables. Memory does
-/// not grow with the session.
+/// milliseconds of the tracker's clock, or less a number of seconds that the header names where they would
+/// not fit into 31 bits; coordinates and pupils have the decimals of the tables. Memory does not grow with
+/// the session.
 ///
 /// The directory appears when it is complete. Throws InputError if it exists and is not to be overwritten, or
 /// is no earlier export, or if the session has no samples at all; RecordError for a damaged session or a full

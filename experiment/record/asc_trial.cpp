@@ -26,9 +26,9 @@ bool AscTrial::has(std::string_view word) const {
     });
 }
 
-bool AscTrial::has(Kind kind) const {
-    return std::any_of(lines_.begin(), lines_.end(),
-                       [&](const Line& line) { return line.event.kind == kind; });
+int AscTrial::count(Kind kind) const {
+    return static_cast<int>(std::count_if(lines_.begin(), lines_.end(),
+                                          [&](const Line& line) { return line.event.kind == kind; }));
 }
 
 void AscTrial::add_message(std::int64_t ms, int recording, std::string text) {
@@ -51,6 +51,83 @@ void AscTrial::add_kept(const SessionRecord& record, const TrialRecord& trial) {
     });
 }
 
+/// pymovements takes the screen's size for that of the last RECCFG, and fails if there was none.
+void AscTrial::add_setup(std::int64_t first, glm::ivec2 screen_px, const AscLayout& layout) {
+    const auto coordinates = std::find_if(lines_.begin(), lines_.end(), [](const Line& line) {
+        return line.event.kind == Kind::message && line.event.text.starts_with("GAZE_COORDS");
+    });
+    const bool has_coordinates = coordinates != lines_.end();
+    if (!has("RECCFG")) {
+        Line setup{first, 0, false, false, {}};
+        setup.event.text = fmt::format("RECCFG CR {:.0f} 2 1 {}", layout.rate_hz, layout.eyes());
+        if (has_coordinates) {
+            setup.ms = coordinates->ms;
+            setup.recording = coordinates->recording;
+        }
+        lines_.insert(coordinates, std::move(setup));
+        if (!has("ELCLCFG"))
+            add_message(first, 0, layout.eyes() == "LR" ? "ELCLCFG BTABLER" : "ELCLCFG MTABLER");
+    }
+    if (!has_coordinates)
+        add_message(first, 0,
+                    fmt::format("GAZE_COORDS 0.00 0.00 {}.00 {}.00", screen_px.x - 1, screen_px.y - 1));
+}
+
+/// A trial's first samples may be of a recording that began with a trial before, or in a file without START.
+void AscTrial::begin_recording(std::int64_t first, const AscLayout& layout) {
+    const auto kept = std::find_if(lines_.begin(), lines_.end(),
+                                   [](const Line& line) { return line.event.kind == Kind::started; });
+    if (kept != lines_.end() && kept->ms <= first)
+        return;
+    for (Line& line : lines_)
+        line.recording += line.recording > 0 || line.ms > first;
+    Line start{first, 1, false, false, {}};
+    start.event.kind = Kind::started;
+    lines_.push_back(start);
+    if (!has("!MODE"))
+        add_message(first, 1, fmt::format("!MODE RECORD CR {:.0f} 2 1 {}", layout.rate_hz, layout.eyes()));
+}
+
+/// Readers pair each START with an END; eyelinker fails on two ENDs after one START.
+void AscTrial::end_recordings(std::int64_t after_last) {
+    const int recordings = count(Kind::started);
+    for (int recording = 1; recording <= recordings; ++recording) {
+        const auto is_of = [&](const Line& line) { return line.recording == recording; };
+        if (std::any_of(lines_.begin(), lines_.end(),
+                        [&](const Line& line) { return is_of(line) && line.event.kind == Kind::ended; }))
+            continue;
+        const auto next = std::find_if(lines_.begin(), lines_.end(), [&](const Line& line) {
+            return line.recording == recording + 1 && line.event.kind == Kind::started;
+        });
+        Line end{after_last, recording, true, false, {}};
+        if (next != lines_.end()) {
+            end.ms = next->ms;
+            end.after_samples = false;
+        } else {
+            for (const Line& line : lines_)
+                end.ms = is_of(line) ? std::max(end.ms, line.ms) : end.ms;
+        }
+        end.event.kind = Kind::ended;
+        lines_.push_back(end);
+    }
+}
+
+void AscTrial::add_condition(const SessionRecord& record, const TrialRecord& trial, std::int64_t ms,
+                             int recording) {
+    const SessionHeader& header = record.header();
+    const std::string task = text_at(header.tasks, trial.trial.task, "task"),
+                      sculpture = text_at(header.sculptures, trial.trial.condition.sculpture, "sculpture"),
+                      material = text_at(header.materials, trial.trial.condition.material, "material");
+    add_message(ms, recording,
+                fmt::format("CONDITION trial={} {} {} {} attempt={}", trial.trial.index + 1, task, sculpture,
+                            material, trial.attempt));
+    for (const std::string& variable : {task, sculpture, material}) {
+        const std::size_t sign = variable.find('=');
+        add_message(ms, recording,
+                    fmt::format("!V TRIAL_VAR {} {}", variable.substr(0, sign), variable.substr(sign + 1)));
+    }
+}
+
 void AscTrial::add_missing(const SessionRecord& record, const TrialRecord& trial,
                            const std::optional<ClockMap>& clock_map, const AscLayout& layout) {
     const SessionHeader& header = record.header();
@@ -62,7 +139,6 @@ void AscTrial::add_missing(const SessionRecord& record, const TrialRecord& trial
                                : !lines_.empty() ? lines_.front().ms
                                                  : asc_milliseconds(clock_map->to_tracker(trial.started));
     const bool was_presented = !header.stimuli.empty();
-    const bool has_own_recording = has(Kind::started);
     const auto at = [&](SessionTime time) { return asc_milliseconds(clock_map->to_tracker(time)); };
     // A screen that the attempt did not get to has no time.
     const auto add_screen = [&](std::string_view word, SessionTime time, int recording) {
@@ -70,50 +146,21 @@ void AscTrial::add_missing(const SessionRecord& record, const TrialRecord& trial
             add_message(at(time), recording, std::string(word));
     };
 
+    if (span)
+        begin_recording(first, layout);
+    const auto interval_ms = std::max<std::int64_t>(1, static_cast<std::int64_t>(1000.0 / layout.rate_hz));
+    end_recordings(span ? asc_milliseconds(span->second) + interval_ms : first);
     if (!has("TRIALID"))
         add_message(was_presented && clock_map ? std::min(at(trial.started), first) : first, 0,
                     fmt::format("TRIALID {}", trial.trial.index + 1));
-    const std::int64_t begun = lines_.back().ms;
-    if (was_presented && !has("CONDITION")) {
-        const std::string task = text_at(header.tasks, trial.trial.task, "task"),
-                          sculpture =
-                              text_at(header.sculptures, trial.trial.condition.sculpture, "sculpture"),
-                          material = text_at(header.materials, trial.trial.condition.material, "material");
-        add_message(std::min(begun, first), 0,
-                    fmt::format("CONDITION {} {} {} attempt={}", task, sculpture, material, trial.attempt));
-        for (const std::string& variable : {task, sculpture, material}) {
-            const std::size_t sign = variable.find('=');
-            add_message(
-                std::min(begun, first), 0,
-                fmt::format("!V TRIAL_VAR {} {}", variable.substr(0, sign), variable.substr(sign + 1)));
-        }
-    }
     add_screen(task_screen_message, outcome.task_screen_onset, 0);
-    const std::string setup = fmt::format("CR {:.0f} 2 1 {}", layout.rate_hz, layout.eyes());
-    if (!has("RECCFG") && span) {
-        add_message(first, 0, "RECCFG " + setup);
-        add_message(first, 0, layout.eyes() == "LR" ? "ELCLCFG BTABLER" : "ELCLCFG MTABLER");
-    }
-    if (!has("GAZE_COORDS") && span)
-        add_message(first, 0,
-                    fmt::format("GAZE_COORDS 0.00 0.00 {}.00 {}.00", header.display.screen.screen_px.x - 1,
-                                header.display.screen.screen_px.y - 1));
-    if (span && !has_own_recording) {
-        Line start{first, 1, false, false, {}};
-        start.event.kind = Kind::started;
-        lines_.push_back(start);
-        if (!has("!MODE"))
-            add_message(first, 1, "!MODE RECORD " + setup);
-    }
+    if (span)
+        add_setup(first, header.display.screen.screen_px, layout);
+    // In the recording, for MNE and eyelinker leave out what stands before START and after END.
+    if (was_presented && !has("CONDITION"))
+        add_condition(record, trial, first, count(Kind::started) > 0 ? 1 : 0);
     add_screen(onset_message, outcome.presentation_onset, 1);
     add_screen(end_message, outcome.presentation_end, 1);
-    if (span && !has_own_recording) {
-        const auto interval_ms =
-            std::max<std::int64_t>(1, static_cast<std::int64_t>(1000.0 / layout.rate_hz));
-        Line end{asc_milliseconds(span->second) + interval_ms, 1, true, false, {}};
-        end.event.kind = Kind::ended;
-        lines_.push_back(end);
-    }
     add_screen(response_screen_message, outcome.response_screen_onset, 1);
     add_screen(response_message, outcome.responded_at, 1);
     if (was_presented && !has("TRIAL_RESULT")) {

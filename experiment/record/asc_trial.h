@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "experiment/record/asc_writer.h"
 #include "experiment/record/session_record.h"
 
@@ -40,7 +42,11 @@ class AscTrial {
                      const std::optional<ClockMap>& clock_map, const AscLayout& layout);
     void add_message(std::int64_t ms, int recording, std::string text);
     bool has(std::string_view word) const;
-    bool has(GazeEvent::Kind kind) const;
+    int count(GazeEvent::Kind kind) const;
+    void add_setup(std::int64_t first, glm::ivec2 screen_px, const AscLayout& layout);
+    void begin_recording(std::int64_t first, const AscLayout& layout);
+    void end_recordings(std::int64_t after_last);
+    void add_condition(const SessionRecord& record, const TrialRecord& trial, std::int64_t ms, int recording);
     static void write(AscWriter& writer, const Line& line);
 
     std::vector<Line> lines_;

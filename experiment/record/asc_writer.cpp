@@ -22,6 +22,9 @@ void append_number(std::string& text, double number, int decimals, int least_dec
         digits.pop_back();
     if (digits.back() == '.')
         digits.pop_back();
+    // MNE takes a cell of five characters that begins with no digit, in the first sample, for the status.
+    if (digits.size() == 5 && digits.front() == '-' && least_decimals > 0)
+        digits += '0';
     text += '\t';
     text.append(width - std::min(width, digits.size()), ' ');
     text += digits;
@@ -87,13 +90,13 @@ void AscWriter::note(std::string_view text) {
 }
 
 void AscWriter::message(std::int64_t ms, std::string_view text) {
-    fmt::format_to(std::back_inserter(file_.text()), "MSG\t{} {}", ms, ascii_of(text));
+    fmt::format_to(std::back_inserter(file_.text()), "MSG\t{} {}", ms - layout_.base_ms, ascii_of(text));
     end_line();
 }
 
 void AscWriter::start(std::int64_t ms) {
     const std::string_view eyes = layout_.has_left ? (layout_.has_right ? "LEFT\tRIGHT" : "LEFT") : "RIGHT";
-    line(fmt::format("START\t{} \t{}\tSAMPLES\tEVENTS", ms, eyes));
+    line(fmt::format("START\t{} \t{}\tSAMPLES\tEVENTS", ms - layout_.base_ms, eyes));
     line("PRESCALER\t1");
     line("VPRESCALER\t1");
     line(layout_.pupil_is_diameter ? "PUPIL\tDIAMETER" : "PUPIL\tAREA");
@@ -111,7 +114,7 @@ void AscWriter::end(std::int64_t ms, std::string_view resolution) {
         x = fmt::format("{:.2f}", *layout_.px_per_deg_x);
         y = fmt::format("{:.2f}", *layout_.px_per_deg_y);
     }
-    line(fmt::format("END\t{} \tSAMPLES\tEVENTS\tRES\t{:>7}\t{:>7}", ms, x, y));
+    line(fmt::format("END\t{} \tSAMPLES\tEVENTS\tRES\t{:>7}\t{:>7}", ms - layout_.base_ms, x, y));
 }
 
 void AscWriter::eye(const GazeSample* sample) {
@@ -126,7 +129,11 @@ void AscWriter::eye(const GazeSample* sample) {
 }
 
 void AscWriter::samples(std::span<const GazeSample> samples) {
-    append_scaled(file_.text(), asc_milliseconds(samples.front().sampled_at), 0);
+    const TrackerTime time = samples.front().sampled_at;
+    if (layout_.fractional_times)
+        append_scaled(file_.text(), time.time_since_epoch().count() - 1000 * layout_.base_ms, 3);
+    else
+        append_scaled(file_.text(), written_ms(time), 0);
     const auto of = [&](Eye eye) -> const GazeSample* {
         for (const GazeSample& sample : samples)
             if (sample.eye == eye)
@@ -143,15 +150,15 @@ void AscWriter::samples(std::span<const GazeSample> samples) {
 
 void AscWriter::event_begin(const GazeEvent& event) {
     append_prefix(file_.text(), event, true);
-    append_scaled(file_.text(), asc_milliseconds(event.start), 0);
+    append_scaled(file_.text(), written_ms(event.start), 0);
     end_line();
 }
 
 void AscWriter::event_end(const GazeEvent& event) {
     std::string& text = file_.text();
     append_prefix(text, event, false);
-    fmt::format_to(std::back_inserter(text), "{}\t{}\t{}", asc_milliseconds(event.start),
-                   asc_milliseconds(event.end), event.duration.count() / 1000);
+    fmt::format_to(std::back_inserter(text), "{}\t{}\t{}", written_ms(event.start), written_ms(event.end),
+                   event.duration.count() / 1000);
     if (event.kind == GazeEvent::Kind::fixation) {
         append_place(text, event.place);
         append_or_dot(text, event.pupil, 0);
@@ -169,7 +176,7 @@ void AscWriter::port(const GazeEvent& event) {
     for (char& c : values)
         c = c == ' ' ? '\t' : c;
     line(fmt::format("{}\t{}\t{}", event.kind == GazeEvent::Kind::button ? "BUTTON" : "INPUT",
-                     asc_milliseconds(event.start), values));
+                     written_ms(event.start), values));
 }
 
 } // namespace overt

@@ -19,6 +19,8 @@ struct AscLayout {
     double rate_hz = 1000.0;
     bool pupil_is_diameter = false;
     std::optional<double> px_per_deg_x, px_per_deg_y; ///< at the middle of the screen
+    std::int64_t base_ms = 0;                         ///< taken from every time
+    bool fractional_times = false; ///< samples' times with their microseconds instead of whole milliseconds
 
     std::string_view eyes() const { return has_left ? (has_right ? "LR" : "L") : "R"; }
 };
@@ -27,7 +29,8 @@ struct AscLayout {
 /// each number stands twice.
 std::int64_t asc_milliseconds(TrackerTime time);
 
-/// Everything is ASCII: other characters become \uXXXX.
+/// Everything is ASCII: other characters become \uXXXX. Times are given in the tracker's clock and written
+/// less the layout's base.
 class AscWriter {
   public:
     /// Makes the file. Throws RecordError.
@@ -59,6 +62,7 @@ class AscWriter {
 
   private:
     void eye(const GazeSample* sample);
+    std::int64_t written_ms(TrackerTime time) const { return asc_milliseconds(time) - layout_.base_ms; }
     void end_line();
 
     OutputFile file_;

@@ -1,5 +1,7 @@
 #include "experiment/record/asc_export.h"
 
+#include <fstream>
+
 #include <catch2/catch.hpp>
 
 #include "experiment/error.h"
@@ -91,9 +93,15 @@ TEST_CASE("eyelinker, MNE, pymovements and PyGazeAnalyser find every sample of a
                 }
             }
         }
-        // What MNE leaves out is no message that matters.
-        CHECK(std::count(readings[1].messages.begin(), readings[1].messages.end(), "PRESENTATION_ONSET") >=
-              1);
+        // Both drop what stands outside of recordings; MNE also what has «!V», «!MODE» or a semicolon in it.
+        for (const AscReading& reading : {readings[0], readings[1]}) {
+            const auto count_of = [&](const std::string& word) {
+                return std::count_if(reading.messages.begin(), reading.messages.end(),
+                                     [&](const std::string& message) { return message.starts_with(word); });
+            };
+            CHECK(count_of("PRESENTATION_ONSET") >= 1);
+            CHECK(count_of("CONDITION trial=") == reading.blocks);
+        }
     }
     CHECK(exported.counts.samples == samples);
     CHECK(exported.counts.trials == 5);
@@ -105,6 +113,74 @@ TEST_CASE(
     const Exported exported;
     // 400, 200 and 400 samples of which every 37th was dropped: the blocks' lengths count the dropped ones.
     CHECK(read_as_pymovements(exported.run(1)).expected_samples == Approx(1000.0).margin(6.0));
+}
+
+TEST_CASE("above 1000 Hz MNE keeps every sample of fractional times, and every other one of whole times",
+          "[unit]") {
+    const Exported exported;
+    const AscReading whole = read_as_mne(exported.run(1));
+    CHECK(whole.samples_after_merge < 0.6 * static_cast<double>(whole.samples.size()));
+
+    AscExportOptions options;
+    options.fractional_times = true;
+    export_asc(SessionRecord(exported.session), exported.root.path() / "fractional", options);
+    const std::string text = text_of(exported.root.path() / "fractional/sub-AB7_ses-01_run-01.asc");
+    const AscReading mne = read_as_mne(text);
+    CHECK(mne.samples_after_merge == static_cast<double>(mne.samples.size()));
+    for (const AscReading& reading : {read_as_eyelinker(text), mne, read_as_pymovements(text)}) {
+        CHECK(reading.failure == "");
+        REQUIRE(reading.samples.size() == whole.samples.size());
+        CHECK(reading.samples[1].time - reading.samples[0].time == Approx(0.5));
+    }
+    const AscImportSummary imported =
+        import_asc(exported.root.path() / "fractional/sub-AB7_ses-01_run-01.asc",
+                   into(exported.root.path() / "imported"));
+    const SessionRecord record(exported.session), again(imported.session);
+    CHECK(again.samples(again.trials()[0])[1].sampled_at == record.samples(record.trials()[0])[1].sampled_at);
+}
+
+TEST_CASE("readers take what is exported of recordings that lack what they need, or have it where they fail",
+          "[unit]") {
+    test::TemporaryFolder root;
+    // Both eyes; one recording that goes on through all trials and is cut off; the right eye's first place
+    // has the length of a status; GAZE_COORDS, but no RECCFG; a clock that does not fit into 31 bits.
+    constexpr std::int64_t begin_ms = 800'000'000'000;
+    std::string file = "** DATE: Wed Aug 20 06:48:58 2014\n** VERSION: EYELINK II 1\n"
+                       "** EYELINK II CL v5.03 Jul  3 2014\n\n";
+    const auto add = [&](std::string_view form, std::int64_t ms, std::string_view rest) {
+        file += fmt::format(fmt::runtime(form), ms, rest);
+    };
+    add("MSG\t{} TRIALID 1\n", begin_ms, "");
+    add("MSG\t{} GAZE_COORDS 0.00 0.00 1919.00 1079.00\n", begin_ms, "");
+    add("START\t{} \tLEFT\tRIGHT\tSAMPLES\tEVENTS\n", begin_ms + 1, "");
+    file += "PRESCALER\t1\nVPRESCALER\t1\nPUPIL\tAREA\n"
+            "EVENTS\tGAZE\tLEFT\tRIGHT\tRATE\t1000.00\tTRACKING\tCR\tFILTER\t2\n"
+            "SAMPLES\tGAZE\tLEFT\tRIGHT\tRATE\t1000.00\tTRACKING\tCR\tFILTER\t2\n";
+    for (int n = 1; n <= 300; ++n) {
+        if (n % 100 == 0 && n < 300)
+            file += fmt::format("MSG\t{} TRIALID {}\n", begin_ms + n, n / 100 + 1);
+        if (n == 150)
+            add("MSG\t{} in the middle\n", begin_ms + n, "");
+        add("{}\t  -10.1\t  -20.2\t 1000.0\t  -30.3\t  -40.4\t 1001.0\t.....\n", begin_ms + n, "");
+    }
+    std::ofstream(root.path() / "odd.asc") << file;
+    const AscImportSummary imported = import_asc(root.path() / "odd.asc", into(root.path() / "session"));
+    export_asc(SessionRecord(imported.session), root.path() / "asc");
+    const std::string text = text_of(root.path() / "asc/sub-AB7_ses-01_run-01.asc");
+    CHECK_THAT(text, Contains("** REMARK: 799900000000 ms were taken from the tracker's times"));
+    const AscReading readings[] = {read_as_eyelinker(text), read_as_mne(text), read_as_pymovements(text),
+                                   read_as_pygaze_analyser(text, "TRIALID")};
+    for (const AscReading& reading : readings) {
+        CHECK(reading.failure == "");
+        REQUIRE(reading.samples.size() == 300);
+        CHECK(reading.samples[0].x == Approx(-10.1));
+        CHECK(reading.samples[299].time == 100'000'300.0);
+    }
+    CHECK(readings[0].blocks == 3);
+    CHECK(readings[1].blocks == 3);
+    CHECK(readings[0].messages.size() ==
+          3); // !MODE in the two blocks that were added, and the one in the middle
+    CHECK(readings[2].expected_samples == 300.0);
 }
 
 TEST_CASE("an exported session holds its trials, aborted ones too, and nothing but ASCII", "[unit]") {
@@ -124,7 +200,7 @@ TEST_CASE("an exported session holds its trials, aborted ones too, and nothing b
     CHECK(occurrences("\nEND\t") == 3);
     CHECK(occurrences("DISPLAY_COORDS 0 0 1919 1079\n") == 1);
     CHECK_THAT(text, Contains("simuliert \\u2013 \\u00fc"));
-    CHECK_THAT(text, Contains("CONDITION task=age sculpture=bust material=silver attempt=1"));
+    CHECK_THAT(text, Contains("CONDITION trial=1 task=age sculpture=bust material=silver attempt=1"));
     CHECK(std::all_of(text.begin(), text.end(),
                       [](char c) { return c == '\n' || c == '\t' || (c >= ' ' && c < 127); }));
     // The tracker's time of a screen is that of the session, by the clocks.
@@ -160,9 +236,9 @@ TEST_CASE("an export as ASC replaces an earlier one only when asked, and a sessi
     const Exported exported;
     const SessionRecord record(exported.session);
     CHECK_THROWS_WITH(export_asc(record, exported.target), Contains("exists already"));
-    CHECK_NOTHROW(export_asc(record, exported.target, {true, {}}));
+    CHECK_NOTHROW(export_asc(record, exported.target, {true, false, {}}));
     std::ofstream(exported.target / "notes.txt") << "mine";
-    CHECK_THROWS_WITH(export_asc(record, exported.target, {true, {}}), Contains("notes.txt"));
+    CHECK_THROWS_WITH(export_asc(record, exported.target, {true, false, {}}), Contains("notes.txt"));
     SessionHeader header = eye_session_header();
     header.schedule.observer.label = "C1";
     const fs::path empty = make_session(exported.root.path(), header);

@@ -25,6 +25,8 @@ struct AscReading {
     std::vector<ReadSample> samples;
     std::vector<std::string> messages;
     double expected_samples = 0.0; ///< by the blocks' lengths, where the reader computes them
+    int blocks = 0;
+    double samples_after_merge = 0.0; ///< MNE: those that it finds again at evenly spaced times
 };
 
 inline std::vector<std::string> lines_of(const std::string& text) {
@@ -56,36 +58,48 @@ inline std::optional<double> value_or_dot(const std::string& text) {
     return words.size() == 1 && words[0] != "." ? std::optional(std::stod(words[0])) : std::nullopt;
 }
 
-/// R's eyelinker: START, EVENTS or SAMPLES in the same block; all rows of samples with the same number of
-/// tab-separated cells, those of another are dropped; a version line it can take a number from.
+/// R's eyelinker: START, and an EVENTS line; one END after each START; what stands outside of blocks is left
+/// out; all rows of samples with the same number of tab-separated cells, those of another are dropped; as
+/// many cells as the header has columns; times of 31 bits, or with a point from the first on; a version line
+/// it can take a number from; the first word of DISPLAY_COORDS's rest a number.
 inline AscReading read_as_eyelinker(const std::string& text) {
     AscReading reading;
     const std::vector<std::string> lines = lines_of(text);
-    bool has_start = false, has_events = false, in_block = false;
-    std::map<std::size_t, int> row_lengths;
+    bool has_events = false, in_block = false;
+    std::size_t columns = 0;
+    int ends = 0;
     for (const std::string& line : lines) {
-        has_start |= line.starts_with("START");
-        has_events |= line.starts_with("EVENTS\t");
-        if (!line.empty() && std::isdigit(static_cast<unsigned char>(line[0])))
-            ++row_lengths[split_at_tabs(line).size()];
+        if (line.starts_with("EVENTS\t") || line.starts_with("SAMPLES\t")) {
+            has_events |= line.starts_with("EVENTS");
+            const bool both = line.find("\tLEFT\tRIGHT\t") != std::string::npos;
+            columns = (both ? 7u : 4u) + (line.find("\tTRACKING") != std::string::npos ? 1u : 0u);
+            if (!std::regex_search(line, std::regex(R"(RATE\s+[0-9]+\.[0-9]+)")))
+                reading.failure = "a rate without a point";
+        }
     }
-    if (!has_start)
-        reading.failure = "no START";
     if (!has_events)
         reading.failure = "no EVENTS line";
-    if (row_lengths.size() != 1)
-        reading.failure = "rows of different lengths";
     static const std::regex version(R"(\*\* EYELINK II.* v([0-9.]+) [A-Za-z].*)");
     if (std::none_of(lines.begin(), lines.end(),
                      [](const std::string& line) { return std::regex_match(line, version); }))
         reading.failure = "no version";
     for (const std::string& line : lines) {
-        if (line.starts_with("START"))
+        if (line.starts_with("START\t")) {
+            if (reading.blocks > 0 && ends != 1)
+                reading.failure = "a START without its one END";
             in_block = true;
-        if (line.starts_with("END"))
+            ends = 0;
+            ++reading.blocks;
+        }
+        if (line.starts_with("END\t")) {
             in_block = false;
-        if (!in_block || line.empty())
+            ++ends;
+        }
+        if (!in_block || line.empty()) {
+            if (!line.empty() && std::isdigit(static_cast<unsigned char>(line[0])))
+                reading.failure = "a sample outside of a block";
             continue;
+        }
         if (line.starts_with("MSG")) {
             const std::size_t blank = line.find(' ');
             if (blank == std::string::npos || std::stod(line.substr(4, blank - 4)) < 0.0)
@@ -95,19 +109,51 @@ inline AscReading read_as_eyelinker(const std::string& text) {
         if (!std::isdigit(static_cast<unsigned char>(line[0])))
             continue;
         const std::vector<std::string> cells = split_at_tabs(line);
-        reading.samples.push_back({std::stod(cells.at(0)), value_or_dot(cells.at(1)),
-                                   value_or_dot(cells.at(2)), value_or_dot(cells.at(3)).value_or(0.0)});
+        if (cells.size() != columns)
+            reading.failure = "a row of another length: " + line;
+        const double time = std::stod(cells.at(0));
+        if (cells[0].find('.') == std::string::npos && time > 2147483647.0)
+            reading.failure = "a whole number of more than 31 bits";
+        reading.samples.push_back({time, value_or_dot(cells.at(1)), value_or_dot(cells.at(2)),
+                                   value_or_dot(cells.at(3)).value_or(0.0)});
     }
+    if (ends != 1)
+        reading.failure = "no START, or not one END after it";
     return reading;
 }
 
-/// MNE: blocks of START to END only, each with a SAMPLES line that has a rate; a date it can parse; messages
-/// whose first word is a number are taken for an offset; exactly n VALIDATE lines after a validation of n
-/// points.
+/// How many samples MNE finds again where there are several blocks: it takes the nearest one, not more than
+/// half a step away, to each of evenly spaced times from the first on.
+inline double merged_as_mne(const std::vector<ReadSample>& samples, double rate_hz) {
+    const double step = 1000.0 / rate_hz;
+    double found = 0.0;
+    std::size_t next = 0;
+    for (std::size_t n = 0; next < samples.size(); ++n) {
+        const double time = samples[0].time + static_cast<double>(n) * step;
+        std::size_t after = next;
+        while (after < samples.size() && samples[after].time < time - 0.5 * step)
+            ++after;
+        if (after < samples.size() && std::abs(samples[after].time - time) <= 0.5 * step) {
+            ++found;
+            ++after;
+            while (after < samples.size() && samples[after].time == samples[after - 1].time)
+                ++after;
+        }
+        next = after;
+    }
+    return found;
+}
+
+/// MNE: blocks of START to END only, as many of the one as of the other; a SAMPLES line that has a rate, and
+/// PUPIL; a date it can parse; samples in the order of their times; in the first sample, a cell of 3, 5, 13
+/// or 17 characters after the first place that does not begin with a digit is taken for the status; exactly n
+/// VALIDATE lines after a validation of n points.
 inline AscReading read_as_mne(const std::string& text) {
     AscReading reading;
-    bool in_block = false, has_samples_line = false, has_date = false;
-    int blocks = 0;
+    bool in_block = false, has_samples_line = false, has_date = false, has_pupil = false;
+    int starts = 0;
+    double rate_hz = 0.0;
+    std::size_t columns = 0;
     const std::vector<std::string> lines = lines_of(text);
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const std::vector<std::string> words = words_of(lines[i]);
@@ -118,16 +164,23 @@ inline AscReading read_as_mne(const std::string& text) {
         if (words[0] == "START") {
             in_block = true;
             has_samples_line = false;
+            ++starts;
         } else if (words[0] == "END") {
             if (!in_block || !has_samples_line)
                 reading.failure = "END without START, or a block without SAMPLES";
             in_block = false;
-            ++blocks;
+            ++reading.blocks;
         } else if (words[0] == "SAMPLES" && in_block) {
             const auto rate = std::find(words.begin(), words.end(), "RATE");
             if (rate == words.end() || rate + 1 == words.end() || std::stod(*(rate + 1)) <= 0.0)
                 reading.failure = "no rate";
+            else
+                rate_hz = std::stod(*(rate + 1));
+            const bool both = words.size() > 3 && words[2] == "LEFT" && words[3] == "RIGHT";
+            columns = both ? 7 : 4;
             has_samples_line = true;
+        } else if (words[0] == "PUPIL" && in_block) {
+            has_pupil = true;
         } else if (words[0] == "MSG") {
             if (words.size() < 3)
                 reading.failure = "an empty message";
@@ -137,19 +190,32 @@ inline AscReading read_as_mne(const std::string& text) {
                     if (lines.at(i + static_cast<std::size_t>(n)).find("VALIDATE") == std::string::npos)
                         reading.failure = "a validation without its points";
             }
-            const bool is_dropped =
-                lines[i].find(';') != std::string::npos || lines[i].find("!V") != std::string::npos;
+            const bool is_dropped = lines[i].find(';') != std::string::npos ||
+                                    lines[i].find("!V") != std::string::npos ||
+                                    lines[i].find("!MODE") != std::string::npos;
             if (in_block && !is_dropped)
                 reading.messages.push_back(lines[i].substr(lines[i].find(' ') + 1));
         } else if (in_block && std::isdigit(static_cast<unsigned char>(words[0][0]))) {
+            std::size_t kept = words.size();
+            for (std::size_t cell = 3; cell < words.size() && reading.samples.empty(); ++cell) {
+                const std::size_t length = words[cell].size();
+                kept -= !std::isdigit(static_cast<unsigned char>(words[cell][0])) &&
+                        (length == 3 || length == 5 || length == 13 || length == 17);
+            }
+            if (reading.samples.empty() && kept != columns)
+                reading.failure = "other columns than the header says: " + lines[i];
+            if (!reading.samples.empty() && std::stod(words[0]) < reading.samples.back().time)
+                reading.failure = "a sample before the one before it";
             reading.samples.push_back({std::stod(words[0]), value_or_dot(words.at(1)),
                                        value_or_dot(words.at(2)), value_or_dot(words.at(3)).value_or(0.0)});
         }
     }
-    if (blocks == 0 || in_block)
-        reading.failure = "no whole block";
-    if (!has_date)
-        reading.failure = "no date";
+    if (reading.blocks == 0 || starts != reading.blocks)
+        reading.failure = "not as many END as START";
+    if (!has_date || !has_pupil)
+        reading.failure = "no date, or no PUPIL";
+    reading.samples_after_merge =
+        starts > 1 ? merged_as_mne(reading.samples, rate_hz) : static_cast<double>(reading.samples.size());
     return reading;
 }
 
