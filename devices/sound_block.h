@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "experiment/record/spsc_ring.h"
 #include "experiment/session_time.h"
+#include "experiment/spsc_ring.h"
 
 namespace overt {
 

@@ -55,13 +55,6 @@ void read_session(Query& row, SessionHeader& header) {
     header.animation.when_late = row.text() == "stretch" ? WhenLate::stretch : WhenLate::drop;
 }
 
-bool has_table(const SQLite::Database& database, const char* name) {
-    const std::string sql =
-        fmt::format("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = '{}'", name);
-    Query table(database, sql.c_str());
-    return table.step();
-}
-
 void read_characterisation(const SQLite::Database& database, SessionHeader& header) {
     // Sessions of earlier programs have no such table.
     if (!has_table(database, "characterisation"))

@@ -114,6 +114,12 @@ bool has_column(const SQLite::Database& database, const char* table, const char*
     return row.step() && row.integer() > 0;
 }
 
+bool has_table(const SQLite::Database& database, const char* table) {
+    Query row(database,
+              fmt::format("SELECT 1 FROM sqlite_schema WHERE type = 'table' AND name = '{}'", table).c_str());
+    return row.step();
+}
+
 void throw_record_error(const std::filesystem::path& file, std::string_view doing,
                         const SQLite::Exception& reason) {
     throw RecordError(fmt::format("{}: {} failed: {}. {}.", file.string(), doing, reason.what(),

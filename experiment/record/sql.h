@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -88,8 +90,41 @@ class Query {
 /// Whether a table has a column: earlier versions of the program may have made it without.
 bool has_column(const SQLite::Database& database, const char* table, const char* column);
 
+/// Whether there is such a table: earlier versions of the program may have made the file without.
+bool has_table(const SQLite::Database& database, const char* table);
+
+/// The rows of a SELECT with these values for its question marks, each as `read(row)` gives it. Throws
+/// SQLite::Exception, and what `read` throws.
+template <class Read, class... Values>
+auto read_rows(const SQLite::Database& database, const std::string& sql, Read read, Values... values) {
+    std::vector<std::invoke_result_t<Read&, Query&>> rows;
+    Query row(database, sql.c_str());
+    [[maybe_unused]] int index = 0;
+    (row.bind(++index, values), ...);
+    while (row.step())
+        rows.push_back(read(row));
+    return rows;
+}
+
+/// The same of a table that sessions of earlier programs lack: they have no rows of it.
+template <class Read, class... Values>
+auto read_later_rows(const SQLite::Database& database, const char* table, const std::string& sql, Read read,
+                     Values... values) {
+    using Rows = decltype(read_rows(database, sql, read, values...));
+    return has_table(database, table) ? read_rows(database, sql, read, values...) : Rows();
+}
+
 /// Throws a RecordError that names the file, what was being done, SQLite's reason and the remedy.
 [[noreturn]] void throw_record_error(const std::filesystem::path& file, std::string_view doing,
                                      const SQLite::Exception& reason);
+
+/// Runs a reader of a session; what SQLite has to complain of becomes a RecordError with the file's name.
+template <class Read> auto reading_session(const std::filesystem::path& file, Read read) {
+    try {
+        return read();
+    } catch (const SQLite::Exception& reason) {
+        throw_record_error(file, "reading the session", reason);
+    }
+}
 
 } // namespace overt

@@ -55,10 +55,7 @@ const std::vector<Layer> layers{
     {"experiment/", "^experiment/[^/]+$", opengl + "|" + usb + "|" + drawing + "|" + database},
     {"render/", "^(experiment/([^/]+|(colour|scene|timing|protocol|analysis)/.*)|render/.*)$",
      usb + "|" + database},
-    // The ring between two threads is the record's, and knows nothing of records.
-    {"devices/",
-     "^(experiment/([^/]+|(audio|colour|scene|timing|protocol|analysis)/.*|record/spsc_ring\\.h)|devices/"
-     ".*)$",
+    {"devices/", "^(experiment/([^/]+|(audio|colour|scene|timing|protocol|analysis)/.*)|devices/.*)$",
      opengl + "|" + drawing + "|" + database},
     {"app/", "^(experiment|render|devices|app)/.*$", "^$"},
 };

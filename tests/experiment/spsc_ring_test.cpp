@@ -1,4 +1,4 @@
-#include "experiment/record/spsc_ring.h"
+#include "experiment/spsc_ring.h"
 
 #include <thread>
 

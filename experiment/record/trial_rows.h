@@ -1,0 +1,14 @@
+/// Attempts at trials as rows of their table.
+#pragma once
+
+#include <vector>
+
+#include "experiment/record/session_record.h"
+
+namespace overt {
+
+/// All attempts, in the order in which they were made; their trials' blocks are not among the columns. Throws
+/// SQLite::Exception, and RecordError for times that are none.
+std::vector<TrialRecord> read_trials(const SQLite::Database& database);
+
+} // namespace overt
