@@ -1,5 +1,6 @@
 #include <chrono>
 #include <future>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@
 #include "experiment/error.h"
 #include "experiment/parallel.h"
 #include "experiment/protocol/protocol_keys.h"
+#include "experiment/whole_file.h"
 
 namespace overt {
 
@@ -165,6 +167,19 @@ void export_cached(const BakeJob& job, const FrameExport& output, BakeOutcome& o
     });
 }
 
+/// What a bake that was killed had begun to write.
+void remove_remnants(const BakeJob& job, const StimulusLibrary& library, const FrameExport& output) {
+    std::set<std::filesystem::path> folders;
+    for (const BakeUnit& unit : job.units) {
+        folders.insert(library.frame_file_of(unit.condition, job.grade, unit.pose).parent_path());
+        folders.insert(library.map_file(unit.condition.sculpture, unit.pose).parent_path());
+        if (job.exports())
+            folders.insert(output.folder_of(unit.condition));
+    }
+    for (const std::filesystem::path& folder : folders)
+        remove_abandoned_files(folder);
+}
+
 void say_plan(const BakeJob& job, const Experiment& experiment, const std::vector<BakeUnit>& missing) {
     fmt::print("{}: {} stimuli, {} quality, {} frames, {} of them there already\n", experiment.protocol.name,
                job.stimuli.size(), describe(job.grade), job.units.size(), job.units.size() - missing.size());
@@ -270,6 +285,7 @@ int run_bake(const BakeOptions& options) {
     if (options.dry_run)
         return 0;
 
+    remove_remnants(job, library, output);
     BakeOutcome outcome;
     outcome.units = job.units.size();
     outcome.kept = job.units.size() - missing.size();

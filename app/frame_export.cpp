@@ -84,11 +84,14 @@ FrameExport::FrameExport(const FrameExportOptions& options, const Protocol& prot
                          const FrameGrade& grade)
     : options_(&options), protocol_(&protocol), sculptures_(sculptures), library_(&library), grade_(&grade) {}
 
+std::filesystem::path FrameExport::folder_of(const Condition& condition) const {
+    return options_->folder /
+           fmt::format("{}_{}", sculptures_[static_cast<std::size_t>(condition.sculpture)].id,
+                       protocol_->materials[static_cast<std::size_t>(condition.material)].id);
+}
+
 std::vector<std::filesystem::path> FrameExport::files_of(const BakeUnit& unit) const {
-    const std::filesystem::path folder =
-        options_->folder /
-        fmt::format("{}_{}", sculptures_[static_cast<std::size_t>(unit.condition.sculpture)].id,
-                    protocol_->materials[static_cast<std::size_t>(unit.condition.material)].id);
+    const std::filesystem::path folder = folder_of(unit.condition);
     std::vector<std::filesystem::path> files;
     for (int frame = options_->frames.first; frame <= options_->frames.last; ++frame) {
         if (library_->poses().pose_of({frame}) == unit.pose)

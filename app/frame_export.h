@@ -33,6 +33,9 @@ class FrameExport {
     /// Whether the files of a unit are there, whole and made of the very same.
     bool has(const BakeUnit& unit) const;
 
+    /// Where a stimulus's files go.
+    std::filesystem::path folder_of(const Condition& condition) const;
+
     /// Throws InputError, naming the first, if a file of these units is there and is something else.
     void refuse_to_replace(const std::vector<BakeUnit>& units) const;
 

@@ -58,38 +58,40 @@ void print(const AscImportSummary& summary) {
 int run_import(const ImportOptions& options) {
     ProgressBar bar;
     int reported = 0;
-    AscImportOptions import;
-    import.place = {options.sessions, options.task,
-                    options.observer.empty() ? label_from(options.file) : options.observer};
-    import.session_number = options.session_number;
-    import.out = options.out;
+    AscImportOptions request;
+    request.place = {options.sessions, options.task,
+                     options.observer.empty() ? label_from(options.file) : options.observer};
+    request.session_number = options.session_number;
+    request.out = options.out;
     if (options.screen_mm.size() == 2)
-        import.screen_mm = glm::dvec2(options.screen_mm[0], options.screen_mm[1]);
-    import.viewing_distance_mm = options.distance_mm;
-    import.program = {build::version, build::compiler, build::flags, build::commit};
-    import.now_utc = utc_now();
-    import.report = [&](const std::string& line) {
+        request.screen_mm = glm::dvec2(options.screen_mm[0], options.screen_mm[1]);
+    request.viewing_distance_mm = options.distance_mm;
+    request.program = {build::version, build::compiler, build::flags, build::commit};
+    request.now_utc = utc_now();
+    request.report = [&](const std::string& line) {
         if (reported++ < shown_lines)
             fmt::print(stderr, "{}\n", line);
-};
-import.progress = [&](std::int64_t done, std::int64_t all) { constexpr std::int64_t kilobyte = 1024;
-bar.update("importing " + options.file.filename().string(), static_cast<int>(done / kilobyte),
-           static_cast<int>(all / kilobyte));
-}; // namespace overt
-const AscImportSummary summary = options.into.empty() ? import_asc(options.file, import)
-                                                      : import_asc_into(options.file, options.into, import);
-bar.finish();
-if (!options.print_session_to.empty()) {
-    std::ofstream stream(options.print_session_to);
-    stream << summary.session.string() << '\n';
-    if (!stream.flush())
-        throw RecordError(fmt::format("{}: cannot be written", options.print_session_to.string()));
-}
-if (options.json)
-    fmt::print("{}\n", to_json(summary).dump(2));
-else
-    print(summary);
-return 0;
+    };
+    request.progress = [&](std::int64_t done, std::int64_t all) {
+        constexpr std::int64_t kilobyte = 1024;
+        bar.update("importing " + options.file.filename().string(), static_cast<int>(done / kilobyte),
+                   static_cast<int>(all / kilobyte));
+    };
+    const AscImportSummary summary = options.into.empty()
+                                         ? import_asc(options.file, request)
+                                         : import_asc_into(options.file, options.into, request);
+    bar.finish();
+    if (!options.print_session_to.empty()) {
+        std::ofstream stream(options.print_session_to);
+        stream << summary.session.string() << '\n';
+        if (!stream.flush())
+            throw RecordError(fmt::format("{}: cannot be written", options.print_session_to.string()));
+    }
+    if (options.json)
+        fmt::print("{}\n", to_json(summary).dump(2));
+    else
+        print(summary);
+    return 0;
 }
 
 } // namespace overt

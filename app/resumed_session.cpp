@@ -67,6 +67,24 @@ void require_same_protocol(const std::filesystem::path& folder, const RecordedPr
                         folder.string(), changed, (folder / "protocol.toml").string()));
 }
 
+/// An imported session is complete in itself, and a copy with imported gaze is one of the session that may go
+/// on.
+void refuse_imported(const SessionRecord& record) {
+    const std::string folder = record.directory().string();
+    const int sittings = 1 + static_cast<int>(record.resumptions().size());
+    for (int sitting = 1; sitting <= sittings; ++sitting) {
+        const std::optional<GazeSource> source = record.gaze_source(sitting);
+        if (source && record.header().stimuli.empty())
+            throw InputError(fmt::format("{}: this session was imported from {}: there is nothing to go on "
+                                         "with. Name the one that is meant with --session.",
+                                         folder, source->file));
+        if (source)
+            throw InputError(fmt::format("{}: this is a copy of a session, with the gaze of {}, and is not "
+                                         "gone on with. Go on with the session itself, and import again.",
+                                         folder, source->file));
+    }
+}
+
 void require_same_run(const std::filesystem::path& folder, const SessionHeader& header,
                       const RunOptions& options) {
     if (options.seed && *options.seed != header.schedule.seed)
@@ -151,6 +169,7 @@ ResumedSession take_up_session(const RunOptions& options, const SessionPlace& pl
     // Somebody who runs it just now is found out before minutes are spent.
     { const SessionLock nobody_else(folder); }
     const SessionRecord record(folder);
+    refuse_imported(record);
     if (record.is_complete())
         throw InputError(
             fmt::format("{}: this session is complete: there is nothing to go on with.", folder.string()));

@@ -91,6 +91,22 @@ void say_frames(const StimulusLibrary& library) {
         fmt::print("frames: {}\n", library.source_of(rendered.front()));
 }
 
+/// Draws and renders what the cache lacks. Ctrl-C ends it with what is finished.
+void prepare_stimuli(Rig& rig, const RunOptions& options) {
+    ProgressBar bar;
+    const Progress show = [&](std::string_view what, int done, int total, double share) {
+        bar.update(what, done, total, share);
+        if (Interruption::requested())
+            throw Error(
+                "interrupted while the stimuli were made ready: no trial was begun. What was finished "
+                "is kept, and the same command goes on from there.");
+    };
+    if (!rig.maps_are_live())
+        rig.library().prepare_maps(show);
+    rig.library().prepare_given_maps(show);
+    rig.library().prepare_frames(show, options.quality);
+}
+
 void say_risks(const std::vector<ScreenFinding>& findings) {
     for (const ScreenFinding& finding : findings)
         if (finding.weight == ScreenFinding::Weight::risk)
@@ -216,18 +232,9 @@ int run_session(const RunOptions& options) {
     Rig rig(protocol, sculptures, request, cache_folder());
     say_before(protocol, schedule, rig.context().description(), options);
     say_risks(rig.screen_findings());
-    {
-        ProgressBar bar;
-        const Progress show = [&](std::string_view what, int done, int total, double share) {
-            bar.update(what, done, total, share);
-        };
-        if (!rig.maps_are_live())
-            rig.library().prepare_maps(show);
-        rig.library().prepare_given_maps(show);
-        rig.library().prepare_frames(show, options.quality);
-    }
-    say_frames(rig.library());
     const Interruption interruption;
+    prepare_stimuli(rig, options);
+    say_frames(rig.library());
     rig.open(faults, resumed ? resumed->clock_start : SessionTime());
     if (rig.is_on_a_real_screen() && options.refresh_check_s > 0.0)
         check_timing(rig, options.refresh_check_s);

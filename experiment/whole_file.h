@@ -12,4 +12,10 @@ namespace overt {
 /// RecordError, leaving nothing new, if the disk refuses a single one of them.
 void write_whole_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
+/// Removes what write_whole_file() left hidden directly in a folder when its program was killed on this
+/// machine. What a program that runs is writing stays, and so does what another machine has begun, whose
+/// programs cannot be seen from here. A folder that is not there has nothing in it; what cannot be removed
+/// stays. Gives how many files went.
+int remove_abandoned_files(const std::filesystem::path& folder);
+
 } // namespace overt

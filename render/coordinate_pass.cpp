@@ -13,11 +13,7 @@ CoordinatePass::CoordinatePass(const GlContext& context, glm::ivec2 image_px)
 void CoordinatePass::render(const MeshBuffers& mesh, const glm::mat4& clip_from_object) noexcept {
     const GladGLContext& gl = context_->gl();
     target_.bind();
-    // Whatever could mix two surfaces in one pixel is off: a pixel is on the object or not, never in between.
-    for (const GLenum state : {GL_BLEND, GL_DITHER, GL_MULTISAMPLE, GL_CULL_FACE, GL_SCISSOR_TEST})
-        gl.Disable(state);
-    gl.Enable(GL_DEPTH_TEST);
-    gl.DepthFunc(GL_LESS);
+    draw_nearest_only(gl);
     const GLuint nothing[4] = {0, 0, 0, 0};
     const GLfloat far = 1.0f;
     gl.ClearBufferuiv(GL_COLOR, 0, nothing);

@@ -238,4 +238,11 @@ void read_pixels(const GlContext& context, int index, glm::ivec2 origin_px, glm:
     throw_on_gl_error(context, fmt::format("reading {} x {} {}", size_px.x, size_px.y, pixel.name));
 }
 
+void draw_nearest_only(const GladGLContext& gl) noexcept {
+    for (const GLenum state : {GL_BLEND, GL_DITHER, GL_MULTISAMPLE, GL_CULL_FACE, GL_SCISSOR_TEST})
+        gl.Disable(state);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LESS);
+}
+
 } // namespace overt

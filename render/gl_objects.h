@@ -141,4 +141,8 @@ struct TransferFormat {
 };
 TransferFormat transfer_format(PixelFormat format) noexcept;
 
+/// Sets the state in which each pixel shows what is nearest there and nothing else: whatever could mix two
+/// surfaces in one pixel is off.
+void draw_nearest_only(const GladGLContext& gl) noexcept;
+
 } // namespace overt

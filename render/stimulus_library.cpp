@@ -1,9 +1,12 @@
 #include "render/stimulus_library.h"
 
+#include <exception>
+
 #include <fmt/format.h>
 
 #include "experiment/error.h"
 #include "experiment/protocol/protocol_keys.h"
+#include "experiment/whole_file.h"
 #include "render/frame_description.h"
 #include "render/frame_key.h"
 #include "render/observed_colours.h"
@@ -88,6 +91,7 @@ void StimulusLibrary::make_frames(std::span<const Condition> conditions, const F
     };
     for (const Condition& condition : conditions) {
         grades_[index_of(condition)] = grade;
+        remove_abandoned_files(frame_file_of(condition, grade, {0}).parent_path());
         const auto missing = static_cast<int>(missing_frames(condition, grade).size());
         all += missing * cost_of(condition);
         count += missing;
@@ -95,21 +99,30 @@ void StimulusLibrary::make_frames(std::span<const Condition> conditions, const F
     const std::string what = grade.is_live() ? "drawing frames" : "rendering previews";
     // While one frame is compressed and written, the next is made.
     std::future<void> writing;
+    // The tracer's threads hear from a progress that throws only that they are to stop.
+    std::exception_ptr stopped;
     for (const Condition& condition : conditions) {
         for (const PoseIndex pose : missing_frames(condition, grade)) {
             const double cost = cost_of(condition);
             const auto tell = [&](double share_of_frame) {
-                if (progress)
-                    progress(what, frames, count, (done + share_of_frame * cost) / all);
-                return true;
+                try {
+                    if (progress)
+                        progress(what, frames, count, (done + share_of_frame * cost) / all);
+                } catch (...) {
+                    stopped = std::current_exception();
+                }
+                return !stopped;
             };
-            tell(0.0);
+            if (!tell(0.0))
+                std::rethrow_exception(stopped);
             if (grade.is_live()) {
                 draw_live_frame(condition, pose, writing);
             } else {
                 SpectralFrame frame = trace(condition, pose, grade, tell);
                 if (writing.valid())
                     writing.get();
+                if (stopped)
+                    std::rethrow_exception(stopped);
                 writing =
                     std::async(std::launch::async, [this, condition, pose, grade, frame = std::move(frame)] {
                         store(condition, pose, grade, frame);

@@ -21,7 +21,7 @@
 namespace overt {
 
 /// Told how far a longer piece of work is: `done` of `total` pieces, and which share of the time they are
-/// thought to take.
+/// thought to take. What it throws ends the work; what was finished by then is kept.
 using Progress = std::function<void(std::string_view what, int done, int total, double share)>;
 
 class StimulusLibrary final : public FrameSource {

@@ -51,10 +51,7 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     OVERT_EXPECTS(mirrored_.has_value() && scene.view.image_px == image_px_);
     const GladGLContext& gl = context_->gl();
     target_.bind();
-    for (const GLenum state : {GL_BLEND, GL_DITHER, GL_MULTISAMPLE, GL_CULL_FACE, GL_SCISSOR_TEST})
-        gl.Disable(state);
-    gl.Enable(GL_DEPTH_TEST);
-    gl.DepthFunc(GL_LESS);
+    draw_nearest_only(gl);
     const GLfloat nothing[4] = {0, 0, 0, 0}, far = 1.0f;
     gl.ClearBufferfv(GL_COLOR, 0, nothing);
     gl.ClearBufferfv(GL_DEPTH, 0, &far);

@@ -1,13 +1,13 @@
 #include "experiment/colour/colour_matching.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <glm/vec2.hpp>
 
 #include "colour_tables.h"
 #include "experiment/error.h"
+#include "experiment/number_table.h"
 
 namespace overt {
 
@@ -18,27 +18,11 @@ constexpr double luminous_efficacy = 683.0;
 
 std::array<SampledSpectrum, 3> functions_of(std::string_view table) {
     std::array<SampledSpectrum, 3> functions;
-    bool is_header = true;
-    while (!table.empty()) {
-        const std::size_t end = std::min(table.find('\n'), table.size());
-        std::string_view line = table.substr(0, end);
-        table.remove_prefix(std::min(end + 1, table.size()));
-        if (line.empty() || line.front() == '#')
-            continue;
-        for (std::size_t column = 0; !is_header && column < 4; ++column) {
-            double value = 0.0;
-            const auto parsed = std::from_chars(line.data(), line.data() + line.size(), value);
-            OVERT_EXPECTS(parsed.ec == std::errc());
-            line.remove_prefix(std::min(static_cast<std::size_t>(parsed.ptr - line.data()) + 1, line.size()));
-            for (std::size_t i = 0; i < 3; ++i) {
-                if (column == 0)
-                    functions[i].wavelengths_nm.push_back(value);
-                else if (column == i + 1)
-                    functions[i].values.push_back(value);
-            }
+    for (const std::vector<double>& row : rows_of_table(table, 4))
+        for (std::size_t i = 0; i < 3; ++i) {
+            functions[i].wavelengths_nm.push_back(row[0]);
+            functions[i].values.push_back(row[i + 1]);
         }
-        is_header = false;
-    }
     return functions;
 }
 

@@ -98,21 +98,11 @@ bool speak_for(const std::vector<ClockPair>& pairs, const AscSurvey& survey) {
 
 /// The same instant by both clocks, from the screens that a trial's messages name.
 std::vector<ClockPair> pairs_of(const TrialRecord& attempt, const AscTrialTimes& times) {
-    const TrialOutcome& outcome = attempt.outcome;
-    const std::pair<std::string_view, SessionTime> screens[] = {
-        {task_screen_message, outcome.task_screen_onset},
-        {onset_message, outcome.presentation_onset},
-        {end_message, outcome.presentation_end},
-        {response_screen_message, outcome.response_screen_onset},
-        {response_message, outcome.responded_at}};
     std::vector<ClockPair> pairs;
-    for (const auto& [word, at] : screens) {
-        const auto found = times.screens.find(word);
-        // Screens that an attempt did not get to have no time.
-        if (found != times.screens.end() && at > attempt.started)
+    for (const auto& [word, at] : screens_of(attempt))
+        if (const auto found = times.screens.find(word); found != times.screens.end())
             pairs.push_back(
                 {at - half_message_tick, found->second + half_message_tick, at + half_message_tick});
-    }
     return pairs;
 }
 

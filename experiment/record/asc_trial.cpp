@@ -220,4 +220,19 @@ void AscTrial::finish(AscWriter& writer) {
         write(writer, lines_[written_++]);
 }
 
+std::vector<std::pair<std::string_view, SessionTime>> screens_of(const TrialRecord& attempt) {
+    const TrialOutcome& outcome = attempt.outcome;
+    std::vector<std::pair<std::string_view, SessionTime>> screens{
+        {task_screen_message, outcome.task_screen_onset},
+        {onset_message, outcome.presentation_onset},
+        {end_message, outcome.presentation_end},
+        {response_screen_message, outcome.response_screen_onset},
+        {response_message, outcome.responded_at}};
+    // Screens that an attempt did not get to have no time.
+    std::erase_if(screens, [&](const auto& screen) {
+        return !attempt.has_outcome() || screen.second <= attempt.started;
+    });
+    return screens;
+}
+
 } // namespace overt

@@ -59,4 +59,7 @@ inline constexpr std::string_view task_screen_message = "TASK_SCREEN_ONSET",
                                   response_screen_message = "RESPONSE_SCREEN_ONSET",
                                   response_message = "RESPONSE";
 
+/// The screens that an attempt got to, by their messages.
+std::vector<std::pair<std::string_view, SessionTime>> screens_of(const TrialRecord& attempt);
+
 } // namespace overt

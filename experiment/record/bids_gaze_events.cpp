@@ -45,7 +45,7 @@ bool is_eye_event(Kind kind) {
 }
 
 /// When the trial and its screens began, in the tracker's time.
-std::vector<GazeEvent> screens_of(const TrialRecord& trial, const ClockMap& clock_map) {
+std::vector<GazeEvent> begins_of(const TrialRecord& trial, const ClockMap& clock_map) {
     std::vector<GazeEvent> messages;
     const auto add = [&](SessionTime time, std::string text) {
         GazeEvent event;
@@ -54,16 +54,8 @@ std::vector<GazeEvent> screens_of(const TrialRecord& trial, const ClockMap& cloc
         messages.push_back(std::move(event));
     };
     add(trial.started, fmt::format("TRIALID {}", trial.trial.index + 1));
-    const TrialOutcome& outcome = trial.outcome;
-    const std::pair<std::string_view, SessionTime> screens[] = {
-        {task_screen_message, outcome.task_screen_onset},
-        {onset_message, outcome.presentation_onset},
-        {end_message, outcome.presentation_end},
-        {response_screen_message, outcome.response_screen_onset},
-        {response_message, outcome.responded_at}};
-    for (const auto& [word, at] : screens)
-        if (trial.has_outcome() && at > trial.started)
-            add(at, std::string(word));
+    for (const auto& [word, at] : screens_of(trial))
+        add(at, std::string(word));
     return messages;
 }
 
@@ -151,7 +143,7 @@ void write_bids_gaze_events(const SessionRecord& record, int run, Eye eye,
         std::vector<GazeEvent> events;
         record.read_gaze_events(trial, [&](const GazeEvent& event) { events.push_back(event); });
         if (!is_imported && clock_map)
-            events = screens_of(trial, *clock_map);
+            events = begins_of(trial, *clock_map);
         rows.write(std::move(events));
     }
     rows.close();

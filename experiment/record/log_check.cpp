@@ -1,8 +1,9 @@
 #include "experiment/record/log_check.h"
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -44,14 +45,106 @@ class LogChecksum {
     std::uint32_t first_ = 0, second_ = 0;
 };
 
-bool read_into(std::ifstream& stream, std::vector<unsigned char>& bytes) {
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    return static_cast<std::size_t>(stream.gcount()) == bytes.size();
+/// The log's bytes, a frame at a time.
+class LogFrames {
+  public:
+    LogFrames(std::ifstream& stream, std::vector<unsigned char> header)
+        : stream_(stream), header_(std::move(header)), checksum_((big_endian(header_.data()) & 1u) != 0),
+          page_bytes_(big_endian(header_.data() + 8)) {
+        checksum_.add(header_.data(), 24);
+        is_header_whole_ = (big_endian(header_.data()) & ~1u) == magic && checksum_.is(header_.data() + 24) &&
+                           page_bytes_ >= 512 && page_bytes_ <= 65536;
+    }
+
+    bool is_header_whole() const { return is_header_whole_; }
+
+    /// Goes to the next; false if the log does not hold all of it.
+    bool next() {
+        frame_.assign(frame_header_bytes + page_bytes_, 0);
+        stream_.read(reinterpret_cast<char*>(frame_.data()), static_cast<std::streamsize>(frame_.size()));
+        begun_ = static_cast<std::size_t>(stream_.gcount());
+        ++number_;
+        return begun_ == frame_.size();
+    }
+    /// After next() was false: some of its bytes are there.
+    bool is_begun() const { return begun_ > 0; }
+
+    /// It carries on from the frame before it. Once false, it is so for all that follow.
+    bool fits() {
+        if (!has_salts(2))
+            return false;
+        checksum_.add(frame_.data(), 8);
+        checksum_.add(frame_.data() + frame_header_bytes, page_bytes_);
+        return checksum_.is(&frame_[16]);
+    }
+
+    /// As many of the two numbers by which the log marks its frames. What is not of this log has none.
+    bool has_salts(int count) const {
+        return std::equal(&header_[16], &header_[20], &frame_[8]) +
+                   std::equal(&header_[20], &header_[24], &frame_[12]) >=
+               count;
+    }
+    bool is_commit() const { return big_endian(&frame_[4]) != 0; }
+
+    /// How many zeros the frame ends with.
+    std::size_t last_zeros() const {
+        const auto last =
+            std::find_if(frame_.rbegin(), frame_.rend(), [](unsigned char c) { return c != 0; });
+        return static_cast<std::size_t>(last - frame_.rbegin());
+    }
+    bool is_all_zeros() const { return last_zeros() == frame_.size(); }
+
+    std::int64_t number() const { return number_; }
+    std::size_t first_byte() const {
+        return static_cast<std::size_t>(number_ - 1) * frame_.size() + header_bytes;
+    }
+    std::size_t last_byte() const { return first_byte() + frame_.size() - 1; }
+
+  private:
+    std::ifstream& stream_;
+    std::vector<unsigned char> header_, frame_;
+    LogChecksum checksum_;
+    std::size_t page_bytes_, begun_ = 0;
+    std::int64_t number_ = 0;
+    bool is_header_whole_ = false;
+};
+
+LogFinding cut_off_at(std::int64_t frame, std::size_t byte) {
+    return {LogFinding::Kind::cut_off,
+            fmt::format("is cut off at frame {} (byte {}), where it was being written when the program or "
+                        "the machine stopped: all that was committed before is there",
+                        frame, byte)};
+}
+
+/// Of a log whose frame that was read last does not fit.
+std::optional<LogFinding> judge_rest(LogFrames& frames) {
+    // A disk writes whole sectors: what was not written reads as zeros to the end.
+    constexpr std::size_t sector_bytes = 512;
+    const std::int64_t number = frames.number();
+    const std::size_t first = frames.first_byte(), last = frames.last_byte();
+    bool belongs_to_log = frames.has_salts(1);
+    bool ends_in_zeros = belongs_to_log ? frames.last_zeros() >= sector_bytes : frames.is_all_zeros();
+    const bool is_one_salt_off = frames.has_salts(1) && !frames.has_salts(2);
+    bool has_commit = frames.has_salts(2) && frames.is_commit();
+    while (frames.next()) {
+        ends_in_zeros &= frames.is_all_zeros();
+        has_commit |= frames.has_salts(2) && frames.is_commit();
+        belongs_to_log |= frames.has_salts(1);
+    }
+    if (!belongs_to_log && !ends_in_zeros)
+        return std::nullopt; // of an earlier use of the log's space
+    if (ends_in_zeros || (!has_commit && !is_one_salt_off))
+        return cut_off_at(number, first);
+    return LogFinding{
+        LogFinding::Kind::damaged,
+        fmt::format("frame {} of the log (bytes {} to {}) is damaged: it and what was written after it "
+                    "cannot be told from what is lost",
+                    number, first, last)};
 }
 
 } // namespace
 
-std::optional<std::string> log_damage(const std::filesystem::path& log) {
+std::optional<LogFinding> look_through_log(const std::filesystem::path& log) {
     std::ifstream stream(log, std::ios::binary);
     if (!stream) {
         if (std::filesystem::exists(log))
@@ -59,36 +152,20 @@ std::optional<std::string> log_damage(const std::filesystem::path& log) {
         return std::nullopt;
     }
     std::vector<unsigned char> header(header_bytes);
-    if (!read_into(stream, header))
+    stream.read(reinterpret_cast<char*>(header.data()), header_bytes);
+    if (stream.gcount() == 0)
         return std::nullopt;
-    const std::uint32_t kind = big_endian(header.data());
-    LogChecksum checksum((kind & 1u) != 0);
-    checksum.add(header.data(), 24);
-    const std::size_t page_bytes = big_endian(header.data() + 8);
-    if ((kind & ~1u) != magic || !checksum.is(header.data() + 24) || page_bytes < 512 || page_bytes > 65536)
-        return "the log's header (its first 32 bytes) is damaged";
-
-    std::vector<unsigned char> frame(frame_header_bytes + page_bytes);
-    bool is_over = false;
-    for (std::int64_t number = 1; read_into(stream, frame); ++number) {
-        const auto place = static_cast<std::size_t>(number - 1) * frame.size() + header_bytes;
-        const bool first_salt = std::equal(&header[16], &header[20], &frame[8]);
-        const bool second_salt = std::equal(&header[20], &header[24], &frame[12]);
-        // What an earlier generation of the log left behind differs in both.
-        if (!first_salt && !second_salt) {
-            is_over = true;
-            continue;
-        }
-        if (!is_over) {
-            checksum.add(frame.data(), 8);
-            checksum.add(frame.data() + frame_header_bytes, page_bytes);
-        }
-        if (is_over || !first_salt || !second_salt || !checksum.is(&frame[16]))
-            return fmt::format(
-                "frame {} of the log (bytes {} to {}) is damaged: it and what was written after "
-                "it cannot be told from what is lost",
-                number, place, place + frame.size() - 1);
-    }
+    if (stream.gcount() < static_cast<std::streamsize>(header_bytes))
+        return cut_off_at(1, 0);
+    LogFrames frames(stream, std::move(header));
+    if (!frames.is_header_whole())
+        return LogFinding{LogFinding::Kind::damaged,
+                          "the log's header (its first 32 bytes) is damaged: nothing in it can be read"};
+    while (frames.next())
+        if (!frames.fits())
+            return judge_rest(frames);
+    if (frames.is_begun())
+        return cut_off_at(frames.number(), frames.first_byte());
     return std::nullopt;
 }
 

@@ -68,10 +68,12 @@ void write_manifest(const fs::path& folder, const SessionManifest& manifest) {
     std::error_code error;
     if (is_written)
         fs::rename(unfinished, file, error);
-    if (!is_written || error)
+    if (!is_written || error) {
+        ::unlink(unfinished.c_str());
         throw RecordError(fmt::format("{}: cannot be written: {}. Make room or check the permissions, then "
                                       "finish with overt run … --resume.",
                                       file.string(), error ? error.message() : std::strerror(reason)));
+    }
 }
 
 SessionManifest new_manifest(const fs::path& folder, const SessionHeader& header) {

@@ -46,11 +46,8 @@ fs::path nearest_existing(fs::path path) {
     return path;
 }
 
-/// Folders of this observer's sessions that are in the making, or were when their program was killed, and the
-/// numbers that they will have.
-std::vector<std::pair<int, fs::path>> unfinished_folders(const SessionPlace& place) {
-    const std::string prefix = "." + stem(place);
-    std::vector<std::pair<int, fs::path>> folders;
+/// Hands over the folders whose names begin with this and a number, as number, rest of the name, and path.
+template <class Take> void read_folders(const SessionPlace& place, const std::string& prefix, Take take) {
     std::error_code none;
     for (const auto& entry : fs::directory_iterator(place.root / place.protocol_name, none)) {
         const std::string name = entry.path().filename().string();
@@ -59,9 +56,19 @@ std::vector<std::pair<int, fs::path>> unfinished_folders(const SessionPlace& pla
         int number = 0;
         const char* const end = name.data() + name.size();
         const auto read = std::from_chars(name.data() + prefix.size(), end, number);
-        if (read.ec == std::errc() && std::string_view(read.ptr, end).starts_with(".partial-"))
-            folders.emplace_back(number, entry.path());
+        if (read.ec == std::errc())
+            take(number, std::string_view(read.ptr, end), entry.path());
     }
+}
+
+/// Folders of this observer's sessions that are in the making, or were when their program was killed, and the
+/// numbers that they will have.
+std::vector<std::pair<int, fs::path>> unfinished_folders(const SessionPlace& place) {
+    std::vector<std::pair<int, fs::path>> folders;
+    read_folders(place, "." + stem(place), [&](int number, std::string_view rest, const fs::path& path) {
+        if (rest.starts_with(".partial-"))
+            folders.emplace_back(number, path);
+    });
     return folders;
 }
 
@@ -114,19 +121,11 @@ fs::path session_path(const SessionPlace& place, int session_number) {
 
 std::vector<int> session_numbers(const SessionPlace& place) {
     check_names(place);
-    const std::string prefix = stem(place);
     std::vector<int> numbers;
-    std::error_code none;
-    for (const auto& entry : fs::directory_iterator(place.root / place.protocol_name, none)) {
-        const std::string name = entry.path().filename().string();
-        if (!std::string_view(name).starts_with(prefix))
-            continue;
-        int number = 0;
-        const char* const end = name.data() + name.size();
-        if (const auto read = std::from_chars(name.data() + prefix.size(), end, number);
-            read.ec == std::errc() && read.ptr == end)
+    read_folders(place, stem(place), [&](int number, std::string_view rest, const fs::path&) {
+        if (rest.empty())
             numbers.push_back(number);
-    }
+    });
     std::sort(numbers.begin(), numbers.end());
     return numbers;
 }

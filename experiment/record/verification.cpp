@@ -63,8 +63,11 @@ class SessionVerification {
         // While it is written its end cannot be told from damage.
         if (result_.state == Verification::State::running)
             return;
-        if (const auto what = log_damage(folder_ / log_name_))
-            damage(log_name_, *what);
+        const std::optional<LogFinding> found = look_through_log(folder_ / log_name_);
+        if (found && found->kind == LogFinding::Kind::damaged)
+            damage(log_name_, found->what);
+        else if (found)
+            result_.notes.push_back(fmt::format("{}: {}", log_name_, found->what));
     }
 
     void look_at_session_file() {

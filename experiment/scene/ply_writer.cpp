@@ -20,7 +20,9 @@ namespace overt {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, std::string_view what) {
-    throw RecordError(fmt::format("{}: the mesh cannot be written: {}.", path.string(), what));
+    throw RecordError(fmt::format("{}: the mesh cannot be written: {}. Make room, or check the folder's "
+                                  "permissions.",
+                                  path.string(), what));
 }
 
 std::string system_reason() { return std::generic_category().message(errno); }

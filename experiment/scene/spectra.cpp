@@ -1,41 +1,25 @@
 #include "experiment/scene/spectra.h"
 
-#include <charconv>
-
 #include <fmt/format.h>
 
 #include "experiment/error.h"
+#include "experiment/number_table.h"
 #include "spectra_tables.h"
 
 namespace overt {
 
 namespace {
 
-/// The columns after the first of a table with comment lines and a header line: one spectrum each.
+/// The columns of a table after the first: one spectrum each.
 template <std::size_t columns> std::array<Spectrum, columns> columns_of(std::string_view table) {
+    const std::vector<std::vector<double>> rows = rows_of_table(table, columns + 1);
+    OVERT_EXPECTS(rows.size() == spectral_bins);
     std::array<Spectrum, columns> spectra{};
-    int row = -1; // the header line
-    while (!table.empty()) {
-        const std::size_t end = std::min(table.find('\n'), table.size());
-        std::string_view line = table.substr(0, end);
-        table.remove_prefix(std::min(end + 1, table.size()));
-        if (line.empty() || line.front() == '#')
-            continue;
-        for (std::size_t column = 0; row >= 0 && column <= columns; ++column) {
-            double value = 0.0;
-            const auto parsed = std::from_chars(line.data(), line.data() + line.size(), value);
-            OVERT_EXPECTS(parsed.ec == std::errc() && row < spectral_bins);
-            const auto bin = static_cast<std::size_t>(row);
-            if (column == 0) {
-                OVERT_EXPECTS(value == first_bin_centre_nm + bin_width_nm * row);
-            } else {
-                spectra[column - 1][bin] = value;
-            }
-            line.remove_prefix(std::min(static_cast<std::size_t>(parsed.ptr - line.data()) + 1, line.size()));
-        }
-        ++row;
+    for (std::size_t bin = 0; bin < rows.size(); ++bin) {
+        OVERT_EXPECTS(rows[bin][0] == first_bin_centre_nm + bin_width_nm * static_cast<double>(bin));
+        for (std::size_t column = 0; column < columns; ++column)
+            spectra[column][bin] = rows[bin][column + 1];
     }
-    OVERT_EXPECTS(row == spectral_bins);
     return spectra;
 }
 

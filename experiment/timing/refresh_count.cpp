@@ -12,9 +12,6 @@ constexpr double slowest_phase_gain = 0.06;
 constexpr double rate_gain = 0.001;
 constexpr int refreshes_before_rate = 16;
 
-/// No display's clock is farther off its nominal rate: 119.88 Hz that is called 120 is off by 0.1 %.
-constexpr double largest_deviation = 0.003;
-
 } // namespace
 
 std::int64_t RefreshCount::at(SessionTime stamp) noexcept {

@@ -7,6 +7,9 @@
 
 namespace overt {
 
+/// No display's clock is farther off its nominal rate: 119.88 Hz that is called 120 is off by 0.1 %.
+inline constexpr double largest_deviation = 0.003;
+
 /// For displays that say when a picture was taken but not at which refresh. Follows phase and interval of the
 /// refreshes, so that the jitter of one stamp is not taken for the next one's, too. A stamp that is off by
 /// more than half an interval is miscounted; the count is put right where the next refresh really goes by,

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "experiment/error.h"
+#include "experiment/timing/refresh_count.h"
 
 namespace overt {
 
@@ -22,9 +23,6 @@ constexpr double smallest_scatter_ns = 0.5;
 
 constexpr double inconsistent_scatters = 6.0;
 constexpr double inconsistent_least_ns = 2000.0;
-
-/// No display is farther off its nominal rate: 119.88 Hz that is called 120 is off by 0.1 %.
-constexpr double largest_deviation = 0.003;
 
 /// Over a presentation the rates of two quartzes stay the same to better than this.
 constexpr double rate_stability = 1e-6;

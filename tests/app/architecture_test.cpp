@@ -23,36 +23,31 @@ struct Layer {
 };
 
 const std::string opengl = "^(GL/|GLES|GLFW/|EGL/|KHR/|glad/|X11/)", usb = "^(libusb|hidapi)",
-                  drawing = "^(OpenImageIO/|pango/|cairo)", database = "^(SQLiteCpp/|sqlite3)";
+                  drawing = "^(OpenImageIO/|pango/|cairo)", database = "^(SQLiteCpp/|sqlite3)",
+                  all_of_these = opengl + "|" + usb + "|" + drawing + "|" + database;
 
 /// The first that holds a file counts.
 const std::vector<Layer> layers{
-    {"experiment/scene/", "^experiment/([^/]+|scene/.*)$",
-     opengl + "|" + usb + "|" + drawing + "|" + database},
-    {"experiment/colour/", "^experiment/([^/]+|colour/.*)$",
-     opengl + "|" + usb + "|" + drawing + "|" + database},
-    {"experiment/timing/", "^experiment/([^/]+|timing/.*)$",
-     opengl + "|" + usb + "|" + drawing + "|" + database},
+    {"experiment/scene/", "^experiment/([^/]+|scene/.*)$", all_of_these},
+    {"experiment/colour/", "^experiment/([^/]+|colour/.*)$", all_of_these},
+    {"experiment/timing/", "^experiment/([^/]+|timing/.*)$", all_of_these},
     // The checks and the report of a protocol reckon with its design, and a design is one of a protocol.
-    {"experiment/design/", "^experiment/([^/]+|(protocol|design)/.*)$",
-     opengl + "|" + usb + "|" + drawing + "|" + database},
+    {"experiment/design/", "^experiment/([^/]+|(protocol|design)/.*)$", all_of_these},
     {"experiment/protocol/", "^experiment/([^/]+|(colour|timing|protocol|design)/.*|scene/metal_table\\.h)$",
-     opengl + "|" + usb + "|" + drawing + "|" + database},
+     all_of_these},
     {"experiment/analysis/", "^experiment/([^/]+|(scene|timing|analysis)/.*)$",
      opengl + "|" + usb + "|" + database},
     // A recorded session is read without the protocol that it came from.
     {"experiment/record/", "^experiment/([^/]+|(scene|timing|analysis|record)/.*)$",
      opengl + "|" + usb + "|" + drawing},
-    {"experiment/audio/", "^experiment/([^/]+|audio/.*)$",
-     opengl + "|" + usb + "|" + drawing + "|" + database},
-    {"experiment/session/", "^experiment/([^/]+|(timing|protocol|design|session)/.*)$",
-     opengl + "|" + usb + "|" + drawing + "|" + database},
+    {"experiment/audio/", "^experiment/([^/]+|audio/.*)$", all_of_these},
+    {"experiment/session/", "^experiment/([^/]+|(timing|protocol|design|session)/.*)$", all_of_these},
     // These three are rules about protocols, the rest of the folder is words that everybody uses.
     {"experiment/session.", "^experiment/([^/]+|(timing|protocol|design|session)/.*)$",
      opengl + "|" + usb + "|" + drawing},
     {"experiment/schedule.", "^experiment/([^/]+|(protocol|design)/.*)$", opengl + "|" + usb + "|" + drawing},
     {"experiment/sculpture.", "^experiment/([^/]+|(protocol|scene)/.*)$", opengl + "|" + usb + "|" + drawing},
-    {"experiment/", "^experiment/[^/]+$", opengl + "|" + usb + "|" + drawing + "|" + database},
+    {"experiment/", "^experiment/[^/]+$", all_of_these},
     {"render/", "^(experiment/([^/]+|(colour|scene|timing|protocol|analysis)/.*)|render/.*)$",
      usb + "|" + database},
     {"devices/", "^(experiment/([^/]+|(audio|colour|scene|timing|protocol|analysis)/.*)|devices/.*)$",

@@ -4,11 +4,13 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "app/bake_plan.h"
 #include "app/traced_experiment.h"
 #include "experiment/random.h"
 #include "support/running_program.h"
+#include "support/small_disk.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -37,6 +39,7 @@ TEST_CASE("a bake that is killed goes on with what it had, to the same frames", 
     const std::filesystem::path whole = experiment.folder().path() / "whole",
                                 killed = experiment.folder().path() / "killed";
     const std::vector<std::string> wish{"--quality", "draft", "--samples", "200"};
+    pid_t program_that_was_killed = 0;
     {
         std::vector<std::string> arguments{"bake", experiment.protocol().string(), "--context", "osmesa"};
         arguments.insert(arguments.end(), wish.begin(), wish.end());
@@ -47,6 +50,7 @@ TEST_CASE("a bake that is killed goes on with what it had, to the same frames", 
         REQUIRE(program.is_running());
         program.signal(SIGKILL);
         program.wait();
+        program_that_was_killed = program.id();
     }
     std::map<std::string, std::filesystem::file_time_type> kept;
     for (const auto& file : files_below(killed / "frames")) {
@@ -54,8 +58,21 @@ TEST_CASE("a bake that is killed goes on with what it had, to the same frames", 
             kept[file.string()] = std::filesystem::last_write_time(killed / "frames" / file);
     }
     CHECK(kept.size() >= 2);
+    // What a program that was killed leaves half written, at its name and host, and what a running one
+    // writes.
+    char host[65] = "";
+    ::gethostname(host, sizeof host - 1);
+    const std::filesystem::path one = kept.begin()->first;
+    const auto hidden = [&](pid_t writer) {
+        const std::string name = fmt::format(".{}.partial-{}-{}-7", one.filename().string(), host, writer);
+        return experiment.folder().file(("killed/frames" / one.parent_path() / name).string(), "half");
+    };
+    const std::filesystem::path abandoned = hidden(program_that_was_killed), alive = hidden(::getpid());
     const ProgramRun on = bake(experiment, wish, killed);
     CHECK(on.exit_code == 0);
+    CHECK_FALSE(std::filesystem::exists(abandoned));
+    CHECK(std::filesystem::remove(alive));
+    CHECK(whole_files_below(killed) == static_cast<int>(files_below(killed).size()));
     CHECK(on.out.find(fmt::format("{} of {} frames are there, {} rendered now", 4 * poses, 4 * poses,
                                   4 * poses - kept.size())) != std::string::npos);
     for (const auto& [file, time] : kept)
@@ -81,6 +98,45 @@ TEST_CASE("Ctrl-C ends a bake between two frames and says how to go on", "[sessi
         CHECK(file.filename().string().front() != '.');
 }
 
+TEST_CASE("Ctrl-C ends a session's preparation with what was rendered, and the session begins the next time",
+          "[session]") {
+    // Previews of many poses take longer than it takes to look for the first.
+    const SmallExperiment experiment(
+        with(traced_protocol(), "width_px = 40\nheight_px = 48\n", "width_px = 160\nheight_px = 160\n"));
+    const std::filesystem::path said = experiment.folder().path() / "said";
+    const std::vector<std::string> arguments{"run",
+                                             experiment.protocol().string(),
+                                             "--simulate-observer",
+                                             "5",
+                                             "--virtual-time",
+                                             "--observer",
+                                             "P01",
+                                             "--context",
+                                             "osmesa",
+                                             "--quality",
+                                             "preview",
+                                             "--sessions",
+                                             experiment.sessions().string()};
+    {
+        RunningProgram program(arguments, {"OVERT_CACHE=" + experiment.cache().string()}, said);
+        while (program.is_running() && whole_files_below(experiment.cache() / "frames") < 1)
+            usleep(500);
+        REQUIRE(program.is_running());
+        program.signal(SIGINT);
+        CHECK(program.wait() == 1);
+    }
+    INFO(text_of(said));
+    CHECK(text_of(said).find("overt: interrupted while the stimuli were made ready") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(experiment.session()));
+    const auto kept = files_below(experiment.cache() / "frames");
+    CHECK_FALSE(kept.empty());
+    CHECK(static_cast<int>(kept.size()) == whole_files_below(experiment.cache() / "frames"));
+    CHECK(kept.size() < 4 * poses);
+    RunningProgram again(arguments, {"OVERT_CACHE=" + experiment.cache().string()}, said);
+    CHECK(again.wait() == 0);
+    CHECK(std::filesystem::exists(experiment.session()));
+}
+
 TEST_CASE("a disk that takes no more ends a bake with what it had, whole", "[session]") {
     const SmallExperiment experiment(traced_protocol());
     // The maps are there; frames of noise are larger than the limit on files.
@@ -97,6 +153,40 @@ TEST_CASE("a disk that takes no more ends a bake with what it had, whole", "[ses
     CHECK(said.find("What was finished before is kept") != std::string::npos);
     CHECK(files_below(experiment.cache() / "frames") == before);
     CHECK(bake(experiment, {"--quality", "draft"}).exit_code == 0);
+}
+
+TEST_CASE("a bake on a real disk that fills up keeps what is finished, and goes on when there is room",
+          "[session]") {
+    const SmallExperiment experiment(traced_protocol());
+    const std::filesystem::path whole = experiment.folder().path() / "whole",
+                                disk_folder = experiment.folder().path() / "disk",
+                                said = experiment.folder().path() / "said";
+    REQUIRE(bake(experiment, {"--quality", "draft"}, whole).exit_code == 0);
+    std::uint64_t bytes = 0;
+    for (const auto& file : files_below(whole))
+        bytes += std::filesystem::file_size(whole / file);
+    SmallDisk disk(disk_folder, bytes / 2);
+    if (!disk.is_there()) {
+        WARN("skipped: this system lets no ordinary user mount a file system");
+        return;
+    }
+    const auto bake_there = [&](const std::string& more) {
+        RunningProgram program(
+            {"bake", experiment.protocol().string(), "--context", "osmesa", "--quality", "draft", more},
+            {"OVERT_CACHE=" + (disk_folder / "cache").string()}, said, [&] { disk.enter(); });
+        return program.wait();
+    };
+    CHECK(bake_there("--json") == 1);
+    CHECK(text_of(said).find("No space left on device. What was finished before is kept") !=
+          std::string::npos);
+    REQUIRE(disk.resize(4 * bytes));
+    CHECK(bake_there("--json") == 0);
+    const std::string told = text_of(said);
+    INFO(told);
+    const auto json = nlohmann::json::parse(told.substr(told.find('{')));
+    CHECK(json.at("there_before") > 0);
+    CHECK(json.at("there_before") < json.at("frames"));
+    CHECK(json.at("complete") == true);
 }
 
 TEST_CASE("a bake that makes no sense is refused before anything is rendered", "[session]") {

@@ -2,6 +2,7 @@
 #include <sys/resource.h>
 
 #include "app/interrupted_run.h"
+#include "support/small_disk.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -83,6 +84,68 @@ TEST_CASE("a full disk is reported with the file and the remedy, and with room a
     }
     CHECK(before_publishing >= 2);
     CHECK(in_trials >= 2);
+}
+
+TEST_CASE("on a real disk that fills up a session stays readable, and goes on when there is room",
+          "[session]") {
+    const SmallExperiment experiment(with(small_protocol, "duration_s = 1", "duration_s = 10"));
+    REQUIRE(experiment.run({"--observer", "X1"}).exit_code == 0); // also fills the cache
+    const fs::path whole = experiment.session(1, "X1"), disk_folder = experiment.folder().path() / "disk",
+                   session = disk_folder / "small" / "sub-P01_ses-01",
+                   said = experiment.folder().path() / "said";
+    std::uint64_t at_first = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(whole))
+        if (entry.is_regular_file() && entry.path().filename() != "session.sqlite")
+            at_first += entry.file_size();
+    const std::uint64_t rows = fs::file_size(whole / "session.sqlite");
+    SmallDisk disk(disk_folder, at_first + 6 * rows / 10);
+    if (!disk.is_there()) {
+        WARN("skipped: this system lets no ordinary user mount a file system");
+        return;
+    }
+    const auto overt = [&](const std::vector<std::string>& arguments) {
+        RunningProgram program(arguments, {"OVERT_CACHE=" + experiment.cache().string()}, said,
+                               [&] { disk.enter(); });
+        return program.wait();
+    };
+    const auto run = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"run",
+                                           experiment.protocol().string(),
+                                           "--simulate-observer",
+                                           "5",
+                                           "--sessions",
+                                           disk_folder.string(),
+                                           "--observer",
+                                           "P01",
+                                           "--context",
+                                           "osmesa",
+                                           "--seed",
+                                           "7",
+                                           "--virtual-time"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return overt(arguments);
+    };
+    CHECK(run({}) == 1);
+    CHECK_THAT(text_of(said),
+               Contains("session.sqlite") && Contains("The disk is full") && Contains("--resume"));
+    CHECK(overt({"show", session.string()}) == 0);
+    CHECK_THAT(text_of(said), Contains("completed") && Contains("not closed in order"));
+    CHECK(overt({"verify", session.string()}) == 0);
+    const fs::path table = experiment.folder().path() / "tables";
+    CHECK(overt({"export", session.string(), "--format", "tsv", "--out", table.string()}) == 0);
+    const std::string trials = text_of(table / "trials.tsv");
+    CHECK(std::count(trials.begin(), trials.end(), '\n') >= 2);
+    // Still full: nothing is lost by trying.
+    CHECK(overt({"export", session.string(), "--format", "tsv"}) == 1);
+    CHECK_THAT(text_of(said), Contains("No space left on device"));
+    CHECK(run({"--resume"}) == 1);
+    CHECK_THAT(text_of(said), Contains("ake room"));
+    CHECK(overt({"verify", session.string()}) == 0);
+    REQUIRE(disk.resize(at_first + 4 * rows));
+    CHECK(run({"--resume"}) == 0);
+    CHECK_THAT(text_of(said), Contains("10 of 10 trials completed"));
+    CHECK(overt({"verify", session.string()}) == 0);
+    CHECK(overt({"export", session.string(), "--format", "tsv"}) == 0);
 }
 
 TEST_CASE("of two programs that begin a session at once each has a number of its own", "[session]") {

@@ -8,6 +8,7 @@
 #include "app/small_experiment.h"
 #include "experiment/error.h"
 #include "experiment/record/session_record.h"
+#include "support/observer_fields.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -25,22 +26,11 @@ id = "remark"
 required = false
 )";
 
-std::vector<ObserverFieldSettings> three_fields() {
-    std::vector<ObserverFieldSettings> fields(3);
-    fields[0].id = "age";
-    fields[1].id = "handedness";
-    fields[2].id = "remark";
-    fields[2].required = false;
-    for (ObserverFieldSettings& field : fields)
-        complete_field(field, false);
-    return fields;
-}
-
 } // namespace
 
 TEST_CASE("values given on the command line are checked, and a wrong one is refused with the remedy",
           "[unit]") {
-    const auto fields = three_fields();
+    const auto fields = three_observer_fields("remark");
     const std::vector<std::string> right{"handedness = left", "age=31", "remark=a=b"};
     CHECK(values_given(fields, right) == FieldValues{"31", "left", "a=b"});
     const auto refusal = [&](std::vector<std::string> given) -> std::string {
@@ -58,7 +48,7 @@ TEST_CASE("values given on the command line are checked, and a wrong one is refu
 }
 
 TEST_CASE("the terminal asks for what is missing, again until it may stand", "[unit]") {
-    const auto fields = three_fields();
+    const auto fields = three_observer_fields("remark");
     FieldValues values{"", "left", ""};
     std::istringstream from("abc\n\n 44 \n\n");
     std::ostringstream to;
@@ -82,7 +72,7 @@ TEST_CASE("a session records the form: what was given, and the rest from the sim
     const auto fields = SessionRecord(experiment.session()).observer_fields();
     REQUIRE(fields.size() == 3);
     CHECK(fields[0] == RecordedObserverField{"age", "Age in years", "31"});
-    CHECK(fields[1].value == simulated_value(three_fields()[1], 5));
+    CHECK(fields[1].value == simulated_value(three_observer_fields("remark")[1], 5));
 }
 
 TEST_CASE("without the required fields and somebody to ask, a session is refused and leaves nothing",

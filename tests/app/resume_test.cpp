@@ -159,3 +159,39 @@ TEST_CASE("a session does not go on with what it was not begun with", "[session]
     CHECK_THAT(text.err, Contains("the protocol has changed") && Contains("sub-P01_ses-01/protocol.toml"));
     CHECK(SessionRecord(experiment.session()).trials().size() == 1);
 }
+
+TEST_CASE("imported sessions and copies with imported gaze are not gone on with, and it is said why",
+          "[session]") {
+    const SmallExperiment experiment(with(small_protocol, "duration_s = 1", "duration_s = 20"));
+    make_interrupted_session(experiment, 1);
+    const fs::path asc = experiment.folder().path() / "asc";
+    REQUIRE(
+        experiment.overt({"export", experiment.session().string(), "--format", "asc", "--out", asc.string()})
+            .exit_code == 0);
+    fs::path recording;
+    for (const auto& entry : fs::directory_iterator(asc))
+        if (entry.path().extension() == ".asc")
+            recording = entry.path();
+    const ProgramRun into =
+        experiment.overt({"import", recording.string(), "--into", experiment.session().string(), "--out",
+                          experiment.session(2).string()});
+    INFO(into.err);
+    REQUIRE(into.exit_code == 0);
+    const ProgramRun copy = resume(experiment, {"--resume", "--session", "2"});
+    CHECK(copy.exit_code == 2);
+    CHECK_THAT(copy.err, Contains("a copy of a session, with the gaze of " + recording.filename().string()) &&
+                             Contains("Go on with the session itself"));
+    REQUIRE(experiment
+                .overt({"import", recording.string(), "--observer", "P01", "--task", "small", "--sessions",
+                        experiment.sessions().string()})
+                .exit_code == 0);
+    const ProgramRun imported = resume(experiment, {"--resume", "--session", "3"});
+    CHECK(imported.exit_code == 2);
+    CHECK_THAT(imported.err, Contains("imported from " + recording.filename().string()) &&
+                                 Contains("nothing to go on with"));
+    for (const int number : {2, 3})
+        CHECK(experiment.overt({"verify", experiment.session(number).string()}).exit_code == 0);
+    const ProgramRun original = resume(experiment, {"--resume", "--session", "1"});
+    INFO(original.err);
+    CHECK(original.exit_code == 0);
+}

@@ -14,6 +14,7 @@
 #include <glm/glm.hpp>
 
 #include "experiment/scene/mesh.h"
+#include "support/figures.h"
 #include "support/temporary_folder.h"
 
 namespace overt::test {
@@ -49,18 +50,7 @@ inline Mesh bumpy_ball(int rings = 9, int segments = 14) {
         }
     }
     mesh.positions.emplace_back(0.0f, 0.0f, -1.0f);
-    const auto at = [&](int ring, int segment) {
-        return static_cast<std::uint32_t>(1 + (ring - 1) * segments + segment % segments);
-    };
-    const std::uint32_t last = static_cast<std::uint32_t>(mesh.positions.size() - 1);
-    for (int segment = 0; segment < segments; ++segment) {
-        mesh.triangles.emplace_back(0, at(1, segment), at(1, segment + 1));
-        for (int ring = 1; ring + 1 < rings; ++ring) {
-            mesh.triangles.emplace_back(at(ring, segment), at(ring + 1, segment), at(ring + 1, segment + 1));
-            mesh.triangles.emplace_back(at(ring, segment), at(ring + 1, segment + 1), at(ring, segment + 1));
-        }
-        mesh.triangles.emplace_back(last, at(rings - 1, segment + 1), at(rings - 1, segment));
-    }
+    mesh.triangles = ball_triangles(rings, segments);
     return with_one_part(std::move(mesh));
 }
 

@@ -56,6 +56,15 @@ std::string vertices() {
 
 std::string corners(int a, int b, int c) { return stored(a) + stored(b) + stored(c); }
 
+/// A part of a file that is right, what stands there instead, and how the complaint begins.
+struct Fault {
+    const char *what, *with, *expected;
+};
+void check_complaints(const std::string& name, const std::string& right, const std::vector<Fault>& faults) {
+    for (const auto& [what, with, expected] : faults)
+        CHECK_THAT(complaint(name, replaced(right, what, with)), Catch::StartsWith(expected));
+}
+
 } // namespace
 
 TEST_CASE("files that are not there, not files, empty or of no known format are refused", "[unit]") {
@@ -76,65 +85,61 @@ TEST_CASE("files that are not there, not files, empty or of no known format are 
 }
 
 TEST_CASE("errors in a PLY header name their line and column", "[unit]") {
-    const struct {
-        const char *what, *with, *expected;
-    } cases[] = {
-        {"format ascii", "format utf8", "m.ply:2:8: 'utf8' is no PLY format"},
-        {"ascii 1.0", "ascii 2.0", "m.ply:2:14: the PLY version is '2.0'"},
-        {"format ascii 1.0\n", "", "m.ply: the PLY header has no line 'format'"},
-        {"vertex 3", "vertex -3", "m.ply:3:16: '-3' is no possible number of vertex elements"},
-        {"vertex 3", "vertex some", "m.ply:3:16: 'some' is no possible number"},
-        {"vertex 3", "vertex 99999999999999999999",
-         "m.ply:3:16: '99999999999999999999' is no possible number"},
-        {"vertex 3", "vertex 4294967296",
-         "m.ply:3:16: the header promises 4294967296 vertices; at most 2147483647"},
-        {"element vertex 3\n", "", "m.ply:3:1: this property stands before the first element"},
-        {"float y", "real y", "m.ply:5:10: 'real' is no PLY type"},
-        {"float y", "float", "m.ply:5:15: this property has no name"},
-        {"float y", "float x", "m.ply:5:16: property x of element vertex is there twice"},
-        {"float z", "float w", "m.ply: the PLY header gives element vertex no property z"},
-        {"float z", "list uchar float z", "m.ply: the PLY header gives element vertex no property z"},
-        {"element face", "element vertex", "m.ply:7:9: element vertex is there twice"},
-        {"element face", "element edge", "m.ply: this PLY file has no faces"},
-        {"face 1", "face 0", "m.ply: this PLY file has no faces"},
-        {"list char", "list float", "m.ply:8:15: the length of a list must be an integer"},
-        {"vertex_indices", "corners", "m.ply: the PLY header gives element face no list vertex_indices"},
-        {"end_header", "endheader", "m.ply:9:1: 'endheader' is no word of a PLY header"},
-    };
-    for (const auto& [what, with, expected] : cases) {
-        CHECK_THAT(complaint("m.ply", replaced(text_ply, what, with)), Catch::StartsWith(expected));
-    }
+    check_complaints(
+        "m.ply", text_ply,
+        {
+            {"format ascii", "format utf8", "m.ply:2:8: 'utf8' is no PLY format"},
+            {"ascii 1.0", "ascii 2.0", "m.ply:2:14: the PLY version is '2.0'"},
+            {"format ascii 1.0\n", "", "m.ply: the PLY header has no line 'format'"},
+            {"vertex 3", "vertex -3", "m.ply:3:16: '-3' is no possible number of vertex elements"},
+            {"vertex 3", "vertex some", "m.ply:3:16: 'some' is no possible number"},
+            {"vertex 3", "vertex 99999999999999999999",
+             "m.ply:3:16: '99999999999999999999' is no possible number"},
+            {"vertex 3", "vertex 4294967296",
+             "m.ply:3:16: the header promises 4294967296 vertices; at most 2147483647"},
+            {"element vertex 3\n", "", "m.ply:3:1: this property stands before the first element"},
+            {"float y", "real y", "m.ply:5:10: 'real' is no PLY type"},
+            {"float y", "float", "m.ply:5:15: this property has no name"},
+            {"float y", "float x", "m.ply:5:16: property x of element vertex is there twice"},
+            {"float z", "float w", "m.ply: the PLY header gives element vertex no property z"},
+            {"float z", "list uchar float z", "m.ply: the PLY header gives element vertex no property z"},
+            {"element face", "element vertex", "m.ply:7:9: element vertex is there twice"},
+            {"element face", "element edge", "m.ply: this PLY file has no faces"},
+            {"face 1", "face 0", "m.ply: this PLY file has no faces"},
+            {"list char", "list float", "m.ply:8:15: the length of a list must be an integer"},
+            {"vertex_indices", "corners", "m.ply: the PLY header gives element face no list vertex_indices"},
+            {"end_header", "endheader", "m.ply:9:1: 'endheader' is no word of a PLY header"},
+        });
 }
 
 TEST_CASE("errors in a text PLY body name their line and column", "[unit]") {
-    const struct {
-        const char *what, *with, *expected;
-    } cases[] = {
-        {"1 0 0\n", "1 nan 0\n",
-         "m.ply:11:3: y of vertex 1 (counted from 0) is nan; coordinates must be finite"},
-        {"1 0 0\n", "-inf 0 0\n", "m.ply:11:1: x of vertex 1 (counted from 0) is -inf"},
-        {"1 0 0\n", "1e39 0 0\n", "m.ply:11:1: x of vertex 1 (counted from 0) is inf"},
-        {"1 0 0\n", "1 0,5 0\n", "m.ply:11:3: y of vertex 1 (counted from 0) is '0,5', which is no number"},
-        {"1 0 0\n", "1 +-5 0\n", "m.ply:11:3: y of vertex 1 (counted from 0) is '+-5', which is no number"},
-        {"1 0 0\n", "1 0\n", "m.ply:11:4: the line of vertex 1 (counted from 0) lacks a value"},
-        {"1 0 0\n", "1 0 0 7\n", "m.ply:11:7: the line of vertex 1 (counted from 0) goes on with '7'"},
-        {"3 0 1 2", "3 0 1 3",
-         "m.ply:13:7: face 0 (counted from 0) uses vertex 3, but the vertices are 0 to 2"},
-        {"3 0 1 2", "3 0 -1 2", "m.ply:13:5: face 0 (counted from 0) uses vertex -1"},
-        {"3 0 1 2", "3 0 1 1.5", "m.ply:13:7: '1.5' in face 0 (counted from 0) is no integer"},
-        {"3 0 1 2", "2 0 1", "m.ply:13:1: face 0 (counted from 0) has 2 corners; a face has at least 3"},
-        {"3 0 1 2", "-3 0 1 2", "m.ply:13:1: the list vertex_indices has the impossible length -3"},
-        {"3 0 1 2", "4 0 1 2", "m.ply:13:8: the line of face 0 (counted from 0) lacks a value"},
-        {"3 0 1 2\n", "3 0 1",
-         "m.ply:13:6: the file ends inside face 0 (counted from 0): the header promises 1 of "},
-        {"3 0 1 2\n", "3 0 1 2\n3 2 1 0\n", "m.ply:14:1: the file goes on after the last element"},
-        {"3 0 1 2\n", "",
-         "m.ply:13:1: the file ends inside face 0 (counted from 0): the header promises 1 of them, 0 are "
-         "complete"},
-    };
-    for (const auto& [what, with, expected] : cases) {
-        CHECK_THAT(complaint("m.ply", replaced(text_ply, what, with)), Catch::StartsWith(expected));
-    }
+    check_complaints(
+        "m.ply", text_ply,
+        {
+            {"1 0 0\n", "1 nan 0\n",
+             "m.ply:11:3: y of vertex 1 (counted from 0) is nan; coordinates must be finite"},
+            {"1 0 0\n", "-inf 0 0\n", "m.ply:11:1: x of vertex 1 (counted from 0) is -inf"},
+            {"1 0 0\n", "1e39 0 0\n", "m.ply:11:1: x of vertex 1 (counted from 0) is inf"},
+            {"1 0 0\n", "1 0,5 0\n",
+             "m.ply:11:3: y of vertex 1 (counted from 0) is '0,5', which is no number"},
+            {"1 0 0\n", "1 +-5 0\n",
+             "m.ply:11:3: y of vertex 1 (counted from 0) is '+-5', which is no number"},
+            {"1 0 0\n", "1 0\n", "m.ply:11:4: the line of vertex 1 (counted from 0) lacks a value"},
+            {"1 0 0\n", "1 0 0 7\n", "m.ply:11:7: the line of vertex 1 (counted from 0) goes on with '7'"},
+            {"3 0 1 2", "3 0 1 3",
+             "m.ply:13:7: face 0 (counted from 0) uses vertex 3, but the vertices are 0 to 2"},
+            {"3 0 1 2", "3 0 -1 2", "m.ply:13:5: face 0 (counted from 0) uses vertex -1"},
+            {"3 0 1 2", "3 0 1 1.5", "m.ply:13:7: '1.5' in face 0 (counted from 0) is no integer"},
+            {"3 0 1 2", "2 0 1", "m.ply:13:1: face 0 (counted from 0) has 2 corners; a face has at least 3"},
+            {"3 0 1 2", "-3 0 1 2", "m.ply:13:1: the list vertex_indices has the impossible length -3"},
+            {"3 0 1 2", "4 0 1 2", "m.ply:13:8: the line of face 0 (counted from 0) lacks a value"},
+            {"3 0 1 2\n", "3 0 1",
+             "m.ply:13:6: the file ends inside face 0 (counted from 0): the header promises 1 of "},
+            {"3 0 1 2\n", "3 0 1 2\n3 2 1 0\n", "m.ply:14:1: the file goes on after the last element"},
+            {"3 0 1 2\n", "",
+             "m.ply:13:1: the file ends inside face 0 (counted from 0): the header promises 1 of them, 0 are "
+             "complete"},
+        });
 }
 
 TEST_CASE("errors in a binary PLY body name their byte", "[unit]") {
@@ -194,24 +199,21 @@ TEST_CASE("counts that the file has no room for are refused before anything is a
 TEST_CASE("errors in an OBJ file name their line and column", "[unit]") {
     const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     REQUIRE(complaint("m.obj", obj).empty());
-    const struct {
-        const char *what, *with, *expected;
-    } cases[] = {
-        {"v 1 0 0", "v 1 0", "m.obj:2:6: vertex 2 has no z coordinate"},
-        {"v 1 0 0", "v 1 nan 0", "m.obj:2:5: y of vertex 2 is 'nan'; coordinates must be finite"},
-        {"v 1 0 0", "v 1 1e99 0", "m.obj:2:5: y of vertex 2 is '1e99'; coordinates must be finite"},
-        {"v 1 0 0", "v 1 \\\n oops 0", "m.obj:3:2: y of vertex 2 is 'oops', which is no number"},
-        {"f 1 2 3", "f 1 2", "m.obj:4:6: this face has 2 corners; a face has at least 3"},
-        {"f 1 2 3", "f 1 2 4", "m.obj:4:7: this face uses vertex 4, but the file has only 3 vertices"},
-        {"f 1 2 3", "f 0 1 2", "m.obj:4:3: this face uses vertex 0"},
-        {"f 1 2 3", "f 1 2 -4", "m.obj:4:7: this face uses vertex -4, but 3 vertices were read so far"},
-        {"f 1 2 3", "f 1 2 99999999999", "m.obj:4:7: this face uses vertex 99999999999"},
-        {"f 1 2 3", "f 1 2 x/1", "m.obj:4:7: 'x/1' is no corner of a face"},
-        {"f 1 2 3", "p 1 2 3", "m.obj: this OBJ file has no faces"},
-    };
-    for (const auto& [what, with, expected] : cases) {
-        CHECK_THAT(complaint("m.obj", replaced(obj, what, with)), Catch::StartsWith(expected));
-    }
+    check_complaints(
+        "m.obj", obj,
+        {
+            {"v 1 0 0", "v 1 0", "m.obj:2:6: vertex 2 has no z coordinate"},
+            {"v 1 0 0", "v 1 nan 0", "m.obj:2:5: y of vertex 2 is 'nan'; coordinates must be finite"},
+            {"v 1 0 0", "v 1 1e99 0", "m.obj:2:5: y of vertex 2 is '1e99'; coordinates must be finite"},
+            {"v 1 0 0", "v 1 \\\n oops 0", "m.obj:3:2: y of vertex 2 is 'oops', which is no number"},
+            {"f 1 2 3", "f 1 2", "m.obj:4:6: this face has 2 corners; a face has at least 3"},
+            {"f 1 2 3", "f 1 2 4", "m.obj:4:7: this face uses vertex 4, but the file has only 3 vertices"},
+            {"f 1 2 3", "f 0 1 2", "m.obj:4:3: this face uses vertex 0"},
+            {"f 1 2 3", "f 1 2 -4", "m.obj:4:7: this face uses vertex -4, but 3 vertices were read so far"},
+            {"f 1 2 3", "f 1 2 99999999999", "m.obj:4:7: this face uses vertex 99999999999"},
+            {"f 1 2 3", "f 1 2 x/1", "m.obj:4:7: 'x/1' is no corner of a face"},
+            {"f 1 2 3", "p 1 2 3", "m.obj: this OBJ file has no faces"},
+        });
 }
 
 TEST_CASE("errors in STL files name their line and column or their byte", "[unit]") {

@@ -2,6 +2,7 @@
 #include "experiment/content_hash.h"
 #include "experiment/plain_session.h"
 #include "experiment/session/observer_form.h"
+#include "support/observer_fields.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -10,17 +11,6 @@ using Catch::Contains;
 namespace {
 
 using Key = ResponsePress::Key;
-
-std::vector<ObserverFieldSettings> some_fields() {
-    std::vector<ObserverFieldSettings> fields(3);
-    fields[0].id = "age";
-    fields[1].id = "handedness";
-    fields[2].id = "name";
-    fields[2].required = false;
-    for (ObserverFieldSettings& field : fields)
-        complete_field(field, false);
-    return fields;
-}
 
 bool take(ObserverForm& form, std::u32string_view typed) {
     for (const char32_t character : typed)
@@ -79,7 +69,7 @@ TEST_CASE("instructions are read page by page, there and back", "[unit]") {
 }
 
 TEST_CASE("a form is filled in by keys, and says what is at fault", "[unit]") {
-    const auto fields = some_fields();
+    const auto fields = three_observer_fields("name");
     ObserverForm form(fields, {});
     CHECK_FALSE(take(form, U"3x1"));
     CHECK(form.focus() == 1);
@@ -109,7 +99,7 @@ TEST_CASE("a form is filled in by keys, and says what is at fault", "[unit]") {
 }
 
 TEST_CASE("characters that are no text are not typed, and a stuck key fills no memory", "[unit]") {
-    const auto fields = some_fields();
+    const auto fields = three_observer_fields("name");
     ObserverForm form(fields, {});
     for (const char32_t no_text :
          {char32_t{0}, U'\n', char32_t{0x7F}, char32_t{0x85}, char32_t{0xD800}, char32_t{0x110000}})

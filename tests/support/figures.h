@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -29,6 +30,24 @@ inline void add_part(Mesh& mesh, const Mesh& piece, const std::string& part) {
     }
 }
 
+/// Of a ball whose vertices are a pole, rings of segments, and the other pole: fronts outwards.
+inline std::vector<glm::uvec3> ball_triangles(int rings, int segments) {
+    std::vector<glm::uvec3> triangles;
+    const auto at = [&](int ring, int segment) {
+        return static_cast<std::uint32_t>(1 + (ring - 1) * segments + segment % segments);
+    };
+    const auto last = at(rings, 0);
+    for (int segment = 0; segment < segments; ++segment) {
+        triangles.emplace_back(0, at(1, segment), at(1, segment + 1));
+        for (int ring = 1; ring + 1 < rings; ++ring) {
+            triangles.emplace_back(at(ring, segment), at(ring + 1, segment), at(ring + 1, segment + 1));
+            triangles.emplace_back(at(ring, segment), at(ring + 1, segment + 1), at(ring, segment + 1));
+        }
+        triangles.emplace_back(last, at(rings - 1, segment + 1), at(rings - 1, segment));
+    }
+    return triangles;
+}
+
 /// A ball of rings of quads with triangles at the poles: 2 * segments * (rings - 1) triangles.
 inline Mesh ball(glm::dvec3 centre, double radius, int rings = 24, int segments = 48) {
     Mesh mesh;
@@ -43,18 +62,7 @@ inline Mesh ball(glm::dvec3 centre, double radius, int rings = 24, int segments 
             put(std::numbers::pi * ring / rings, 2.0 * std::numbers::pi * segment / segments);
     }
     put(std::numbers::pi, 0.0);
-    const auto at = [&](int ring, int segment) {
-        return static_cast<std::uint32_t>(1 + (ring - 1) * segments + segment % segments);
-    };
-    const auto last = static_cast<std::uint32_t>(mesh.positions.size() - 1);
-    for (int segment = 0; segment < segments; ++segment) {
-        mesh.triangles.emplace_back(0, at(1, segment), at(1, segment + 1));
-        for (int ring = 1; ring + 1 < rings; ++ring) {
-            mesh.triangles.emplace_back(at(ring, segment), at(ring + 1, segment), at(ring + 1, segment + 1));
-            mesh.triangles.emplace_back(at(ring, segment), at(ring + 1, segment + 1), at(ring, segment + 1));
-        }
-        mesh.triangles.emplace_back(last, at(rings - 1, segment + 1), at(rings - 1, segment));
-    }
+    mesh.triangles = ball_triangles(rings, segments);
     mesh.triangle_parts.assign(mesh.triangles.size(), PartIndex{0});
     mesh.part_names = {"body"};
     return mesh;

@@ -45,6 +45,8 @@ class RunningProgram {
     RunningProgram(const RunningProgram&) = delete;
     RunningProgram& operator=(const RunningProgram&) = delete;
 
+    pid_t id() const { return pid_; }
+
     void signal(int number) {
         if (!has_ended_)
             kill(pid_, number);
