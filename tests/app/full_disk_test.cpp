@@ -141,7 +141,7 @@ TEST_CASE("on a real disk that fills up a session stays readable, and goes on wh
     CHECK(run({"--resume"}) == 1);
     CHECK_THAT(text_of(said), Contains("ake room"));
     CHECK(overt({"verify", session.string()}) == 0);
-    REQUIRE(disk.resize(at_first + 4 * rows));
+    REQUIRE(disk.resize(at_first + 20 * rows));
     CHECK(run({"--resume"}) == 0);
     CHECK_THAT(text_of(said), Contains("10 of 10 trials completed"));
     CHECK(overt({"verify", session.string()}) == 0);
