@@ -1,5 +1,6 @@
 #include "experiment/record/imported_session.h"
 
+#include "experiment/record/file_hash.h"
 #include "experiment/record/manifest.h"
 #include "experiment/record/seal_chain.h"
 #include "experiment/record/session_file.h"
@@ -26,6 +27,7 @@ void write_session_rows(const std::filesystem::path& session_file,
 
 void finish_imported_session(const std::filesystem::path& folder, const ProgramBuild& program) {
     write_session_rows(folder / session_file_name, [](SQLite::Database& database) {
+        forget_file_hash(database); // that of the session which this is a copy of
         Query version(database, "PRAGMA user_version");
         if (version.step() && version.small() >= first_version_with_seals)
             seal_all_anew(database);

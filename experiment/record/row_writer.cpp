@@ -1,9 +1,12 @@
 #include "experiment/record/row_writer.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 #include <sqlite3.h>
 
 #include "experiment/error.h"
+#include "experiment/record/file_hash.h"
 #include "experiment/record/schema_migration.h"
 #include "experiment/record/session_file.h"
 #include "experiment/record/session_schema.h"
@@ -82,6 +85,7 @@ RowWriter::RowWriter(const std::filesystem::path& session_file, const Sitting& s
           "failure = ?, comes_again = ? WHERE trial_id = ?"),
       outside_counts_(counts_so_far(0)), seals_(database_) {
     begin_sitting(sitting);
+    checkpoint();
 } catch (const SQLite::Exception& reason) {
     throw_record_error(session_file, "opening the session for writing", reason);
 }
@@ -124,6 +128,7 @@ void RowWriter::begin_sitting(const Sitting& sitting) {
         if (resumed->given_up)
             run_statement(give_up, *resumed->given_up, sitting_, "interrupted, and skipped");
     }
+    forget_file_hash(database_);
     seals_.seal_rest(SealKind::sitting, sitting_);
     transaction.commit();
 }
@@ -133,6 +138,8 @@ void RowWriter::begin() {
         return;
     database_.exec("BEGIN");
     in_transaction_ = true;
+    if (!file_hash_.empty())
+        note_file_hash(database_, std::exchange(file_hash_, {}));
 }
 
 void RowWriter::commit() {
@@ -285,13 +292,20 @@ void RowWriter::finish_trial(const Trial& trial, const TrialOutcome& outcome, st
                   outcome.failure.empty() ? std::nullopt : std::optional(outcome.failure),
                   word_for(outcome.afterwards), trial_counts_.trial_id);
     seals_.seal_trial(sitting_, trial_counts_.trial_id);
+    forget_file_hash(database_);
     commit_to_disk();
 }
 
 void RowWriter::checkpoint() noexcept {
     // Nobody is waited for who reads the session just now.
     sqlite3_busy_timeout(database_.getHandle(), 0);
-    database_.tryExec("PRAGMA wal_checkpoint(TRUNCATE)");
+    try {
+        Query refused(database_, "PRAGMA wal_checkpoint(TRUNCATE)");
+        if (refused.step() && refused.integer() == 0)
+            file_hash_ = hash_of_folded_rows(database_);
+    } catch (const SQLite::Exception&) {
+        file_hash_.clear();
+    }
     sqlite3_busy_timeout(database_.getHandle(), writer_patience_ms);
 }
 
@@ -302,6 +316,7 @@ void RowWriter::close() {
     SQLite::Statement close_sitting(database_, "UPDATE sitting SET closed = 1 WHERE sitting = ?");
     run_statement(close_sitting, sitting_);
     seals_.seal_rest(SealKind::end, sitting_);
+    forget_file_hash(database_);
     commit_to_disk();
     // One plain file can be read from any place, a read-only one too. Where somebody is reading it just now
     // it stays as it is, which is as good but for that.

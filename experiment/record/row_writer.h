@@ -58,7 +58,8 @@ class RowWriter {
     void roll_back() noexcept;
 
     /// Moves the write-ahead log's pages to the file and empties the log, so that a log only ever grows: what
-    /// does not fit in it is damage, and no remnant. A failure does no harm: the log stays the truth.
+    /// does not fit in it is damage, and no remnant. The next transaction notes the file's hash
+    /// (file_hash.h). A failure does no harm: the log stays the truth.
     void checkpoint() noexcept;
 
     /// Commits, syncs, notes that the sitting ended in order, and leaves one file without a log.
@@ -94,6 +95,7 @@ class RowWriter {
     SealWriter seals_;
     bool in_transaction_ = false;
     bool needs_seal_ = false;
+    ContentHash file_hash_; ///< to be noted by the next transaction; empty: none
 };
 
 } // namespace overt

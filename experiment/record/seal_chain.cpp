@@ -51,8 +51,9 @@ std::string_view name_of(SealedRows rows) { return rows_names[static_cast<std::s
 
 std::vector<SealedTable> tables_to_seal(const SQLite::Database& database) {
     std::vector<std::string> names;
-    for (Query row(database, "SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT LIKE "
-                             "'sqlite_%' AND name NOT IN ('seal', 'sealed_table') ORDER BY name");
+    for (Query row(database,
+                   "SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT LIKE "
+                   "'sqlite_%' AND name NOT IN ('seal', 'sealed_table', 'file_hash') ORDER BY name");
          row.step();)
         names.push_back(row.text());
     std::vector<SealedTable> tables{schema_table()};

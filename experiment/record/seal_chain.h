@@ -49,7 +49,8 @@ struct SealedTable {
     Growth growth = Growth::any;
 };
 
-/// All tables but those of the chain itself, and their statements as the table «sqlite_schema».
+/// All tables but those of the chain itself and the file's hash (file_hash.h), and their statements as the
+/// table «sqlite_schema».
 std::vector<SealedTable> tables_to_seal(const SQLite::Database& database);
 
 /// The rows of a table that a seal covers, for digest_rows() with these parameters: the trial's id, or the

@@ -1,6 +1,7 @@
 #include "experiment/record/session_file.h"
 
 #include <fmt/format.h>
+#include <sqlite3.h>
 
 #include "experiment/error.h"
 #include "experiment/record/session_schema.h"
@@ -44,6 +45,8 @@ SQLite::Database open_session_file(const std::filesystem::path& file, SessionFil
                                                                               : SQLite::OPEN_READONLY);
         // Readers wait while a writer folds its file.
         database.setBusyTimeout(use == SessionFileUse::write ? writer_patience_ms : 2'000);
+        if (use == SessionFileUse::write)
+            sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
         check_identity(database, file);
         return database;
     } catch (const SQLite::Exception& reason) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiment/error.h"
+#include "experiment/record/file_hash.h"
 #include "experiment/record/folder_lock.h"
 #include "experiment/record/log_check.h"
 #include "experiment/record/manifest.h"
@@ -36,6 +37,7 @@ class SessionVerification {
         const std::optional<SessionManifest> manifest = look_at_manifest();
         look_at_log();
         look_at_session_file();
+        look_between_rows();
         if (manifest)
             look_at_files(*manifest);
         return std::move(result_);
@@ -97,6 +99,8 @@ class SessionVerification {
         if (is_closed && result_.state != Verification::State::running)
             result_.state = Verification::State::closed;
         look_for_missing_log(database);
+        if (result_.state == Verification::State::interrupted)
+            file_hash_ = noted_file_hash(database);
         learn_files(database);
         if (!has_seals) {
             result_.notes.push_back(
@@ -111,6 +115,20 @@ class SessionVerification {
                                                 "running, and what came after the last seal",
                                                 findings.unsealed_rows));
         std::move(findings.damages.begin(), findings.damages.end(), std::back_inserter(result_.damages));
+    }
+
+    /// Bytes of an interrupted session's file that no row is in.
+    void look_between_rows() {
+        if (!file_hash_ || is_damaged(session_file_name) ||
+            hash_of_file(folder_ / session_file_name) == *file_hash_)
+            return;
+        damage(session_file_name, "is not as it was when rows were last moved into it from the log; all rows "
+                                  "are as they were sealed");
+    }
+
+    bool is_damaged(const std::string& file) const {
+        return std::any_of(result_.damages.begin(), result_.damages.end(),
+                           [&](const Damage& other) { return other.file == file; });
     }
 
     /// Of what is made while the session runs: maps and spoken answers.
@@ -186,19 +204,18 @@ class SessionVerification {
         } catch (const InputError&) {
             return damage(file.path, "cannot be read");
         }
-        const bool is_in_a_row =
-            std::any_of(result_.damages.begin(), result_.damages.end(),
-                        [](const Damage& other) { return other.file == session_file_name; });
         damage(file.path, file.path != session_file_name ? "is not what was recorded"
-                          : is_in_a_row                  ? "is not as it was when the session ended"
-                                        : "is not as it was when the session ended; all rows "
-                                          "are as they were sealed");
+                          : is_damaged(session_file_name)
+                              ? "is not as it was when the session ended"
+                              : "is not as it was when the session ended; all rows "
+                                "are as they were sealed");
     }
 
     fs::path folder_;
     std::string log_name_ = std::string(session_file_name) + "-wal";
     bool is_without_manifest_ = false;
     std::map<std::string, std::string> recorded_files_; ///< hash by file
+    std::optional<ContentHash> file_hash_;              ///< of an interrupted session's file, if it was noted
     Verification result_;
 };
 

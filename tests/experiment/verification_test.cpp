@@ -123,7 +123,7 @@ TEST_CASE("one bit turned over anywhere in a session that was cut off is found, 
     files.push_back(manifest_file_name);
     REQUIRE(files.size() == 5); // protocol, mesh, map and preview of a frame
     RandomStream random(2, "flips");
-    int unseen = 0;
+    int between_rows = 0;
     for (std::size_t round = 0; round < 300; ++round) {
         const std::string file = round % 3 == 0   ? std::string(session_file_name)
                                  : round % 3 == 1 ? log
@@ -138,18 +138,14 @@ TEST_CASE("one bit turned over anywhere in a session that was cut off is found, 
             CHECK(names_file(found, file));
             continue;
         }
-        // Bytes that no row is in are known to nobody before the file is closed.
+        // Bytes that no row is in are covered, too.
+        REQUIRE_FALSE(found.is_sound());
+        CHECK(names_file(found, file));
         const std::optional<AllRows> after = read_all_rows(session / session_file_name);
-        if (found.is_sound()) {
-            ++unseen;
-            REQUIRE(after);
-            CHECK(differing(before, *after).empty());
-        } else {
-            CHECK(names_file(found, file));
-            check_it_is_named(found, before, after);
-        }
+        between_rows += after && differing(before, *after).empty();
+        check_it_is_named(found, before, after);
     }
-    WARN(unseen << " of 100 lay where no row is");
+    CHECK(between_rows > 20);
     CHECK(verify_session(session).is_sound());
 }
 
