@@ -30,6 +30,23 @@ void check_identity(const SQLite::Database& database, const std::filesystem::pat
                                       file.string(), version));
 }
 
+SQLite::Database open_for_reading(const std::filesystem::path& file) {
+    SQLite::Database database(file.string(), SQLite::OPEN_READONLY);
+    // Readers wait while a writer folds its file.
+    database.setBusyTimeout(2'000);
+    check_identity(database, file);
+    return database;
+}
+
+SQLite::Database open_for_writing(const std::filesystem::path& file) {
+    SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
+    database.setBusyTimeout(writer_patience_ms);
+    // Rows go from the log into the file only where that is meant (file_hash.h).
+    sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    check_identity(database, file);
+    return database;
+}
+
 } // namespace
 
 SQLite::Database open_session_file(const std::filesystem::path& file, SessionFileUse use) {
@@ -41,14 +58,16 @@ SQLite::Database open_session_file(const std::filesystem::path& file, SessionFil
         throw RecordError(missing);
     }
     try {
-        SQLite::Database database(file.string(), use == SessionFileUse::write ? SQLite::OPEN_READWRITE
-                                                                              : SQLite::OPEN_READONLY);
-        // Readers wait while a writer folds its file.
-        database.setBusyTimeout(use == SessionFileUse::write ? writer_patience_ms : 2'000);
-        if (use == SessionFileUse::write)
-            sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
-        check_identity(database, file);
-        return database;
+        try {
+            return use == SessionFileUse::write ? open_for_writing(file) : open_for_reading(file);
+        } catch (const SQLite::Exception& reason) {
+            if (use == SessionFileUse::write || reason.getExtendedErrorCode() != SQLITE_READONLY_ROLLBACK)
+                throw;
+        }
+        // A program that was killed while it changed the file itself (it does so when it begins and when it
+        // ends) has left a journal with the bytes of before: SQLite puts them back for whoever may write.
+        open_for_writing(file);
+        return open_for_reading(file);
     } catch (const SQLite::Exception& reason) {
         throw_record_error(file, "opening the session", reason);
     }

@@ -13,8 +13,9 @@ enum class SessionFileUse { read, write };
 /// what comes in meanwhile.
 inline constexpr int writer_patience_ms = 20'000;
 
-/// Opens session.sqlite of any state: closed, in use, or left behind by a program that was killed. Throws
-/// RecordError if there is none, if it is another kind of file, damaged, or written by a newer program.
+/// Opens session.sqlite of any state: closed, in use, or left behind by a program that was killed. A change
+/// of the file itself that was cut off is taken back first, for readers, too. Throws RecordError if there is
+/// none, if it is another kind of file, damaged, or written by a newer program.
 SQLite::Database open_session_file(const std::filesystem::path& file, SessionFileUse use);
 
 /// Brings what a log still holds into the file and takes the log away, where nobody else has the file open.
