@@ -182,6 +182,7 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<
 }
 
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<std::string>& out) {
+    out.clear(); // of what it is when the key is left out
     if (!value.list()) {
         if (!std::holds_alternative<std::string>(value.content))
             return wrong_kind(value, rule, "a list of texts");
