@@ -33,6 +33,9 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
         ->type_name("DEG")
         ->check(CLI::Range(0.0, 20.0));
     command.add_flag(
+        "--with-answers", options.with_answers,
+        "Copy the spoken answers into sourcedata, though a voice tells who somebody is; in bids");
+    command.add_flag(
         "--fractional-times", options.fractional_times,
         "Samples' times with their microseconds, for MNE above 1000 Hz; PyGazeAnalyser reads whole "
         "milliseconds only; in asc");

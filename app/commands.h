@@ -107,6 +107,7 @@ struct ExportOptions {
     bool overwrite = false;
     std::optional<double> cone_deg; ///< add the probabilities of a gaze cone of this accuracy
     bool fractional_times = false;  ///< of the samples in ASC
+    bool with_answers = false;      ///< spoken ones, in BIDS
 };
 int run_export(const ExportOptions& options);
 

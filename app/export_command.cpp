@@ -66,7 +66,7 @@ void export_as_bids(const ExportOptions& options, const SessionRecord& record) {
         options.out.empty() ? record.directory() / "export_bids" : options.out; // one dataset of all
     const BidsExportCounts counts =
         export_bids(record, [&](int sculpture) { return surfaces.lookup_of(sculpture); }, out,
-                    {options.overwrite, progress_on(bar, record)});
+                    {options.overwrite, options.with_answers, progress_on(bar, record)});
     bar.finish();
     for (const std::string& remark : counts.remarks)
         fmt::print("{}\n", remark);

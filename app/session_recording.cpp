@@ -89,6 +89,27 @@ std::optional<RecordedCharacterisation> recorded(const std::optional<DisplayChar
     return recorded;
 }
 
+/// By the keys of the table, so that a new one is recorded as it is.
+std::vector<RecordedDatasetEntry> recorded(const DatasetSettings& dataset) {
+    std::vector<RecordedDatasetEntry> entries;
+    const auto add = [&](std::string_view key, const std::string& value) {
+        if (!value.empty())
+            entries.push_back({std::string(key), value});
+    };
+    for_each_section([&]<class Struct>(const Section<Struct>& section) {
+        if constexpr (std::is_same_v<Struct, DatasetSettings>) {
+            for (const Key<DatasetSettings>& key : section.keys) {
+                if (const auto* text = std::get_if<std::string DatasetSettings::*>(&key.member))
+                    add(key.rule.name, dataset.*(*text));
+                if (const auto* list = std::get_if<std::vector<std::string> DatasetSettings::*>(&key.member))
+                    for (const std::string& value : dataset.*(*list))
+                        add(key.rule.name, value);
+            }
+        }
+    });
+    return entries;
+}
+
 } // namespace
 
 SessionHeader make_session_header(const Protocol& protocol, const Schedule& schedule,
@@ -99,6 +120,7 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
     header.protocol = {protocol.name, protocol.title, protocol.text, hash_of_text(protocol.text), {}};
     for (const IncludedText& file : protocol.included)
         header.protocol.included.push_back({file.name, file.text, hash_of_text(file.text)});
+    header.dataset = recorded(protocol.dataset);
     for (const BlockSettings& block : protocol.blocks)
         header.blocks.push_back(block.id);
     header.schedule = schedule;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "experiment/error.h"
+#include "experiment/protocol/protocol_keys.h"
 #include "render/screen_text.h"
 
 namespace overt {
@@ -22,6 +23,12 @@ std::vector<ShownText> shown_texts(const Protocol& protocol) {
                                  {"consent.text", &protocol.consent.text},
                                  {"breaks.text", &protocol.breaks.text},
                                  {"operator.pause_text", &protocol.operators.pause_text}};
+    for_each_section([&]<class Struct>(const Section<Struct>& section) {
+        if constexpr (std::is_same_v<Struct, WordSettings>)
+            for (const Key<WordSettings>& key : section.keys)
+                texts.push_back({fmt::format("words.{}", key.rule.name),
+                                 &(protocol.words.*std::get<std::string WordSettings::*>(key.member))});
+    });
     for (const std::string& page : protocol.instructions.pages)
         texts.push_back({"instructions.pages", &page});
     for (std::size_t i = 0; i < protocol.tasks.size(); ++i)

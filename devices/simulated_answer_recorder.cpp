@@ -1,6 +1,7 @@
 #include "devices/simulated_answer_recorder.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "experiment/error.h"
 #include "experiment/random.h"
@@ -13,14 +14,22 @@ constexpr std::size_t block_samples = 256;
 
 class SimulatedRecording final : public AnswerRecording {
   public:
-    SimulatedRecording(const std::filesystem::path& folder, const Trial& trial, SessionTime begun,
+    SimulatedRecording(const std::filesystem::path& folder, const Trial& trial, const Clock& clock,
                        const SimulatedObserver& observer, std::uint64_t seed,
                        const SimulatedSoundSettings& settings)
-        : folder_(folder), trial_(trial), begun_(begun), observer_(&observer), seed_(seed),
-          settings_(settings) {}
+        : folder_(folder), trial_(trial), clock_(&clock), begun_(clock.now()),
+          said_(observer.answer_to(trial)), seed_(seed), settings_(settings) {}
 
     void response_screen_lit(SessionTime onset) noexcept override { onset_ = onset; }
-    AudioLevel level() const noexcept override { return {}; }
+    /// About as loud as the voice that its file will hold.
+    AudioLevel level() const noexcept override {
+        const SessionDuration spoken = clock_->now() - onset_;
+        const bool speaks =
+            onset_ != SessionTime() && spoken >= said_.voice_after && spoken < said_.voice_until;
+        const double peak =
+            speaks ? std::min(1.0, 0.3 * settings_.gain) : std::pow(10.0, settings_.noise_dbfs / 20.0);
+        return {static_cast<float>(peak), static_cast<float>(0.3 * peak), peak >= 1.0};
+    }
     void end(SessionTime at) noexcept override { ended_ = at; }
     std::optional<RecordedAnswer> result() override {
         if (!answer_)
@@ -46,14 +55,13 @@ class SimulatedRecording final : public AnswerRecording {
     }
 
     void speak(AnswerSink& sink) const {
-        const SimulatedAnswer said = observer_->answer_to(trial_);
         const double rate_hz = settings_.sample_rate_hz * (1.0 + 1e-6 * settings_.clock_drift_ppm);
         const double onset_s = to_seconds(onset_ - begun_), duration_s = to_seconds(ended_ - begun_);
         SimulatedVoice voice;
         voice.noise_dbfs = settings_.noise_dbfs;
         voice.gain = settings_.gain;
-        voice.begin_s = onset_s + to_seconds(said.voice_after);
-        voice.end_s = std::max(voice.begin_s, onset_s + to_seconds(said.voice_until));
+        voice.begin_s = onset_s + to_seconds(said_.voice_after);
+        voice.end_s = std::max(voice.begin_s, onset_s + to_seconds(said_.voice_until));
         const auto stream = static_cast<std::uint64_t>(trial_.index);
         const std::vector<float> sound = simulated_sound(voice, rate_hz, duration_s, seed_ + stream);
         RandomStream jitter(seed_, "sound stamps", stream);
@@ -67,8 +75,9 @@ class SimulatedRecording final : public AnswerRecording {
 
     std::filesystem::path folder_;
     Trial trial_;
+    const Clock* clock_;
     SessionTime begun_, onset_, ended_;
-    const SimulatedObserver* observer_;
+    SimulatedAnswer said_;
     std::uint64_t seed_;
     SimulatedSoundSettings settings_;
     std::optional<RecordedAnswer> answer_;
@@ -77,7 +86,7 @@ class SimulatedRecording final : public AnswerRecording {
 } // namespace
 
 std::unique_ptr<AnswerRecording> SimulatedAnswerRecorder::begin(const Trial& trial) {
-    return std::make_unique<SimulatedRecording>(folder_, trial, clock_->now(), *observer_, seed_, settings_);
+    return std::make_unique<SimulatedRecording>(folder_, trial, *clock_, *observer_, seed_, settings_);
 }
 
 } // namespace overt

@@ -29,14 +29,6 @@ constexpr StandardField standard_fields[] = {
     {"handedness", "Handedness", FieldKind::choice, {"left", "right", "ambidextrous"}, 0.0, 0.0},
 };
 
-std::string range_of(const ObserverFieldSettings& field) {
-    if (field.min && field.max)
-        return fmt::format("{} … {}", *field.min, *field.max);
-    if (field.min)
-        return fmt::format("at least {}", *field.min);
-    return field.max ? fmt::format("at most {}", *field.max) : std::string();
-}
-
 /// A number with a decimal point, whatever the machine's language; nothing of it may be left over.
 std::optional<double> number_in(std::string_view text) {
     double number = 0.0;
@@ -47,6 +39,16 @@ std::optional<double> number_in(std::string_view text) {
 }
 
 } // namespace
+
+std::string range_of(const ObserverFieldSettings& field) {
+    if (field.kind != FieldKind::number)
+        return {};
+    if (field.min && field.max)
+        return fmt::format("{} … {}", *field.min, *field.max);
+    if (field.min)
+        return fmt::format("≥ {}", *field.min);
+    return field.max ? fmt::format("≤ {}", *field.max) : std::string();
+}
 
 std::vector<RecordedObserverField> filled_in(std::span<const ObserverFieldSettings> fields,
                                              const FieldValues& values) {

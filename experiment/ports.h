@@ -57,6 +57,13 @@ struct DisplayTiming {
     VblankSource source = VblankSource::virtual_display;
 };
 
+/// A level meter for who speaks, or watches who speaks: lengths are shares of the whole bar.
+struct LevelBar {
+    double mean = 0.0, peak = 0.0;
+    std::string warning; ///< UTF-8; empty: nothing is wrong
+    bool operator==(const LevelBar&) const = default;
+};
+
 /// Shows pictures at refreshes of the display. Loading may take long and throw; flipping does neither.
 class Presenter {
   public:
@@ -76,6 +83,10 @@ class Presenter {
     /// Draws a screen and shows it at the next refresh; it stays until the next call. Lays out text, so not
     /// for use between a presentation's first and last flip.
     virtual FlipReport show(const Screen& screen) = 0;
+
+    /// Draws a level meter below the middle of the screen that is shown, at the next refresh. Not for use
+    /// between a presentation's first and last flip.
+    virtual void show_level(const LevelBar& /*bar*/) {}
 
     /// Shows a frame of the loaded stimulus at the next refresh and returns when that refresh has begun.
     /// Allocates, opens and throws nothing.
@@ -222,7 +233,7 @@ struct TrialOutcome {
     /// Whether the trial is attempted again, as far as that is decided.
     enum class Afterwards : std::uint8_t { undecided, never, now, end_of_block };
     Status status = Status::completed;
-    std::string failure; ///< by which it does not count, or would not; empty: none
+    std::string failure;                           ///< by which it does not count, or would not; empty: none
     Afterwards afterwards = Afterwards::undecided; ///< undecided: the session ended in it
     SessionTime task_screen_onset, presentation_onset, presentation_end, response_screen_onset, responded_at;
     int shown_refreshes = 0;

@@ -170,8 +170,7 @@ void PagePresenter::put_patch(bool white) noexcept {
              patch_->place.origin_px, patch_->place.size_px);
 }
 
-void PagePresenter::put_picture(const LinearImage& picture) {
-    const glm::ivec2 origin = centred_origin_px(geometry_.screen_px, picture.size_px);
+void PagePresenter::put_picture(const LinearImage& picture, glm::ivec2 origin) {
     const ScreenPatch patch = encoder_.patch_of(origin, picture.size_px);
     std::vector<std::byte> bytes(bytes_in(patch.size_px, encoder_.format()));
     encoder_.encode(picture, origin, bytes);
@@ -197,11 +196,19 @@ FlipReport PagePresenter::show(const Screen& screen) {
         // It stands on the background already.
         for (glm::vec4& pixel : picture.pixels)
             pixel.w = 1.0f;
-        put_picture(picture);
+        put_picture(picture, centred_origin_px(geometry_.screen_px, picture.size_px));
     }
     put_patch(false);
     throw_on_gl_error(*context_, "drawing a screen");
     return present();
+}
+
+void PagePresenter::show_level(const LevelBar& bar) {
+    LinearImage picture = draw_level_bar(bar, geometry_, screens_, display_.background);
+    put_picture(picture, level_bar_origin(geometry_, picture.size_px));
+    put_patch(false);
+    throw_on_gl_error(*context_, "drawing a level meter");
+    present();
 }
 
 FlipReport PagePresenter::flip(AnimationFrameIndex frame) noexcept {

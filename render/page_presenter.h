@@ -30,6 +30,7 @@ class PagePresenter final : public Presenter {
     void expect_frames(const Condition& condition) noexcept override { store_.expect(condition); }
     void use_spare_time() noexcept override { store_.use_spare_time(); }
     FlipReport show(const Screen& screen) override;
+    void show_level(const LevelBar& bar) override;
     FlipReport flip(AnimationFrameIndex frame) noexcept override;
     bool closed() const noexcept override { return surface_->closed() || is_interrupted(); }
     std::string why_closed() const override;
@@ -60,7 +61,7 @@ class PagePresenter final : public Presenter {
     void check_depth() const;
     void clear_picture() noexcept;
     void put_page(int page) noexcept;
-    void put_picture(const LinearImage& picture);
+    void put_picture(const LinearImage& picture, glm::ivec2 origin);
     void make_patch();
     void put_patch(bool white) noexcept;
     void compose() noexcept;

@@ -130,4 +130,8 @@ LinearImage draw_fixation_target(double diameter_px, float grey, float backgroun
     return surface.tinted(grey, background);
 }
 
+bool begins_at_the_right(const std::string& text) {
+    return pango_find_base_dir(text.data(), static_cast<int>(text.size())) == PANGO_DIRECTION_RTL;
+}
+
 } // namespace overt

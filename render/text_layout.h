@@ -24,6 +24,9 @@ struct TextMeasure {
 };
 TextMeasure measure_text(const std::string& text, const TextStyle& style);
 
+/// Whether its lines begin at the right, by the first letter that has a direction.
+bool begins_at_the_right(const std::string& text);
+
 /// UTF-8 text in any script, wrapped between words. The picture is as large as the text needs, at most
 /// wrap_width_px wide; its width is even. Alpha is the letters' coverage. Throws InputError if the text is
 /// not UTF-8.

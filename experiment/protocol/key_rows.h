@@ -42,6 +42,10 @@ Section<ObserverFieldSettings> observer_fields();
 Section<OperatorSettings> operators();
 Section<AnswerSettings> answers();
 
+// What is said on the screen besides, and of the dataset (word_keys.cpp).
+Section<WordSettings> words();
+Section<DatasetSettings> dataset();
+
 // Names of enumerations, in the order of their values.
 inline constexpr std::string_view output_modes[] = {"native-8bit", "native-10bit", "mono++",   "color++",
                                                     "bits++",      "vpixx-m16",    "vpixx-c48"};

@@ -254,6 +254,8 @@ struct Protocol {
     InstructionSettings instructions;
     OperatorSettings operators;
     AnswerSettings answers;
+    WordSettings words;
+    DatasetSettings dataset;
     std::vector<ObserverFieldSettings> observer_fields; ///< what the observer is asked before the session
     std::vector<Task> tasks;
     std::vector<BlockSettings> blocks; ///< none: all trials are one block in random order

@@ -16,7 +16,8 @@ const ProtocolSections& protocol_sections() {
         key_rows::screens(),   key_rows::consent(),  key_rows::instructions(), key_rows::observer_fields(),
         key_rows::operators(), key_rows::answers(),  key_rows::task(),         key_rows::block(),
         key_rows::group(),     key_rows::practice(), key_rows::breaks(),       key_rows::repeat(),
-        key_rows::sculpture(), key_rows::material(), key_rows::frames()};
+        key_rows::sculpture(), key_rows::material(), key_rows::frames(),       key_rows::words(),
+        key_rows::dataset()};
     return sections;
 }
 

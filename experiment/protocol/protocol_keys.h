@@ -68,7 +68,8 @@ using ProtocolSections =
                Section<ObserverFieldSettings>, Section<OperatorSettings>, Section<AnswerSettings>,
                Section<Task>, Section<BlockSettings>, Section<GroupSettings>, Section<PracticeSettings>,
                Section<BreakSettings>, Section<RepeatSettings>, Section<SculptureSettings>,
-               Section<MaterialSettings>, Section<FrameSequenceSettings>>;
+               Section<MaterialSettings>, Section<FrameSequenceSettings>, Section<WordSettings>,
+               Section<DatasetSettings>>;
 
 /// All sections, in the order of the documentation. Made once; safe from any thread.
 const ProtocolSections& protocol_sections();

@@ -107,6 +107,13 @@ Section<AnswerSettings> answers() {
                   .explanation = "Of the recording."},
                  &A::sample_rate_hz},
                 {{.name = "bits", .low = 16, .high = 24, .explanation = "Of a sample: 16 or 24."}, &A::bits},
+                {{.name = "meter_on_screen",
+                  .explanation =
+                      "A level meter below the text of the response screen, with a word when it is "
+                      "too loud or no voice is heard. Off by default, for who sees it speaks to "
+                      "it; the operator's terminal has a meter always. Its words are in "
+                      "`[words]`."},
+                 &A::meter_on_screen},
             },
         .one = &Protocol::answers};
 }

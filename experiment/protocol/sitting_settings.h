@@ -1,5 +1,6 @@
 /// What surrounds the trials, as a protocol states it: consent, instructions, the operator's keys, spoken
-/// answers. Explained key by key in sitting_keys.cpp.
+/// answers, the program's own words, what a dataset says of itself. Explained key by key in sitting_keys.cpp
+/// and word_keys.cpp.
 #pragma once
 
 #include <cstdint>
@@ -40,6 +41,37 @@ struct AnswerSettings {
     std::string device; ///< part of its name; empty: the system's default
     int sample_rate_hz = 48000;
     int bits = 16; ///< 16 or 24
+    bool meter_on_screen = false;
+};
+
+/// [words]: what the program itself says on the screen.
+struct WordSettings {
+    std::string recalibrate = "Calibrate the eye tracker anew?\nThe session then goes on where it is.";
+    std::string repeat = "Break this trial off and repeat it at once?";
+    std::string reject = "Reject this trial?\nIt comes again as the protocol says.";
+    std::string skip = "Skip this trial?\nIt does not come again.";
+    std::string abort = "End the session?\nWhat was recorded stays.";
+    std::string abort_in_trial =
+        "End the session?\nThis trial is recorded as broken off; what was recorded before stays.";
+    std::string yes = "yes", no = "no";
+    std::string optional = "optional";
+    std::string choose = "choose", back = "back", other_fields = "other fields", next = "next", done = "done";
+    std::string missing = "please fill this in";
+    std::string not_possible = "this cannot be";
+    std::string too_loud = "too loud";
+    std::string no_voice = "no voice is heard";
+};
+
+/// [dataset]: what a dataset that the session becomes part of says of itself.
+struct DatasetSettings {
+    std::string name; ///< empty: the protocol's title
+    std::vector<std::string> authors;
+    std::string license;
+    std::vector<std::string> keywords;
+    std::string acknowledgements, how_to_acknowledge;
+    std::vector<std::string> funding, ethics_approvals, references;
+    std::string doi;
+    std::string institution_name, institution_address, department;
 };
 
 } // namespace overt

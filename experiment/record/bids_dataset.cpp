@@ -23,6 +23,39 @@ Json generated_by(const SessionHeader& header) {
     return Json::array({{{"Name", "overt"}, {"Version", header.program.version}}});
 }
 
+/// What the protocol says of the dataset, by the words of BIDS. A DOI is to be a URI.
+void describe(Json& json, const SessionHeader& header) {
+    struct Entry {
+        std::string_view key, name;
+        bool is_list;
+    };
+    constexpr Entry entries[] = {{"license", "License", false},
+                                 {"authors", "Authors", true},
+                                 {"keywords", "Keywords", true},
+                                 {"acknowledgements", "Acknowledgements", false},
+                                 {"how_to_acknowledge", "HowToAcknowledge", false},
+                                 {"funding", "Funding", true},
+                                 {"ethics_approvals", "EthicsApprovals", true},
+                                 {"references", "ReferencesAndLinks", true}};
+    for (const Entry& entry : entries) {
+        for (const RecordedDatasetEntry& said : header.dataset) {
+            if (said.key != entry.key)
+                continue;
+            if (entry.is_list)
+                json[std::string(entry.name)].push_back(said.value);
+            else
+                json[std::string(entry.name)] = said.value;
+        }
+    }
+}
+
+std::string said_of(const SessionHeader& header, std::string_view key) {
+    for (const RecordedDatasetEntry& said : header.dataset)
+        if (said.key == key)
+            return said.value;
+    return {};
+}
+
 void write_if_missing(const fs::path& file, const std::string& text) {
     if (!fs::exists(file))
         write_text_file(file, text);
@@ -48,7 +81,7 @@ constexpr const char* derivative_readme =
 /// Files of the session and task, in the dataset and its derivative.
 std::vector<fs::path> files_of(const fs::path& dataset, const BidsNames& names) {
     std::vector<fs::path> files;
-    for (const fs::path& root : {dataset, dataset / derivative}) {
+    for (const fs::path& root : {dataset, dataset / derivative, dataset / "sourcedata"}) {
         std::error_code none;
         for (const auto& entry : fs::directory_iterator(root / names.folder(), none))
             if (entry.path().filename().string().starts_with(names.task_stem()))
@@ -90,16 +123,27 @@ void check_bids_dataset(const fs::path& dataset, const BidsNames& names, bool ov
 }
 
 void describe_bids_dataset(const fs::path& dataset, const SessionHeader& header) {
-    const std::string title = header.protocol.title.empty() ? header.protocol.name : header.protocol.title;
-    const Json description{{"Name", title},
-                           {"BIDSVersion", bids_version},
-                           {"DatasetType", "raw"},
-                           {"GeneratedBy", generated_by(header)}};
-    const Json of_derivative{{"Name", title + ": places on the surface"},
-                             {"BIDSVersion", bids_version},
-                             {"DatasetType", "derivative"},
-                             {"GeneratedBy", generated_by(header)},
-                             {"SourceDatasets", Json::array({{{"URL", "../../"}}})}};
+    std::string title = said_of(header, "name");
+    if (title.empty())
+        title = header.protocol.title.empty() ? header.protocol.name : header.protocol.title;
+    std::string doi = said_of(header, "doi");
+    if (doi.starts_with("10."))
+        doi = "doi:" + doi;
+    Json description{{"Name", title},
+                     {"BIDSVersion", bids_version},
+                     {"DatasetType", "raw"},
+                     {"GeneratedBy", generated_by(header)}};
+    Json of_derivative{{"Name", title + ": places on the surface"},
+                       {"BIDSVersion", bids_version},
+                       {"DatasetType", "derivative"},
+                       {"GeneratedBy", generated_by(header)},
+                       {"SourceDatasets", Json::array({{{"URL", "../../"}}})}};
+    describe(description, header);
+    describe(of_derivative, header);
+    if (!doi.empty()) {
+        description["DatasetDOI"] = doi;
+        of_derivative["SourceDatasets"][0]["DOI"] = doi;
+    }
     write_if_missing(dataset / "dataset_description.json", json_text(description));
     write_if_missing(dataset / "README.md", readme);
     if (!fs::exists(dataset / derivative))

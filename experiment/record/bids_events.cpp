@@ -1,6 +1,7 @@
 #include "experiment/record/bids_events.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -182,6 +183,14 @@ void write_bids_events(const SessionRecord& record, int run, std::optional<Sessi
     json["TaskDescription"] = "Questions about animated sculptures, each asked before its presentation and "
                               "answered after it";
     json["Instructions"] = questions.empty() ? "none" : questions;
+    constexpr std::pair<std::string_view, const char*> institution[] = {
+        {"institution_name", "InstitutionName"},
+        {"institution_address", "InstitutionAddress"},
+        {"department", "InstitutionalDepartmentName"}};
+    for (const auto& [key, name] : institution)
+        for (const RecordedDatasetEntry& said : header.dataset)
+            if (said.key == key)
+                json[name] = said.value;
     json["StimulusPresentation"] = screen;
     json["SessionTimeOfOnsetZero"] = {{"Description", "What onset 0 is by the clock of the session"},
                                       {"Units", "s"},

@@ -7,6 +7,7 @@
 
 #include "experiment/content_hash.h"
 #include "experiment/error.h"
+#include "experiment/record/bids_answers.h"
 #include "experiment/record/bids_dataset.h"
 #include "experiment/record/bids_events.h"
 #include "experiment/record/bids_gaze.h"
@@ -102,6 +103,14 @@ BidsExportCounts export_bids(const SessionRecord& record, const LookupFor& looku
         counts.bytes += gaze.bytes;
         counts.recordings += gaze.recordings;
         ++counts.runs;
+        const int answers = count_answers(record, run);
+        if (answers > 0 && options.with_answers)
+            copy_bids_answers(record, run, names, staged.path() / "sourcedata");
+        else if (answers > 0)
+            counts.remarks.push_back(
+                fmt::format("Spoken answers of run {} were left out, for voices tell who "
+                            "somebody is: {}. --with-answers puts them into sourcedata.",
+                            run, answers));
         if (options.progress)
             options.progress(counts.runs, static_cast<int>(runs.size()));
     }

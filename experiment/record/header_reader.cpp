@@ -92,11 +92,19 @@ void read_blocks(const SQLite::Database& database, SessionHeader& header) {
         header.protocol.included.push_back({row.text(), row.text(), row.text()});
 }
 
+void read_dataset(const SQLite::Database& database, SessionHeader& header) {
+    if (!has_table(database, "dataset_entry"))
+        return;
+    for (Query row(database, "SELECT key, value FROM dataset_entry ORDER BY n"); row.step();)
+        header.dataset.push_back({row.text(), row.text()});
+}
+
 void read_design(const SQLite::Database& database, SessionHeader& header) {
     for (Query row(database, "SELECT trial, task, sculpture, material FROM schedule ORDER BY trial");
          row.step();)
         header.schedule.trials.push_back({row.small(), row.small(), {row.small(), row.small()}});
     read_blocks(database, header);
+    read_dataset(database, header);
     for (Query row(database, "SELECT id, question FROM task ORDER BY task"); row.step();)
         header.tasks.push_back({row.text(), row.text()});
     for (Query row(database, "SELECT id, title FROM material ORDER BY material"); row.step();)

@@ -59,6 +59,9 @@ void insert_design(SQLite::Database& database, const SessionHeader& header) {
         insert(database, "INSERT INTO protocol_file VALUES (?,?,?,?)", index++, file.name, file.text,
                file.sha256);
     index = 0;
+    for (const RecordedDatasetEntry& entry : header.dataset)
+        insert(database, "INSERT INTO dataset_entry VALUES (?,?,?)", index++, entry.key, entry.value);
+    index = 0;
     for (const RecordedTask& task : header.tasks)
         insert(database, "INSERT INTO task VALUES (?,?,?)", index++, task.id, task.question);
     index = 0;

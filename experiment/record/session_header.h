@@ -125,8 +125,16 @@ struct RecordedMap {
     Kind kind = Kind::triangles;
 };
 
+/// One thing that the protocol's [dataset] says, by its key; a list has an entry for each text.
+struct RecordedDatasetEntry {
+    std::string key;
+    std::string value;
+    bool operator==(const RecordedDatasetEntry&) const = default;
+};
+
 struct SessionHeader {
     RecordedProtocol protocol;
+    std::vector<RecordedDatasetEntry> dataset = {};
     Schedule schedule; ///< observer, seed, and the order in which the trials were to come
     int session_number = 1;
     std::string started_utc; ///< wall clock, ISO 8601; never exported

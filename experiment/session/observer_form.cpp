@@ -39,8 +39,9 @@ bool is_text(char32_t character) {
 
 } // namespace
 
-ObserverForm::ObserverForm(std::span<const ObserverFieldSettings> fields, FieldValues given)
-    : fields_(fields), values_(std::move(given)) {
+ObserverForm::ObserverForm(std::span<const ObserverFieldSettings> fields, FieldValues given,
+                           WordSettings words)
+    : fields_(fields), values_(std::move(given)), words_(std::move(words)) {
     values_.resize(fields_.size());
     const auto empty = std::find(values_.begin(), values_.end(), std::string());
     if (empty != values_.end())
@@ -140,8 +141,13 @@ bool ObserverForm::submit() {
     for (std::string& value : values_)
         value = trimmed(value);
     for (std::size_t i = 0; i < fields_.size(); ++i) {
-        if (const auto fault = fault_of(fields_[i], values_[i])) {
-            message_ = *fault;
+        if (fault_of(fields_[i], values_[i])) {
+            const std::string range = range_of(fields_[i]);
+            message_ = values_[i].empty()
+                           ? fmt::format("{}: {}", fields_[i].title, words_.missing)
+                           : fmt::format("{}: «{}»: {}", fields_[i].title, values_[i], words_.not_possible);
+            if (!range.empty())
+                message_ += "  " + range;
             focus_ = i;
             return false;
         }
@@ -159,16 +165,15 @@ std::string ObserverForm::text() const {
             value = is_here ? fmt::format("‹ {} ›", value.empty() ? "…" : value) : value;
         else if (is_here)
             value += "▏";
-        text += fmt::format("{} {}{}:  {}\n", is_here ? "▸" : "  ", field.title,
-                            field.required ? "" : " (optional)", value);
+        text += fmt::format("{} {}{}:  {}\n", is_here ? "•" : "  ", field.title,
+                            field.required ? "" : fmt::format(" ({})", words_.optional), value);
     }
     const ObserverFieldSettings& here = field();
-    if (!message_.empty())
-        text += fmt::format("\n{}\n", message_);
-    else if (!here.note.empty())
-        text += fmt::format("\n{}\n", here.note);
-    text += here.kind == FieldKind::choice ? "\n← → choose    " : "\n";
-    text += focus_ + 1 == fields_.size() ? "↑ back    Enter: done" : "↑ ↓ other fields    Enter: next";
+    // The same number of lines whatever is said, so that the form stays in its place.
+    text += fmt::format("\n{}\n", !message_.empty() ? message_ : here.note);
+    text += here.kind == FieldKind::choice ? fmt::format("\n← → {}    ", words_.choose) : "\n";
+    text += focus_ + 1 == fields_.size() ? fmt::format("↑ {}    ↵ {}", words_.back, words_.done)
+                                         : fmt::format("↑ ↓ {}    ↵ {}", words_.other_fields, words_.next);
     return text;
 }
 

@@ -6,13 +6,15 @@
 
 #include "experiment/observer_field.h"
 #include "experiment/ports.h"
+#include "experiment/protocol/sitting_settings.h"
 
 namespace overt {
 
 class ObserverForm {
   public:
     /// `fields` must outlive the form. `given`: what is filled in already.
-    ObserverForm(std::span<const ObserverFieldSettings> fields, FieldValues given);
+    /// `words`: what is said below the fields.
+    ObserverForm(std::span<const ObserverFieldSettings> fields, FieldValues given, WordSettings words = {});
 
     /// Takes a key: characters are typed, in a choice they go to the next that begins with them; left and
     /// right choose; up and down (tab) go to other fields; next goes on, and from the last field submits.
@@ -35,6 +37,7 @@ class ObserverForm {
 
     std::span<const ObserverFieldSettings> fields_;
     FieldValues values_;
+    WordSettings words_;
     std::size_t focus_ = 0;
     std::string message_;
 };

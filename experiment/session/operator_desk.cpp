@@ -85,7 +85,7 @@ bool OperatorDesk::act_on(Key key) {
         pause();
         break;
     case Key::recalibrate:
-        if (confirm("Calibrate the eye tracker anew?\nThe session then goes on where it is."))
+        if (confirm(stage_.protocol.words.recalibrate))
             calibrate();
         break;
     case Key::repeat:
@@ -95,9 +95,8 @@ bool OperatorDesk::act_on(Key key) {
             return !stage_.is_over();
         return false;
     case Key::abort:
-        if (confirm(is_in_trial(phase) ? "End the session?\nThis trial is recorded as broken off; what was "
-                                         "recorded before stays."
-                                       : "End the session?\nWhat was recorded stays.")) {
+        if (confirm(is_in_trial(phase) ? stage_.protocol.words.abort_in_trial
+                                       : stage_.protocol.words.abort)) {
             stage_.note("operator", "ends the session");
             stage_.end_session("aborted by a key");
         }
@@ -119,18 +118,19 @@ bool OperatorDesk::end_trial(Key key) {
         return false;
     }
     const OperatorSettings& settings = stage_.protocol.operators;
+    const WordSettings& words = stage_.protocol.words;
     if (key != Key::skip) {
         const bool at_once = key == Key::repeat;
-        if (!confirm(at_once ? "Break this trial off and repeat it at once?"
-                             : "Reject this trial?\nIt comes again as the protocol says."))
+        if (!confirm(at_once ? words.repeat : words.reject))
             return false;
         decision_ = {at_once ? TrialDecision::Word::repeated : TrialDecision::Word::rejected, {}};
         stage_.note("operator", at_once ? "repeats the trial" : "rejects the trial");
         return true;
     }
-    std::string question = "Skip this trial?\nIt does not come again.";
+    std::string question = words.skip;
     for (std::size_t i = 0; i < settings.skip_reasons.size(); ++i)
-        question += fmt::format("{}{}: yes, {}", i == 0 ? "\n\n" : "\n", i + 1, settings.skip_reasons[i]);
+        question +=
+            fmt::format("{}{}: {}, {}", i == 0 ? "\n\n" : "\n", i + 1, words.yes, settings.skip_reasons[i]);
     const std::optional<int> answer = confirm(question);
     if (!answer)
         return false;
@@ -145,9 +145,10 @@ bool OperatorDesk::end_trial(Key key) {
 std::optional<int> OperatorDesk::confirm(const std::string& question) {
     const OperatorSettings& keys = stage_.protocol.operators;
     stage_.note("operator asked", question);
+    const WordSettings& words = stage_.protocol.words;
     const SessionTime onset =
-        stage_.show({Screen::Kind::text,
-                     fmt::format("{}\n\n{}: yes        {}: no", question, upper(keys.yes), upper(keys.no))});
+        stage_.show({Screen::Kind::text, fmt::format("{}\n\n{}: {}        {}: {}", question, upper(keys.yes),
+                                                     words.yes, upper(keys.no), words.no)});
     stage_.ports.panel.await_decision(false, onset);
     std::optional<int> answer;
     for (bool is_decided = false; !is_decided && !stage_.ends_by_itself();) {

@@ -65,7 +65,7 @@ bool SessionOpening::fill_in_form() {
     if (fields.empty())
         return true;
     if (!is_full && stage_.ports.can_type) {
-        ObserverForm form(fields, fields_);
+        ObserverForm form(fields, fields_, stage_.protocol.words);
         const auto show = [&] {
             stage_.ports.panel.await_entry(stage_.show({Screen::Kind::form, form.text()}));
         };

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiment/session/answer_check.h"
+#include "experiment/session/level_watch.h"
 
 namespace overt {
 
@@ -178,8 +179,18 @@ void TrialRun::take_answer(const Trial& trial, const std::optional<Condition>& n
                     .min_s = screens.response_min_s,
                     .max_s = screens.response_max_s};
     waiting.await = [&](SessionTime since) { ports.panel.await_response(trial, since); };
-    if (recording && ports.on_level)
-        waiting.meanwhile = [&] { ports.on_level(recording->level()); };
+    LevelWatch watch(stage_.protocol.words, outcome.response_screen_onset);
+    const bool shows_level = stage_.protocol.answers.meter_on_screen;
+    if (recording && (ports.on_level || shows_level))
+        waiting.meanwhile = [&] {
+            const AudioLevel level = recording->level();
+            if (ports.on_level)
+                ports.on_level(level);
+            if (!shows_level)
+                return;
+            if (const std::optional<LevelBar> bar = watch.take(level, stage_.now()))
+                ports.presenter.show_level(*bar);
+        };
     const OperatorDesk::Press press = desk_.wait(waiting);
     outcome.responded_at = press.at;
     if (recording)

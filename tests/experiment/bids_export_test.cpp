@@ -1,5 +1,7 @@
 #include "experiment/record/bids_export.h"
 
+#include <algorithm>
+
 #include <catch2/catch.hpp>
 
 #include "experiment/error.h"
@@ -29,7 +31,7 @@ struct Dataset {
         const fs::path session = fs::exists(sessions / "tiny" / ("sub-" + observer + "_ses-01"))
                                      ? sessions / "tiny" / ("sub-" + observer + "_ses-01")
                                      : make_eye_session(sessions, observer);
-        return export_bids(SessionRecord(session), no_surface, path, {overwrite, {}});
+        return export_bids(SessionRecord(session), no_surface, path, {overwrite, false, {}});
     }
     fs::path beh(const std::string& file) const { return path / "sub-AB7" / "ses-01" / "beh" / file; }
     nlohmann::json json(const fs::path& file) const { return nlohmann::json::parse(bytes_of(file)); }
@@ -254,9 +256,98 @@ TEST_CASE("the observer's form stands in the table of participants, in words tha
         store.observer_fields({{"age", "Alter", "35"}});
         store.close();
     }
-    const auto counts = export_bids(SessionRecord(session), no_surface, dataset.path, {true, {}});
+    const auto counts = export_bids(SessionRecord(session), no_surface, dataset.path, {true, false, {}});
     CHECK(bytes_of(dataset.path / "participants.tsv") == rows);
     CHECK_THAT(counts.remarks.back(), Contains("age is 34 in participants.tsv, and 35 in this session"));
+}
+
+TEST_CASE("what the protocol says of its dataset describes it and its derivative, and where it was recorded",
+          "[unit]") {
+    Dataset dataset;
+    SessionHeader header = eye_session_header();
+    header.dataset = {{"name", "Sehen 見る"},
+                      {"authors", "A. Author"},
+                      {"authors", "B. Author"},
+                      {"license", "CC0"},
+                      {"funding", "Fund 1"},
+                      {"ethics_approvals", "Board, 12/34"},
+                      {"doi", "10.1234/abc"},
+                      {"references", "doi:10.1/x"},
+                      {"keywords", "gaze"},
+                      {"how_to_acknowledge", "Cite it."},
+                      {"acknowledgements", "Thanks."},
+                      {"institution_name", "Colourlab"},
+                      {"department", "IDI"}};
+    const fs::path session = make_eye_session(dataset.root.path() / "described", "C1", header);
+    CHECK(SessionRecord(session).header().dataset == header.dataset);
+    const fs::path out = dataset.root.path() / "described_dataset";
+    export_bids(SessionRecord(session), no_surface, out);
+    CHECK(BidsRules(out).text() == "");
+    const auto raw = dataset.json(out / "dataset_description.json"),
+               derived = dataset.json(out / "derivatives" / "overt" / "dataset_description.json");
+    for (const auto& json : {raw, derived}) {
+        CHECK(json["Authors"] == nlohmann::json({"A. Author", "B. Author"}));
+        CHECK(json["License"] == "CC0");
+        CHECK(json["Funding"] == nlohmann::json({"Fund 1"}));
+        CHECK(json["EthicsApprovals"] == nlohmann::json({"Board, 12/34"}));
+        CHECK(json["ReferencesAndLinks"] == nlohmann::json({"doi:10.1/x"}));
+        CHECK(json["Keywords"] == nlohmann::json({"gaze"}));
+        CHECK(json["HowToAcknowledge"] == "Cite it.");
+        CHECK(json["Acknowledgements"] == "Thanks.");
+    }
+    CHECK(raw["Name"] == "Sehen 見る");
+    CHECK(derived["Name"] == "Sehen 見る: places on the surface");
+    CHECK(raw["DatasetDOI"] == "doi:10.1234/abc");
+    CHECK_FALSE(derived.contains("DatasetDOI"));
+    CHECK(derived["SourceDatasets"][0]["DOI"] == "doi:10.1234/abc");
+    const auto of_events =
+        dataset.json(out / "sub-C1" / "ses-01" / "beh" / "sub-C1_ses-01_task-tiny_run-01_events.json");
+    CHECK(of_events["InstitutionName"] == "Colourlab");
+    CHECK(of_events["InstitutionalDepartmentName"] == "IDI");
+    CHECK_FALSE(of_events.contains("InstitutionAddress"));
+}
+
+TEST_CASE("spoken answers are left out of a dataset and counted, or copied beside it when asked", "[unit]") {
+    Dataset dataset;
+    const fs::path session = make_eye_session(dataset.root.path() / "spoken", "D1");
+    fs::create_directories(session / "answers");
+    write(session / "answers" / "one.wav", "a voice");
+    {
+        SessionStore store(session / session_file_name, patient());
+        record_attempt(store, 2, eye_session_header().schedule.trials[3], 70'000, 40,
+                       TrialOutcome::Status::completed);
+        RecordedAnswer answer;
+        answer.trial = eye_session_header().schedule.trials[3].index;
+        answer.file = "answers/one.wav";
+        answer.sample_rate_hz = 48000.0;
+        answer.onset_sample = 12.5;
+        store.answer_recorded(answer);
+        store.close();
+    }
+    const fs::path out = dataset.root.path() / "spoken_dataset";
+    const auto is_wav = [&](const fs::path& file) { return file.extension() == ".wav"; };
+    const auto wavs = [&] {
+        const auto files = fs::recursive_directory_iterator(out);
+        return std::count_if(begin(files), end(files),
+                             [&](const auto& entry) { return is_wav(entry.path()); });
+    };
+    const BidsExportCounts without = export_bids(SessionRecord(session), no_surface, out);
+    CHECK(wavs() == 0);
+    CHECK_FALSE(fs::exists(out / "sourcedata"));
+    CHECK(std::any_of(without.remarks.begin(), without.remarks.end(), [](const std::string& remark) {
+        return remark.find("--with-answers") != std::string::npos;
+    }));
+    export_bids(SessionRecord(session), no_surface, out, {true, true, {}});
+    CHECK(BidsRules(out).text() == "");
+    REQUIRE(wavs() == 1);
+    const fs::path folder = out / "sourcedata" / "sub-D1" / "ses-01" / "beh";
+    const std::string table = bytes_of(folder / "sub-D1_ses-01_task-tiny_run-03_answers.tsv");
+    CHECK_THAT(table, Contains("12.500\t48000"));
+    const std::string file = table.substr(table.find('\n') + 1, table.find(".wav") + 3 - table.find('\n'));
+    CHECK(bytes_of(folder / file) == "a voice");
+    // Without them once more: what was copied goes.
+    export_bids(SessionRecord(session), no_surface, out, {true, false, {}});
+    CHECK(wavs() == 0);
 }
 
 TEST_CASE("a folder that is no dataset of ours is left alone", "[unit]") {
@@ -265,9 +356,9 @@ TEST_CASE("a folder that is no dataset of ours is left alone", "[unit]") {
     fs::create_directories(other);
     write(other / "thesis.txt", "years of work");
     const SessionRecord record(dataset.root.path() / "sessions" / "tiny" / "sub-AB7_ses-01");
-    CHECK_THROWS_AS(export_bids(record, no_surface, other, {true, {}}), InputError);
+    CHECK_THROWS_AS(export_bids(record, no_surface, other, {true, false, {}}), InputError);
     write(other / "dataset_description.json", R"({"Name": "x", "GeneratedBy": [{"Name": "somebody"}]})");
-    CHECK_THROWS_AS(export_bids(record, no_surface, other, {true, {}}), InputError);
+    CHECK_THROWS_AS(export_bids(record, no_surface, other, {true, false, {}}), InputError);
     CHECK(content_of(other).size() == 2);
 }
 

@@ -33,11 +33,13 @@ class PlainPresenter final : public Presenter {
             texts.push_back(screen.text);
         return next();
     }
+    void show_level(const LevelBar& bar) override { bars.push_back(bar); }
     FlipReport flip(AnimationFrameIndex) noexcept override { return next(); }
     bool closed() const noexcept override { return false; }
 
     std::vector<Condition> loaded;
     std::vector<std::string> texts;
+    std::vector<LevelBar> bars;
 
   private:
     FlipReport next() noexcept {
@@ -175,7 +177,8 @@ struct Sitting {
                         .log = log,
                         .witnesses = {},
                         .observer = "P1",
-                        .can_type = true},
+                        .can_type = true,
+                        .recorder = recorder},
                        fields)
             .run({});
     }
@@ -186,6 +189,7 @@ struct Sitting {
     ScriptedPanel panel{clock};
     NotingLog log;
     FieldValues fields;
+    AnswerRecorder* recorder = nullptr;
 };
 
 inline Protocol short_protocol(std::string_view more) {

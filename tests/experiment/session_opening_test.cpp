@@ -84,7 +84,7 @@ TEST_CASE("a form is filled in by keys, and says what is at fault", "[unit]") {
     // The first fault is said and gone to.
     CHECK(form.focus() == 0);
     CHECK_THAT(form.message(), Contains("«3x1»"));
-    CHECK_THAT(form.text(), Contains(form.message()) && Contains("▸ Age in years"));
+    CHECK_THAT(form.text(), Contains(form.message()) && Contains("• Age in years"));
     form.take({Key::erase, {}});
     form.take({Key::erase, {}});
     CHECK(form.values()[0] == "3");

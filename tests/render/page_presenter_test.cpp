@@ -110,3 +110,37 @@ TEST_CASE("the square for a photodiode is white at the onset and changes with ev
     presenter.load_frames({0, 0});
     CHECK(red_at(presenter.read_page(1), first) == 10);
 }
+
+TEST_CASE("a level meter stands below the text, moves, says what is wrong, and is gone with the screen",
+          "[gl]") {
+    Bench bench;
+    bench.geometry.screen_px = {1200, 800};
+    bench.geometry.image_origin_px = centred_origin_px(bench.geometry.screen_px, image_px);
+    PagePresenter presenter(*bench.context, bench.display, bench.pages, bench.geometry, bench.settings,
+                            bench.screens);
+    const auto brighter = [&](int first_row, int end_row) {
+        const auto canvas = presenter.read_canvas();
+        long count = 0;
+        for (std::size_t i = static_cast<std::size_t>(first_row) * 1200;
+             i < static_cast<std::size_t>(end_row) * 1200; ++i)
+            count += std::to_integer<int>(canvas[i * 4]) > 40;
+        return count;
+    };
+    presenter.show({Screen::Kind::text, "Please answer now."});
+    const long text = brighter(0, 740);
+    CHECK(text > 100);
+    CHECK(brighter(740, 800) == 0);
+    presenter.show_level({0.2, 0.3, ""});
+    const long quiet = brighter(740, 800);
+    CHECK(quiet > 100);
+    presenter.show_level({0.8, 0.9, ""});
+    const long loud = brighter(740, 800);
+    CHECK(loud > quiet + 500);
+    presenter.show_level({0.8, 0.9, "too loud"});
+    CHECK(brighter(740, 800) > loud + 20);
+    presenter.show_level({0.2, 0.3, ""});
+    CHECK(brighter(740, 800) == quiet);
+    CHECK(brighter(0, 740) == text);
+    presenter.show({Screen::Kind::text, "Please answer now."});
+    CHECK(brighter(740, 800) == 0);
+}

@@ -175,3 +175,20 @@ TEST_CASE("the presenter shows consents and forms longer than its screen within 
         CHECK(inked > 10);
     }
 }
+
+TEST_CASE("a form begins at the same place whatever stands in it, at the right from right to left",
+          "[unit]") {
+    ScreenGeometry geometry;
+    geometry.screen_px = {1920, 1080};
+    geometry.screen_mm = {531.0, 299.0};
+    geometry.viewing_distance_mm = 600.0;
+    const ScreenSettings screens;
+    const auto drawn = [&](const char* text) { return draw_screen_text(text, true, geometry, screens, 0.0); };
+    const LinearImage brief = drawn("Name:"), full = drawn("Name:  somebody with a very long name");
+    CHECK(brief.size_px.x == full.size_px.x);
+    CHECK(ink_of(brief).left == ink_of(full).left);
+    const LinearImage brief_hebrew = drawn("שם:"), full_hebrew = drawn("שם: שם ארוך מאוד של מישהו");
+    CHECK(brief_hebrew.size_px.x == full_hebrew.size_px.x);
+    CHECK(ink_of(brief_hebrew).right == Approx(ink_of(full_hebrew).right).margin(2));
+    CHECK(ink_of(brief_hebrew).left > full_hebrew.size_px.x / 2);
+}
