@@ -10,43 +10,13 @@
 #include "support/virtual_screen.h"
 
 // Last: it defines words.
-#include <X11/Xlib.h>
-#include <X11/keysym.h>
+#include "support/keyboard.h"
 
 using namespace overt;
 
 namespace {
 
 using Key = ResponsePress::Key;
-
-/// Presses and releases keys of a window through the server.
-class Keyboard {
-  public:
-    explicit Keyboard(const WindowContext& window)
-        : display_(static_cast<Display*>(window.native().x11_display)), window_(window.native().x11_window) {}
-
-    void type(KeySym symbol, unsigned modifiers = 0) {
-        for (const int kind : {KeyPress, KeyRelease}) {
-            XKeyEvent event{};
-            event.type = kind;
-            event.display = display_;
-            event.window = window_;
-            event.root = XDefaultRootWindow(display_);
-            event.same_screen = True;
-            event.keycode = XKeysymToKeycode(display_, symbol);
-            event.state = modifiers;
-            event.time = time_ += 50;
-            XSendEvent(display_, window_, True, kind == KeyPress ? KeyPressMask : KeyReleaseMask,
-                       reinterpret_cast<XEvent*>(&event));
-        }
-        XSync(display_, False);
-    }
-
-  private:
-    Display* display_;
-    Window window_;
-    Time time_ = 1000;
-};
 
 std::vector<Key> keys_of(ResponsePanel& panel) {
     std::vector<Key> keys;
@@ -60,7 +30,7 @@ struct Desk {
     SteadyClock clock;
     OperatorSettings operators;
     ConsentSettings consent;
-    Keyboard keyboard{window};
+    test::Keyboard keyboard{static_cast<Display*>(window.native().x11_display), window.native().x11_window};
     WindowResponsePanel panel() { return {window, clock, operators, consent}; }
 };
 
@@ -76,7 +46,7 @@ TEST_CASE("keys of a window mean what is waited for", "[gl]") {
     desk.operators.repeat = "r";
     desk.consent.accept_key = "j";
     WindowResponsePanel panel = desk.panel();
-    Keyboard& keyboard = desk.keyboard;
+    test::Keyboard& keyboard = desk.keyboard;
 
     panel.await_key({});
     for (const KeySym symbol : {XK_space, XK_Return, XK_Left, XK_BackSpace, XK_F5, XK_r, XK_q, XK_Escape})

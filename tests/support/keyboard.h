@@ -1,0 +1,68 @@
+/// Keys that are pressed on a window through the X server, as a keyboard's; also on another program's window.
+#pragma once
+
+#include <chrono>
+#include <string_view>
+#include <thread>
+
+// To be included last: Xlib defines words.
+#include <X11/Xlib.h>
+#include <X11/Xutil.h>
+#include <X11/keysym.h>
+#undef Status
+
+namespace overt::test {
+
+class Keyboard {
+  public:
+    Keyboard(Display* display, Window window) : display_(display), window_(window) {}
+
+    /// Presses and releases a key.
+    void type(KeySym symbol, unsigned modifiers = 0) {
+        for (const int kind : {KeyPress, KeyRelease}) {
+            XKeyEvent event{};
+            event.type = kind;
+            event.display = display_;
+            event.window = window_;
+            event.root = XDefaultRootWindow(display_);
+            event.same_screen = True;
+            event.keycode = XKeysymToKeycode(display_, symbol);
+            event.state = modifiers;
+            event.time = time_ += 50;
+            XSendEvent(display_, window_, True, kind == KeyPress ? KeyPressMask : KeyReleaseMask,
+                       reinterpret_cast<XEvent*>(&event));
+        }
+        XSync(display_, False);
+    }
+
+  private:
+    Display* display_;
+    Window window_;
+    Time time_ = 1000;
+};
+
+/// The first window of a size on the screen, once somebody has opened one; 0 if nobody does for half a
+/// minute.
+inline Window await_window(Display* display) {
+    for (int i = 0; i < 600; ++i) {
+        Window root = 0, parent = 0, found = 0;
+        Window* children = nullptr;
+        unsigned count = 0;
+        XQueryTree(display, XDefaultRootWindow(display), &root, &parent, &children, &count);
+        for (unsigned n = 0; n < count; ++n) {
+            XWindowAttributes look{};
+            // Helpers of a driver are a pixel large, or not to be seen.
+            if (XGetWindowAttributes(display, children[n], &look) != 0 && look.map_state == IsViewable &&
+                look.width > 100 && look.c_class == InputOutput)
+                found = children[n];
+        }
+        if (children)
+            XFree(children);
+        if (found != 0)
+            return found;
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return 0;
+}
+
+} // namespace overt::test
