@@ -20,6 +20,7 @@
 #include "experiment/record/session_schema.h"
 #include "experiment/record/table_export.h"
 #include "experiment/record/timing_report.h"
+#include "experiment/record/verification.h"
 #include "experiment/scratch_folder.h"
 
 namespace overt::fuzz {
@@ -87,6 +88,7 @@ inline void take_session(std::string_view bytes) {
     const ScratchFolder folder("overt-fuzz");
     try {
         put(folder, session_file_name, bytes);
+        verify_session(folder.path());
         export_all(folder.path(), folder.path() / "out");
     } catch (const Error&) {
     }
