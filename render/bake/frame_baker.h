@@ -14,7 +14,7 @@
 namespace overt {
 
 /// Changes whenever the same inputs would give other light: part of the key under which frames are kept.
-constexpr int frame_baker_version = 1;
+constexpr int frame_baker_version = 2;
 
 /// Told now and then which share of a frame is done, 0 … 1, by one thread at a time; answers whether to go
 /// on.

@@ -10,6 +10,20 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
+/// A place in the unit square to one in the unit disc, evenly and without tearing neighbours apart, so that
+/// what is spread evenly stays so (Shirley and Chiu 1997, "A low distortion map between disk and square").
+glm::vec2 disc_place(glm::vec2 place) {
+    const float a = 2.0f * place.x - 1.0f, b = 2.0f * place.y - 1.0f;
+    if (std::abs(a) > std::abs(b)) {
+        const float turn = 0.25f * pi * (b / a);
+        return {a * std::cos(turn), a * std::sin(turn)};
+    }
+    if (b == 0.0f)
+        return {0.0f, 0.0f};
+    const float turn = 0.25f * pi * (a / b);
+    return {b * std::sin(turn), b * std::cos(turn)};
+}
+
 } // namespace
 
 NormalFrame::NormalFrame(glm::vec3 of_normal) : normal(of_normal) {
@@ -45,18 +59,17 @@ glm::vec3 ggx_visible_normal(glm::vec3 towards_eye, float alpha, glm::vec2 place
     const glm::vec3 right =
         across > 0.0f ? glm::vec3(-eye.y, eye.x, 0.0f) / std::sqrt(across) : glm::vec3(1, 0, 0);
     const glm::vec3 up = glm::cross(eye, right);
-    const float radius = std::sqrt(place.x), turn = 2.0f * pi * place.y;
-    const float x = radius * std::cos(turn);
+    const glm::vec2 disc = disc_place(place);
+    const float x = disc.x;
     const float share = 0.5f * (1.0f + eye.z);
-    const float y =
-        (1.0f - share) * std::sqrt(std::max(0.0f, 1.0f - x * x)) + share * radius * std::sin(turn);
+    const float y = (1.0f - share) * std::sqrt(std::max(0.0f, 1.0f - x * x)) + share * disc.y;
     const glm::vec3 normal = x * right + y * up + std::sqrt(std::max(0.0f, 1.0f - x * x - y * y)) * eye;
     return glm::normalize(glm::vec3(alpha * normal.x, alpha * normal.y, std::max(1e-6f, normal.z)));
 }
 
 glm::vec3 cosine_direction(glm::vec2 place) {
-    const float radius = std::sqrt(place.x), turn = 2.0f * pi * place.y;
-    return {radius * std::cos(turn), radius * std::sin(turn), std::sqrt(std::max(0.0f, 1.0f - place.x))};
+    const glm::vec2 disc = disc_place(place);
+    return {disc.x, disc.y, std::sqrt(std::max(0.0f, 1.0f - glm::dot(disc, disc)))};
 }
 
 } // namespace overt

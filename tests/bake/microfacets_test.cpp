@@ -82,6 +82,23 @@ TEST_CASE("visible normals are drawn with their density: mean and spread agree w
     }
 }
 
+TEST_CASE("diffuse directions lie as densely as their cosine", "[unit]") {
+    RandomStream random(2, "diffuse directions");
+    constexpr int count = 40000;
+    glm::dvec3 mean(0.0), squares(0.0);
+    for (int i = 0; i < count; ++i) {
+        const glm::vec3 direction =
+            cosine_direction({static_cast<float>(random.uniform()), static_cast<float>(random.uniform())});
+        CHECK(std::abs(glm::length(direction) - 1.0f) < 1e-5f);
+        mean += glm::dvec3(direction) / double{count};
+        squares += glm::dvec3(direction) * glm::dvec3(direction) / double{count};
+    }
+    // Integrals of z^2 / pi and z^3 / pi over the hemisphere; what is left of a unit vector is shared by x,
+    // y.
+    CHECK(glm::length(mean - glm::dvec3(0.0, 0.0, 2.0 / 3.0)) < 0.01);
+    CHECK(glm::length(squares - glm::dvec3(0.25, 0.25, 0.5)) < 0.01);
+}
+
 TEST_CASE("no sample of a rough surface carries more than it got", "[unit]") {
     RandomStream random(9, "rough samples");
     for (int i = 0; i < 20000; ++i) {
