@@ -72,7 +72,7 @@ std::string to_text(const std::vector<StimulusLight>& stimuli) {
             text += fmt::format(" {:>7.3f}", 100.0 * light.clipped.share_below(channel));
         text += fmt::format("  {:>10.3f}\n", 100.0 * light.worst_page);
     }
-    return text + "  It is clipped to 0 and 1, channel by channel; [light] exposure scales all of it.\n";
+    return text + "  It is clipped to 0 and 1, channel by channel; exposure of [light], or of [[frames]], scales all of it.\n";
 }
 
 nlohmann::ordered_json to_json(const std::vector<StimulusLight>& stimuli) {

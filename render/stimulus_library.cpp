@@ -258,7 +258,7 @@ LinearImage StimulusLibrary::page(const Condition& condition, int page) const {
 const LinearImage& StimulusLibrary::read_page(const Condition& condition, int page, LinearImage& room) const {
     if (const FrameSequenceSettings* sequence = sequence_of(condition)) {
         read_linear_image(frame_file(*sequence, {page}), sequence->encoding, room);
-        transform(room, display_from(colours_of(*sequence), protocol_->display));
+        transform(room, sequence->exposure * display_from(colours_of(*sequence), protocol_->display));
         return room;
     }
     const FrameGrade& grade = grades_[index_of(condition)];
@@ -285,6 +285,8 @@ ContentHash StimulusLibrary::frames_hash(const Condition& condition) const {
         for (int frame = 0; frame < protocol_->animation.frame_count; ++frame) {
             hasher.add(std::string_view(hash_of_file(frame_file(*sequence, {frame}))));
         }
+        if (sequence->exposure != 1.0)
+            hasher.add(sequence->exposure);
         if (sequence->colour_space == FrameColours::display)
             return hasher.finish();
         hasher.add(static_cast<int>(sequence->colour_space));

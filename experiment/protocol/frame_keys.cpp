@@ -87,6 +87,11 @@ Section<FrameSequenceSettings> frames() {
                                  "characterisation; without one, the display is taken to have the primaries "
                                  "of Rec. 709."},
                  &F::colour_space},
+                {{.name = "exposure",
+                  .low = 1e-6,
+                  .high = 1e6,
+                  .explanation = "Factor on the light of the pictures; that of `[light]` is not for them."},
+                 &F::exposure},
                 {{.name = "background_colour",
                   .low = 0,
                   .high = 1,

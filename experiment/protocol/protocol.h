@@ -234,6 +234,7 @@ struct FrameSequenceSettings {
     int first_number = 0; ///< number of animation frame 0
     FrameEncoding encoding = FrameEncoding::linear;
     FrameColours colour_space = FrameColours::display;
+    double exposure = 1.0; ///< factor on their light; that of [light] is not for them
     /// Of files without alpha: the colour, as it stands in them, that is not the object.
     std::optional<glm::dvec3> background_colour;
     double background_tolerance = 0.004; ///< largest difference from it, in each channel

@@ -43,6 +43,8 @@ TEST_CASE("exported frames, given back as ready-made ones, are the same light", 
         light_of("b.toml", frames + "files = \"display/bust_smooth/frame_####.exr\"\n");
     const LinearImage xyz =
         light_of("c.toml", frames + "files = \"xyz/bust_smooth/frame_####.exr\"\ncolour_space = \"xyz\"\n");
+    const LinearImage doubled = light_of(
+        "d.toml", frames + "files = \"display/bust_smooth/frame_####.exr\"\nexposure = 2\n");
     float brightest = 0.0f;
     for (std::size_t i = 0; i < rendered.pixels.size(); ++i) {
         const glm::vec4& pixel = rendered.pixels[i];
@@ -53,6 +55,8 @@ TEST_CASE("exported frames, given back as ready-made ones, are the same light", 
             CHECK(glm::distance(glm::vec3(other), glm::vec3(pixel)) < 0.004f * largest);
             CHECK(std::abs(other.w - pixel.w) < 0.0006f);
         }
+        const glm::vec4 &once = display.pixels[i], &twice = doubled.pixels[i];
+        CHECK(twice == glm::vec4(2.0f * glm::vec3(once), once.w));
     }
     CHECK(brightest > 0.1f);
 }
