@@ -77,7 +77,7 @@ void add_characterise(CLI::App& display, ChosenCommand& chosen) {
     command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
     command.add_option("--monitor", options.monitor, "The screen to take, as `overt doctor` numbers them")
         ->type_name("N")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     add_context_option(command, options.context);
     command.add_flag("--force", options.force, "Replace files that are there");
     command.add_flag("--json", options.json, "Print JSON");
@@ -184,7 +184,7 @@ void add_verify(CLI::App& display, ChosenCommand& chosen) {
                     "The screen behind the box, as `overt doctor` numbers them (default: 1)")
         ->needs(&on_hardware_flag)
         ->type_name("N")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     for (const char* other : {"PROTOCOL", "--stimulus", "--mode", "--context"})
         on_hardware_flag.excludes(command.get_option(other));
     run_when_chosen(command, chosen, [given] {

@@ -1,6 +1,9 @@
 #include "app/command_line_groups.h"
 
+#include <cmath>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace overt {
 
@@ -17,7 +20,26 @@ const std::map<std::string, BakeQuality> qualities{{"live", BakeQuality::live},
                                                    {"standard", BakeQuality::standard},
                                                    {"reference", BakeQuality::reference}};
 
+/// CLI11's own checks of these name the largest double there is.
+CLI::Validator number_check(const char* name, const char* wish, bool (*holds)(double)) {
+    return {[=](const std::string& given) {
+                double value = 0.0;
+                const bool is_good =
+                    CLI::detail::lexical_cast(given, value) && std::isfinite(value) && holds(value);
+                return is_good ? std::string() : fmt::format("'{}' is not a number {}", given, wish);
+            },
+            name};
+}
+
 } // namespace
+
+CLI::Validator above_zero() {
+    return number_check("POSITIVE", "above 0", [](double value) { return value > 0.0; });
+}
+
+CLI::Validator not_negative() {
+    return number_check("NONNEGATIVE", "of 0 or above", [](double value) { return value >= 0.0; });
+}
 
 CLI::Option* add_quality_option(CLI::App& command, std::optional<BakeQuality>& quality,
                                 const std::string& what, const std::vector<std::string>& names) {

@@ -32,6 +32,10 @@ CLI::App& add_command(CLI::App& app, const std::string& name, const std::string&
 /// `run` is what `command` does.
 void run_when_chosen(CLI::App& command, ChosenCommand& chosen, ChosenCommand run);
 
+/// Checks for numbers, finite ones: above 0; 0 or above.
+CLI::Validator above_zero();
+CLI::Validator not_negative();
+
 /// --context
 void add_context_option(CLI::App& command, ContextChoice& context);
 

@@ -24,7 +24,7 @@ void add_doctor(CLI::App& app, ChosenCommand& chosen) {
     command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
     command.add_option("--monitor", options.monitor, "The screen to take, as this command numbers them")
         ->type_name("N")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     command.add_option("--seconds", options.seconds, "How long to measure")
         ->type_name("SECONDS")
         ->check(CLI::Range(0.1, 3600.0))

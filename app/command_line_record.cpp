@@ -71,7 +71,7 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
     command
         .add_option("--session", options.session_number, "Number of the session (default: the next free one)")
         ->type_name("N")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     command.add_option("--task", options.task, "Name for what was done")
         ->type_name("NAME")
         ->capture_default_str();
@@ -80,12 +80,12 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
                     "Width and height of the screen's picture, where the file does not say it")
         ->expected(2)
         ->type_name("W H")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     command
         .add_option("--distance-mm", options.distance_mm,
                     "From the eyes to the screen, where the file does not say it")
         ->type_name("MM")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     command
         .add_option("--print-session-to", options.print_session_to,
                     "Write the new session's path into a file")
@@ -116,7 +116,7 @@ void add_show(CLI::App& app, ChosenCommand& chosen) {
     command.add_option("SESSION", options.session, "Folder of a session")->required();
     command.add_option("--trial", options.trial, "Trial for --picture, counted from 1 (default: the first)")
         ->type_name("N")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     command
         .add_option("--picture", options.picture,
                     "Write a PNG: a frame, its map, and the gaze on the surface")

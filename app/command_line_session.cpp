@@ -57,7 +57,7 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
         .add_option("--session", options.session_number,
                     "Number of this sitting (default: the next free one)")
         ->type_name("N")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     command
         .add_option_function<std::string>(
             "--resume",
@@ -106,13 +106,13 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
                     "The screen to take, as `overt doctor` numbers them (default: the first that has the "
                     "protocol's resolution)")
         ->type_name("N")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     command.add_option("--sessions", options.sessions, "Folder for sessions")
         ->type_name("DIR")
         ->capture_default_str();
     command.add_option("--trials", options.trials, "Only the first N trials, for a rehearsal")
         ->type_name("N")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     command
         .add_option("--print-session-to", options.print_session_to,
                     "Write the session's path to this file, for scripts")
@@ -137,7 +137,7 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
                      "Ask for real-time priority and locked memory; goes on if they are refused");
     command.add_option("--pin", options.processor, "Run the session's thread on this processor only")
         ->type_name("CPU")
-        ->check(CLI::NonNegativeNumber);
+        ->check(not_negative());
     command
         .add_option("--refresh-check", options.refresh_check_s,
                     "How long the refresh of a real screen is measured before the session; less for a "

@@ -16,7 +16,7 @@ void add_play(CLI::App& app, ChosenCommand& chosen) {
         ->type_name("ID");
     command.add_option("--frame", options.frame, "Animation frame for --picture (default: 0)")
         ->type_name("K")
-        ->check(CLI::NonNegativeNumber);
+        ->check(not_negative());
     command.add_option("--picture", options.picture, "Write a PNG instead of opening a window")
         ->type_name("FILE");
     command.add_option("--duration", options.repeat_s, "How long to play")
@@ -147,7 +147,7 @@ void add_reconstruct(CLI::App& app, ChosenCommand& chosen) {
             "Keep one point in each cube of this size, in the unit of the mesh (default: the distance "
             "of neighbouring pixels)")
         ->type_name("SIZE")
-        ->check(CLI::NonNegativeNumber);
+        ->check(not_negative());
     command.add_option("--out", options.out, "File to write: .ply or .obj")->required()->type_name("FILE");
     command.add_flag("--overwrite", options.overwrite, "Replace a file that is there");
     add_context_option(command, options.context);

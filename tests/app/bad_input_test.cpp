@@ -215,6 +215,23 @@ TEST_CASE("observers, sessions and folders that cannot be are refused before any
     CHECK_FALSE(std::filesystem::exists(experiment.cache() / "frames"));
 }
 
+TEST_CASE("a number on the command line that cannot be is refused with its option", "[session]") {
+    const SmallExperiment experiment;
+    const std::string protocol = experiment.protocol().string();
+    const auto refused = [&](const std::vector<std::string>& line, const std::vector<std::string>& words) {
+        check_says(experiment.overt(line), 2, words);
+    };
+    refused({"import", protocol, "--screen-mm", "532x300", "300"},
+            {"--screen-mm: '532x300' is not a number above 0"});
+    refused({"import", protocol, "--distance-mm", "inf"}, {"--distance-mm: 'inf' is not a number above 0"});
+    refused({"run", protocol, "--observer", "P01", "--session", "0"},
+            {"--session: '0' is not a number above 0"});
+    refused({"run", protocol, "--observer", "P01", "--pin", "-1"},
+            {"--pin: '-1' is not a number of 0 or above"});
+    refused({"run", protocol, "--observer", "P01", "--seed", "many"}, {"--seed", "many"});
+    CHECK_FALSE(std::filesystem::exists(experiment.sessions()));
+}
+
 TEST_CASE("a stimulus that there is not is refused with those there are", "[session]") {
     const SmallExperiment experiment;
     const auto play = [&](const std::string& stimulus, const std::string& frame) {
