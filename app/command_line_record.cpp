@@ -16,9 +16,9 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
     command
         .add_option(
             "--format", options.format,
-            "tsv, csv: tables with a dictionary of their columns; bids: a BIDS dataset that all sessions "
-            "join; asc: as EyeLink's edf2asc writes recordings")
-        ->check(CLI::IsMember({"tsv", "csv", "bids", "asc"}))
+            "tsv, csv, jsonl: tables with a dictionary of their columns; bids: a BIDS dataset that all "
+            "sessions join; asc: as EyeLink's edf2asc writes recordings")
+        ->check(CLI::IsMember({"tsv", "csv", "jsonl", "bids", "asc"}))
         ->capture_default_str();
     command
         .add_option(

@@ -28,7 +28,9 @@ void export_as_tables(const ExportOptions& options, const SessionRecord& record)
     RecordedSurfaces surfaces(record);
     ProgressBar bar;
     TableExportOptions tables;
-    tables.format = options.format == "csv" ? TableFormat::csv : TableFormat::tsv;
+    tables.format = options.format == "csv"     ? TableFormat::csv
+                    : options.format == "jsonl" ? TableFormat::jsonl
+                                                : TableFormat::tsv;
     tables.overwrite = options.overwrite;
     if (options.cone_deg)
         tables.cone_accuracy = Degrees{*options.cone_deg};

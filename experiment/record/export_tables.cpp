@@ -245,6 +245,20 @@ Table display_box_table() {
          {"clock_drift_uncertainty_ppm", "Bound on the error of clock_drift_ppm", "ppm", {}}}};
 }
 
+std::string_view description_of(TableFormat format) {
+    switch (format) {
+    case TableFormat::tsv:
+        return "Tab-separated tables in UTF-8. Missing values are n/a. In texts, tab, newline, "
+               "carriage return and backslash are written as \\t, \\n, \\r and \\\\.";
+    case TableFormat::csv:
+        return "Comma-separated tables in UTF-8. Missing values are n/a. Texts with commas, quotes, line "
+               "breaks or blanks at their ends stand in quotes, quotes in them doubled (RFC 4180).";
+    case TableFormat::jsonl:
+        break;
+    }
+    return "Tables in UTF-8, a JSON object in each line for each row. Missing values are null.";
+}
+
 } // namespace
 
 std::vector<TableColumn> time_columns() {
@@ -310,7 +324,7 @@ nlohmann::ordered_json describe_columns(const std::vector<TableColumn>& columns,
         entry["Description"] = column.meaning;
         if (!column.unit.empty())
             entry["Units"] = column.unit;
-        // Quotes of a csv are no part of the value.
+        // The quotes of a csv and of JSON are no part of the value.
         for (const auto& [value, meaning] : column.levels)
             entry["Levels"][format == TableFormat::tsv ? text_cell(value, format) : value] = meaning;
     }
@@ -319,12 +333,7 @@ nlohmann::ordered_json describe_columns(const std::vector<TableColumn>& columns,
 
 std::string table_dictionary(const ExportTables& tables, TableFormat format) {
     nlohmann::ordered_json dictionary;
-    dictionary["Description"] =
-        format == TableFormat::tsv
-            ? "Tab-separated tables in UTF-8. Missing values are n/a. In texts, tab, newline, "
-              "carriage return and backslash are written as \\t, \\n, \\r and \\\\."
-            : "Comma-separated tables in UTF-8. Missing values are n/a. Texts with commas, quotes, line "
-              "breaks or blanks at their ends stand in quotes, quotes in them doubled (RFC 4180).";
+    dictionary["Description"] = std::string(description_of(format));
     for (const Table* table : tables.all())
         dictionary["Files"][fmt::format("{}.{}", table->name, ending_of(format))] = {
             {"Description", table->description}, {"Columns", describe_columns(table->columns, format)}};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
 
 #include "experiment/parallel.h"
 
@@ -34,10 +33,10 @@ SampleCounts SampleRows::write(const TrialRecord& trial, const SurfaceLookup* lo
 void SampleRows::write_piece(std::span<const GazeSample> samples, const TrialRecord& trial,
                              const SampleJoin& join, const SurfaceLookup* lookup) {
     const Condition condition = trial.trial.condition;
-    const PreparedCells trial_cells = prepare_cells(
-        {fmt::format("{}", trial.trial.index + 1), item(header_.tasks, trial.trial.task).id,
-         item(header_.sculptures, condition.sculpture).id, item(header_.materials, condition.material).id},
-        row_.format());
+    const PreparedCells trial_cells = prepare_cells({item(header_.tasks, trial.trial.task).id,
+                                                     item(header_.sculptures, condition.sculpture).id,
+                                                     item(header_.materials, condition.material).id},
+                                                    row_.format());
     const JoinedCells cells(header_, condition.sculpture, row_.format());
     joined_.resize(samples.size());
     join.join(samples, joined_);
@@ -47,7 +46,7 @@ void SampleRows::write_piece(std::span<const GazeSample> samples, const TrialRec
             cone_shares(*lookup, samples, item(header_.sculptures, condition.sculpture).part_names.size());
 
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        row_.prepared(trial_cells);
+        row_.integer(trial.trial.index + 1).prepared(trial_cells);
         cells.time(row_, joined_[i]);
         write_gaze(samples[i]);
         cells.place(row_, joined_[i]);

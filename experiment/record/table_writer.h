@@ -28,14 +28,15 @@ struct Table {
     std::vector<TableColumn> columns;
 };
 
-/// How cells become lines. In both, lines end with a newline, missing values and empty texts are n/a.
+/// How cells become lines, each with a newline at its end. Missing values and empty texts are n/a or null.
 enum class TableFormat : std::uint8_t {
-    tsv, ///< tabs between cells; in texts tab, newline, carriage return and backslash become \t, \n, \r and
-         ///< \\.
-    csv, ///< commas between cells; texts with a comma, quote or line break stand in quotes (RFC 4180)
+    tsv,   ///< tabs between cells; in texts tab, newline, carriage return and backslash become \t, \n, \r and
+           ///< \\.
+    csv,   ///< commas between cells; texts with a comma, quote or line break stand in quotes (RFC 4180)
+    jsonl, ///< each row a JSON object with the columns' names; numbers are numbers
 };
 
-/// What file names end with: "tsv" or "csv".
+/// What file names end with: "tsv", "csv" or "jsonl".
 std::string_view ending_of(TableFormat format);
 
 /// A text as a cell.
@@ -43,8 +44,8 @@ std::string text_cell(std::string_view text, TableFormat format);
 
 /// Cells that are the same in many rows, made once.
 struct PreparedCells {
-    std::string text;
-    int count = 0;
+    std::string text;              ///< with what separates them
+    std::vector<std::size_t> ends; ///< of each cell, in text
 };
 PreparedCells prepare_cells(std::initializer_list<std::string_view> texts, TableFormat format);
 
@@ -53,7 +54,8 @@ class TableWriter {
   public:
     enum class Header : std::uint8_t { names, none };
 
-    /// Makes NAME.tsv or NAME.csv and writes the line of column names. Throws RecordError.
+    /// Makes the table's NAME with the format's ending, and the line of column names where the format has
+    /// one. Throws RecordError.
     TableWriter(const std::filesystem::path& directory, const Table& table, TableFormat format);
 
     /// Makes a file of any name. Throws RecordError.
@@ -62,10 +64,10 @@ class TableWriter {
 
     TableWriter& text(std::string_view text);
     TableWriter& prepared(const PreparedCells& cells);
-    /// A word that needs no quoting in any format.
+    /// A word that needs no escaping in any format.
     TableWriter& word(std::string_view word);
     TableWriter& integer(std::int64_t number);
-    /// With that many decimals (0 … 9), half away from zero; n/a if it is no finite number.
+    /// With that many decimals (0 … 9), half away from zero; missing if it is no finite number.
     TableWriter& fixed(double number, int decimals);
     /// Seconds with nine decimals: each nanosecond is kept.
     TableWriter& seconds(SessionDuration duration);
@@ -83,13 +85,13 @@ class TableWriter {
     void close() { file_.close(); }
 
   private:
+    /// The file's text, with all that stands before the cell.
     std::string& begin_cell();
 
     OutputFile file_;
     TableFormat format_;
-    char separator_;
-    int columns_;
-    int cells_ = 0; ///< in the row so far
+    std::vector<std::string> before_; ///< what stands before the cell of each column
+    std::size_t cells_ = 0;           ///< in the row so far
     std::int64_t rows_ = 0;
 };
 

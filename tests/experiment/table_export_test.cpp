@@ -279,11 +279,29 @@ std::vector<std::vector<std::string>> comma_separated(const std::string& text) {
     return rows;
 }
 
-TEST_CASE("comma-separated tables hold the same cells as tab-separated ones, with their texts as they were",
+/// Whether a row of the table is this JSON object. A column holds numbers or texts in all rows alike.
+void check_is_row(const nlohmann::ordered_json& object, const std::vector<std::string>& names,
+                  const std::vector<std::string>& cells, std::map<std::string, bool>& holds_numbers) {
+    REQUIRE(object.size() == names.size());
+    std::size_t column = 0;
+    for (const auto& [name, value] : object.items()) {
+        CAPTURE(name, value, cells[column]);
+        REQUIRE(name == names[column]);
+        const std::string& cell = cells[column++];
+        REQUIRE(value.is_null() == (cell == "n/a"));
+        if (value.is_null())
+            continue;
+        REQUIRE(holds_numbers.try_emplace(name, value.is_number()).first->second == value.is_number());
+        REQUIRE((value.is_number() ? value.get<double>() == std::stod(cell) : value == cell));
+    }
+}
+
+TEST_CASE("commas and JSON hold the same cells as tab-separated tables, with their texts as they were",
           "[unit]") {
     const Recorded recorded({20});
     const SessionRecord record(recorded.session);
     export_tables(record, bust_only, recorded.root.path() / "tsv");
+    export_tables(record, bust_only, recorded.root.path() / "jsonl", {TableFormat::jsonl, false, {}, {}});
     const auto counts =
         export_tables(record, bust_only, recorded.root.path() / "csv", {TableFormat::csv, false, {}, {}});
     const auto unescaped = [](std::string cell) {
@@ -293,6 +311,7 @@ TEST_CASE("comma-separated tables hold the same cells as tab-separated ones, wit
         return cell;
     };
     std::int64_t rows = 0, quoted = 0;
+    std::map<std::string, bool> holds_numbers; // by column, in all tables alike
     for (const char* name : {"trials", "flips", "samples", "events", "responses", "stimuli", "display_box"}) {
         auto expected = table(recorded.root.path() / "tsv" / (std::string(name) + ".tsv"));
         for (auto& row : expected)
@@ -302,8 +321,18 @@ TEST_CASE("comma-separated tables hold the same cells as tab-separated ones, wit
         quoted += text.find('"') != std::string::npos;
         REQUIRE(comma_separated(text) == expected);
         rows += static_cast<std::int64_t>(expected.size()) - 1;
+        std::istringstream objects(text_of(recorded.root.path() / "jsonl" / (std::string(name) + ".jsonl")));
+        std::size_t row = 1;
+        for (std::string line; std::getline(objects, line); ++row) {
+            REQUIRE(row < expected.size());
+            check_is_row(nlohmann::ordered_json::parse(line), expected[0], expected[row], holds_numbers);
+        }
+        CHECK(row == expected.size());
     }
     CHECK(quoted > 0);
+    for (const char* column : {"trial", "attempt", "refresh", "time_s", "x_px", "surface_z", "planned_frame"})
+        CHECK(holds_numbers.at(column));
+    CHECK_FALSE(holds_numbers.at("task"));
     CHECK(counts.rows == rows);
     const auto dictionary = nlohmann::json::parse(text_of(recorded.root.path() / "csv" / "dictionary.json"));
     CHECK(dictionary["Files"].contains("samples.csv"));
