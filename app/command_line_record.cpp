@@ -97,11 +97,13 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
 void add_verify(CLI::App& app, ChosenCommand& chosen) {
     const auto given = std::make_shared<VerifyOptions>();
     VerifyOptions& options = *given;
-    CLI::App& command = add_command(
-        app, "verify", "Whether sessions on disk are what was recorded, and where they are not",
-        "overt verify sessions/overt_2019/sub-*\n"
-        "  overt verify sessions/overt_2019/sub-07_ses-01 --json\n"
-        "Exit codes: 0 all are sound (an interrupted one, too), 1 one is damaged, 2 one is no session.");
+    CLI::App& command =
+        add_command(app, "verify", "Whether sessions on disk are what was recorded, and where they are not",
+                    "overt verify sessions/overt_2019/sub-*\n"
+                    "  overt verify sessions/overt_2019/sub-07_ses-01 --json\n"
+                    "Exit codes: 0 all are sound (an interrupted one, too), 1 one is damaged, 2 one is no "
+                    "session, or of a "
+                    "newer overt.");
     command.add_option("SESSION", options.sessions, "Folders of sessions")->required();
     command.add_flag("--json", options.json, "Print JSON");
     run_when_chosen(command, chosen, [given] { return run_verify(*given); });

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
+#include "app/interruption.h"
 #include "app/progress_bar.h"
 #include "app/recorded_surface.h"
 #include "experiment/record/asc_export.h"
@@ -21,6 +22,7 @@ std::filesystem::path folder_of(const ExportOptions& options, const SessionRecor
 std::function<void(int, int)> progress_on(ProgressBar& bar, const SessionRecord& record) {
     return [&bar, title = "exporting " + record.directory().filename().string()](int done, int all) {
         bar.update(title, done, all);
+        Interruption::check("The export");
     };
 }
 
@@ -79,6 +81,7 @@ void export_as_bids(const ExportOptions& options, const SessionRecord& record) {
 } // namespace
 
 int run_export(const ExportOptions& options) {
+    const Interruption interruption;
     for (const std::filesystem::path& session : options.sessions) {
         const SessionRecord record(session);
         if (options.format == "asc")

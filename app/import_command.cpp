@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/interruption.h"
 #include "app/progress_bar.h"
 #include "app/session_recording.h"
 #include "build_info.h"
@@ -43,7 +44,9 @@ nlohmann::ordered_json to_json(const AscImportSummary& summary) {
 void print(const AscImportSummary& summary) {
     const AscSurvey& survey = summary.survey;
     if (survey.skipped_lines > shown_lines)
-        fmt::print(stderr, "… and {} lines more\n", survey.skipped_lines - shown_lines);
+        fmt::print(stderr,
+                   "… and {} lines more: all are events («line left out») in the session and its tables\n",
+                   survey.skipped_lines - shown_lines);
     for (const std::string& remark : summary.remarks)
         fmt::print("{}\n", remark);
     fmt::print(
@@ -56,6 +59,7 @@ void print(const AscImportSummary& summary) {
 } // namespace
 
 int run_import(const ImportOptions& options) {
+    const Interruption interruption;
     ProgressBar bar;
     int reported = 0;
     AscImportOptions request;
@@ -74,8 +78,9 @@ int run_import(const ImportOptions& options) {
     };
     request.progress = [&](std::int64_t done, std::int64_t all) {
         constexpr std::int64_t kilobyte = 1024;
-        bar.update("importing " + options.file.filename().string(), static_cast<int>(done / kilobyte),
-                   static_cast<int>(all / kilobyte));
+        bar.update("importing " + options.file.filename().string() + ", kB",
+                   static_cast<int>(done / kilobyte), static_cast<int>(all / kilobyte));
+        Interruption::check("The import");
     };
     const AscImportSummary summary = options.into.empty()
                                          ? import_asc(options.file, request)

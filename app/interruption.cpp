@@ -1,5 +1,9 @@
 #include "app/interruption.h"
 
+#include <fmt/format.h>
+
+#include "experiment/error.h"
+
 namespace overt {
 namespace {
 
@@ -36,5 +40,10 @@ Interruption::~Interruption() {
 }
 
 const std::atomic<bool>& Interruption::requested() noexcept { return interrupted; }
+
+void Interruption::check(std::string_view what) {
+    if (requested())
+        throw Error(fmt::format("{} was interrupted: nothing of it is left.", what));
+}
 
 } // namespace overt

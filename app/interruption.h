@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <string_view>
 
 namespace overt {
 
@@ -19,6 +20,9 @@ class Interruption {
 
     /// Set once a signal came, by its handler.
     static const std::atomic<bool>& requested() noexcept;
+
+    /// Throws Error if a signal came: «`what` was interrupted: nothing was written.»
+    static void check(std::string_view what);
 
   private:
     std::array<struct sigaction, 3> before_{};

@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -9,6 +10,9 @@
 #include "experiment/error.h"
 
 int main(int argc, char** argv) {
+    // A file that may not grow any more is then an error like a full disk, which is told and leaves what is
+    // recorded in order, instead of the end of the program.
+    std::signal(SIGXFSZ, SIG_IGN);
     // Memory of pictures and maps goes back to the system when it is freed, instead of staying with the
     // thread that used it.
     mallopt(M_MMAP_THRESHOLD, 1 << 20);

@@ -136,7 +136,7 @@ void SittingExport::write_trial(const TrialRecord& trial, AscExportCounts& count
     const auto write_instant = [&] {
         if (count == 0)
             return;
-        lines.write_until(writer_, instant[0].sampled_at);
+        lines.write_until(writer_, std::span(instant).first(count));
         writer_.samples(std::span(instant).first(count));
         count = 0;
     };

@@ -40,7 +40,7 @@ SessionHeader header_of(const fs::path& file, const AscSurvey& survey, const Asc
     const std::string model = header_line(survey, "** EYELINK II ");
     header.tracker.name = model.empty() ? "EyeLink" : "EyeLink " + model;
     header.tracker.sample_rate_hz = survey.rate_hz;
-    header.tracker.eye = survey.format.has_left ? Eye::left : Eye::right;
+    header.tracker.eye = survey.has_left ? Eye::left : Eye::right;
     ScreenGeometry& screen = header.display.screen;
     screen.screen_px = screen.image_px = survey.screen_px.value_or(usual_screen_px);
     screen.image_origin_px = {0, 0};
@@ -119,6 +119,20 @@ void add_asc_remarks(AscImportSummary& summary) {
     const auto add = [&](std::string remark) { summary.remarks.push_back(std::move(remark)); };
     if (survey.format.has_head_target)
         add("Positions of the head's target (remote mode) are not kept.");
+    if (survey.format.lowest_rate_hz < survey.format.highest_rate_hz)
+        add(fmt::format(
+            "The sampling rate changes between recordings, from {:g} to {:g} Hz: the session names "
+            "the highest.",
+            survey.format.lowest_rate_hz, survey.format.highest_rate_hz));
+    if (survey.format.has_further_numbers)
+        add(survey.format.eyes_are_known
+                ? "Samples have further numbers (velocity, resolution or input), which are not kept."
+                : "Samples have further numbers, perhaps of the other eye, which are not kept: without lines "
+                  "START and SAMPLES nobody can tell.");
+    if (survey.events_that_are_no_gaze > 0)
+        add(fmt::format("{} fixations and saccades are not in gaze coordinates (EVENTS HREF or PUPIL): they "
+                        "are kept without their places.",
+                        survey.events_that_are_no_gaze));
     if (survey.samples_that_are_no_gaze > 0)
         add(fmt::format("{} samples that were no gaze on a screen (HREF or PUPIL) are left out.",
                         survey.samples_that_are_no_gaze));
@@ -136,8 +150,8 @@ GazeSource gaze_source_of(const fs::path& file, const AscSurvey& survey) {
     source.header = survey.header;
     source.pupil_is_diameter = survey.format.pupil_is_diameter;
     source.rate_hz = survey.rate_hz;
-    source.has_left = survey.format.has_left;
-    source.has_right = survey.format.has_right || !survey.format.has_left;
+    source.has_left = survey.has_left;
+    source.has_right = survey.has_right;
     if (survey.px_per_deg) {
         source.px_per_deg_x = survey.px_per_deg->x;
         source.px_per_deg_y = survey.px_per_deg->y;
@@ -175,7 +189,7 @@ AscImportSummary import_asc(const fs::path& file, const AscImportOptions& option
         GazeRows rows(database);
         rows.source(1, gaze_source_of(file, summary.survey));
         AscRows sink(
-            rows, summary.survey.cut_by, [](int trial) { return std::optional<std::int64_t>(trial + 1); },
+            rows, 1, summary.survey.cut_by, [](int trial) { return std::optional<std::int64_t>(trial + 1); },
             [&](const AscTrialTimes& times) {
                 insert_trial(database, times, session_time);
                 ++summary.trials;

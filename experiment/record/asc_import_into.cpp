@@ -201,7 +201,7 @@ AscImportSummary import_asc_into(const fs::path& file, const fs::path& session,
         rows.source(match.sitting, gaze_source_of(file, summary.survey));
         std::vector<ClockPair> pairs;
         AscRows sink(
-            rows, AscTrialCutter::By::trial_ids,
+            rows, match.sitting, AscTrialCutter::By::trial_ids,
             [&](int trial) {
                 const auto found = match.attempt_of.find(trial);
                 return found == match.attempt_of.end() ? std::nullopt : std::optional(found->second->id);

@@ -22,9 +22,14 @@ struct Place {
     std::optional<ScreenPoint> point;
 };
 
+/// How edf2asc writes what is missing: a point, or what its -miss names, which many have be NaN.
+bool is_missing(std::string_view word) {
+    return word == "." || word == "NaN" || word == "nan" || word == "NAN";
+}
+
 Place place_of(std::string_view x, std::string_view y) {
-    if (x == "." || y == ".")
-        return {(x == "." || number_of(x)) && (y == "." || number_of(y)), std::nullopt};
+    if (is_missing(x) || is_missing(y))
+        return {(is_missing(x) || number_of(x)) && (is_missing(y) || number_of(y)), std::nullopt};
     const std::optional<double> x_px = number_of(x), y_px = number_of(y);
     if (!x_px || !y_px)
         return {};
@@ -45,29 +50,7 @@ std::size_t slot(Kind kind, Eye eye) {
     return 2 * static_cast<std::size_t>(kind) + (eye == Eye::left ? 0u : 1u);
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 } // namespace
-
-std::optional<std::int64_t> asc_time_us(std::string_view text) {
-    constexpr std::int64_t latest_ms = 900'000'000'000; // 28 years
-    std::int64_t ms = 0;
-    const char* const last = text.data() + text.size();
-    auto [end, error] = std::from_chars(text.data(), last, ms);
-    if (error != std::errc() || ms < 0 || ms > latest_ms || text.front() == '-')
-        return std::nullopt;
-    if (end == last)
-        return 1000 * ms;
-    if (*end != '.')
-        return std::nullopt;
-    std::int64_t fraction_us = 0, weight = 100;
-    for (const char* digit = end + 1; digit != last; ++digit, weight /= 10) {
-        if (!is_digit(*digit))
-            return std::nullopt;
-        fraction_us += weight * (*digit - '0');
-    }
-    return 1000 * ms + fraction_us;
-}
 
 std::string AscParser::utf8(std::string_view text) {
     if (is_utf8(text))
@@ -149,13 +132,14 @@ void AscParser::sample_line(std::string_view line) {
                                         : Eye::right;
         const std::string_view x = words.next(), y = words.next(), pupil_word = words.next();
         const Place place = place_of(x, y);
-        const std::optional<double> pupil = pupil_word == "." ? 0.0 : number_of(pupil_word);
+        const std::optional<double> pupil = is_missing(pupil_word) ? 0.0 : number_of(pupil_word);
         if (!place.is_valid || !pupil || std::abs(*pupil) > largest_pupil)
             return bad(pupil_word.empty() ? "a sample without all its values" : "a value that is no number",
                        line);
         sample.gaze = place.point;
         sample.pupil_area = place.point ? static_cast<float>(std::max(*pupil, 0.0)) : 0.0f;
     }
+    format_.has_further_numbers |= !format_.has_further_numbers && number_of(words.next());
     last_sample_ = last_time_ = *time;
     if (!format_.is_gaze) {
         ++no_gaze_;
@@ -188,8 +172,13 @@ void AscParser::event_line(std::string_view line) {
         format_.pupil_is_diameter = words.next() == "DIAMETER";
         return;
     }
-    // EVENTS says what SAMPLES says; the prescalers are those of files of another kind.
-    if (word == "EVENTS" || word == "PRESCALER" || word == "VPRESCALER" || word == "FIXUPDATE")
+    if (word == "EVENTS") {
+        const std::string_view what = words.next();
+        format_.events_are_gaze = what != "HREF" && what != "PUPIL";
+        return;
+    }
+    // The prescalers are those of files of another kind.
+    if (word == "PRESCALER" || word == "VPRESCALER" || word == "FIXUPDATE")
         return;
     bad("begins with no known word", line);
 }
@@ -210,8 +199,8 @@ void AscParser::message_line(std::string_view line) {
         const std::optional<double> rate_hz = number_of(setup.next());
         setup.next(), setup.next();
         const std::string_view eyes = setup.next();
-        if (rate_hz && *rate_hz >= 1.0 && *rate_hz <= 100'000.0)
-            format_.rate_hz = *rate_hz;
+        if (rate_hz)
+            take_rate(*rate_hz);
         if (eyes == "L" || eyes == "R" || eyes == "LR") {
             format_.has_left = eyes != "R";
             format_.has_right = eyes != "L";
@@ -249,14 +238,14 @@ void AscParser::eye_event_end(std::string_view line, Kind kind) {
     const auto take_place = [&](std::optional<ScreenPoint>& into) {
         const std::string_view x = words.next(), y = words.next();
         const Place place = place_of(x, y);
-        into = place.point;
+        into = format_.events_are_gaze ? place.point : std::nullopt;
         return place.is_valid;
     };
     // Nothing where it is missing.
     const auto take_number = [&](std::optional<double>& into) {
         const std::string_view word = words.next();
-        into = word == "." ? std::nullopt : number_of(word);
-        return word == "." || into.has_value();
+        into = is_missing(word) ? std::nullopt : number_of(word);
+        return is_missing(word) || into.has_value();
     };
     bool is_whole = true;
     if (kind == Kind::fixation)
@@ -267,6 +256,7 @@ void AscParser::eye_event_end(std::string_view line, Kind kind) {
     if (!is_whole)
         return bad("an event without all its values", line);
     open_events_[slot(kind, *eye)] = false;
+    no_gaze_events_ += !format_.events_are_gaze && kind != Kind::blink;
     listener_.event(event);
 }
 
@@ -317,6 +307,16 @@ void AscParser::port_line(std::string_view line, Kind kind) {
     listener_.event(event);
 }
 
+bool AscParser::take_rate(double rate_hz) {
+    if (!(rate_hz >= 1.0 && rate_hz <= 100'000.0))
+        return false;
+    format_.rate_hz = rate_hz;
+    format_.highest_rate_hz = std::max(format_.highest_rate_hz, rate_hz);
+    format_.lowest_rate_hz =
+        format_.lowest_rate_hz > 0.0 ? std::min(format_.lowest_rate_hz, rate_hz) : rate_hz;
+    return true;
+}
+
 void AscParser::samples_layout(std::string_view line) {
     Words words(line);
     words.next();
@@ -330,9 +330,7 @@ void AscParser::samples_layout(std::string_view line) {
         if (word != "RATE")
             continue;
         const std::optional<double> rate_hz = number_of(words.next());
-        if (rate_hz && *rate_hz >= 1.0 && *rate_hz <= 100'000.0)
-            format_.rate_hz = *rate_hz;
-        else
+        if (!rate_hz || !take_rate(*rate_hz))
             bad("a sampling rate that is none", line);
     }
     if (left || right) {

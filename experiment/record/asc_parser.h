@@ -17,11 +17,14 @@ namespace overt {
 /// What the lines so far say of those to come.
 struct AscFormat {
     bool has_left = false, has_right = false;
-    double rate_hz = 0.0; ///< 0: not known
+    double rate_hz = 0.0;                               ///< of the lines to come; 0: not known
+    double lowest_rate_hz = 0.0, highest_rate_hz = 0.0; ///< of those so far
     bool pupil_is_diameter = false;
     bool is_gaze = true; ///< else samples are of the pupil or the head's frame, and no place on the screen
+    bool events_are_gaze = true; ///< the same of the places of fixations and saccades
     bool has_head_target = false;
-    bool eyes_are_known = false; ///< else samples of one eye are taken for the right one's
+    bool has_further_numbers = false; ///< in samples, after their pupils: velocity, resolution, input
+    bool eyes_are_known = false;      ///< else samples of one eye are taken for the right one's
 };
 
 /// Told by an AscParser. Texts are valid only during the call.
@@ -57,6 +60,8 @@ class AscParser {
     /// Begins of fixations, saccades and blinks whose ends never came.
     std::int64_t unfinished_events() const { return unfinished_; }
     std::int64_t samples_that_are_no_gaze() const { return no_gaze_; }
+    /// Fixations and saccades whose places are of the pupil or the head's frame: they are told without.
+    std::int64_t events_that_are_no_gaze() const { return no_gaze_events_; }
     std::int64_t non_ascii_texts() const { return recoded_; } ///< taken for Latin-1, as they are not UTF-8
 
   private:
@@ -68,6 +73,7 @@ class AscParser {
     void eye_event_end(std::string_view line, GazeEvent::Kind kind);
     void recording_line(std::string_view line, bool begins);
     void port_line(std::string_view line, GazeEvent::Kind kind);
+    bool take_rate(double rate_hz);
     void samples_layout(std::string_view line);
     void note(std::string_view line);
     void bad(std::string_view why, std::string_view line) { listener_.malformed(lines_, why, line); }
@@ -77,7 +83,7 @@ class AscParser {
 
     AscListener& listener_;
     AscFormat format_;
-    std::int64_t lines_ = 0, unfinished_ = 0, no_gaze_ = 0, recoded_ = 0;
+    std::int64_t lines_ = 0, unfinished_ = 0, no_gaze_ = 0, no_gaze_events_ = 0, recoded_ = 0;
     bool in_calibration_ = false; ///< lines without a time belong to it
     TrackerTime last_time_;       ///< of any line
     std::optional<TrackerTime> last_sample_, last_stamp_;
@@ -89,8 +95,5 @@ class AscParser {
 /// Memory does not grow with the file. Throws InputError if it cannot be read, or what the listener throws.
 void parse_asc_file(const std::filesystem::path& file, AscParser& parser,
                     const std::function<void(std::int64_t, std::int64_t)>& progress = {});
-
-/// Microseconds of a time in milliseconds, such as «7196720» or «7196720.5»; nothing if it is none.
-std::optional<std::int64_t> asc_time_us(std::string_view text);
 
 } // namespace overt

@@ -2,15 +2,38 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstdlib>
 #include <utility>
 
 #include "experiment/record/asc_trial.h"
+#include "experiment/record/asc_words.h"
 
 namespace overt {
+namespace {
 
-AscRows::AscRows(GazeRows& rows, AscTrialCutter::By cut_by, TrialId trial_id,
+/// When the stimulus came, by a message «SYNCTIME». A whole number before it says by how many milliseconds
+/// the message came too late; less than 0: it was sent beforehand.
+std::optional<TrackerTime> synctime(const GazeEvent& message) {
+    Words words(message.text);
+    std::string_view word = words.next();
+    std::int64_t late_ms = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), late_ms);
+    constexpr std::int64_t most_ms = 60'000;
+    if (error == std::errc() && end == word.data() + word.size() && std::abs(late_ms) < most_ms)
+        word = words.next();
+    else
+        late_ms = 0;
+    return word == "SYNCTIME" ? std::optional(message.start - std::chrono::milliseconds(late_ms))
+                              : std::nullopt;
+}
+
+} // namespace
+
+AscRows::AscRows(GazeRows& rows, int sitting, AscTrialCutter::By cut_by, TrialId trial_id,
                  std::function<void(const AscTrialTimes&)> trial_over)
-    : rows_(rows), cutter_(cut_by), trial_id_(std::move(trial_id)), trial_over_(std::move(trial_over)) {
+    : rows_(rows), sitting_(sitting), cutter_(cut_by), trial_id_(std::move(trial_id)),
+      trial_over_(std::move(trial_over)) {
     rows_.begin_trial(0);
 }
 
@@ -53,12 +76,16 @@ void AscRows::event(const GazeEvent& event) {
                                    response_message};
         if (std::find(words.begin(), words.end(), word) != words.end())
             times_.screens.emplace(word, event.start);
-        if (word == "SYNCTIME")
-            times_.screens.emplace(onset_message, event.start);
+        if (const std::optional<TrackerTime> onset = synctime(event))
+            times_.screens.emplace(onset_message, *onset);
         times_.is_aborted |= text == "TRIAL_RESULT aborted" || text == "TRIAL_RESULT open";
     }
     if (into_)
         rows_.event(event);
+}
+
+void AscRows::malformed(std::int64_t line, std::string_view why, std::string_view text) {
+    rows_.line_left_out(sitting_, skipped_line_text(line, why, text));
 }
 
 void AscRows::end() {

@@ -29,14 +29,15 @@ class AscRows final : public AscListener {
     /// Under which trial_id the rows of a trial of the file go; nothing: they are left out.
     using TrialId = std::function<std::optional<std::int64_t>(int trial)>;
 
-    /// `trial_over` is told each trial after its last line, also those that are left out.
-    AscRows(GazeRows& rows, AscTrialCutter::By cut_by, TrialId trial_id,
+    /// Lines that cannot be read become events of the sitting. `trial_over` is told each trial after its last
+    /// line, also those that are left out.
+    AscRows(GazeRows& rows, int sitting, AscTrialCutter::By cut_by, TrialId trial_id,
             std::function<void(const AscTrialTimes&)> trial_over);
 
     void header(std::string_view) override {}
     void samples(std::span<const GazeSample> samples) override;
     void event(const GazeEvent& event) override;
-    void malformed(std::int64_t, std::string_view, std::string_view) override {} // reported by the survey
+    void malformed(std::int64_t line, std::string_view why, std::string_view text) override;
     /// After the parser's end.
     void end();
 
@@ -45,6 +46,7 @@ class AscRows final : public AscListener {
     void take_time(TrackerTime time);
 
     GazeRows& rows_;
+    int sitting_;
     AscTrialCutter cutter_;
     TrialId trial_id_;
     std::function<void(const AscTrialTimes&)> trial_over_;

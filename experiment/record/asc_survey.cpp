@@ -83,6 +83,7 @@ void Surveyor::samples(std::span<const GazeSample> samples) {
     }
     last_sample_ = time;
     for (const GazeSample& sample : samples) {
+        (sample.eye == Eye::left ? survey_.has_left : survey_.has_right) = true;
         ++survey_.samples;
         survey_.samples_without_gaze += !sample.gaze;
     }
@@ -136,10 +137,15 @@ void Surveyor::take_message(const GazeEvent& event) {
 void Surveyor::malformed(std::int64_t line, std::string_view why, std::string_view text) {
     ++survey_.skipped_lines;
     if (report_)
-        report_(fmt::format("{}:{}: {}: {}", file_.string(), line, why, ascii_of(text.substr(0, 120))));
+        report_(fmt::format("{}:{}", file_.string(), skipped_line_text(line, why, text)));
 }
 
 } // namespace
+
+std::string skipped_line_text(std::int64_t line, std::string_view why, std::string_view text) {
+    constexpr std::size_t shown = 120;
+    return fmt::format("{}: {}: {}", line, why, ascii_of(text.substr(0, shown)));
+}
 
 bool is_trial_id(const GazeEvent& event) {
     return event.kind == Kind::message && event.text.starts_with("TRIALID");
@@ -195,10 +201,15 @@ AscSurvey survey_asc(const std::filesystem::path& file, const AscReport& report,
     survey.lines = parser.lines();
     survey.unfinished_events = parser.unfinished_events();
     survey.samples_that_are_no_gaze = parser.samples_that_are_no_gaze();
+    survey.events_that_are_no_gaze = parser.events_that_are_no_gaze();
     survey.non_ascii_texts = parser.non_ascii_texts();
     survey.cut_by = surveyor.has_trial_ids() ? AscTrialCutter::By::trial_ids : AscTrialCutter::By::recordings;
     survey.trials = surveyor.trials(survey.cut_by);
-    survey.rate_hz = survey.format.rate_hz;
+    survey.rate_hz = survey.format.highest_rate_hz;
+    if (survey.samples == 0) {
+        survey.has_left = survey.format.has_left;
+        survey.has_right = survey.format.has_right || !survey.has_left;
+    }
     if (survey.rate_hz <= 0.0 && surveyor.shortest_interval_us() > 0)
         survey.rate_hz = 1e6 / static_cast<double>(surveyor.shortest_interval_us());
     if (survey.samples == 0 && survey.samples_that_are_no_gaze > 0)

@@ -45,15 +45,20 @@ struct AscSurvey {
     AscFormat format; ///< at the file's end
     std::string header;
     std::int64_t samples = 0, samples_without_gaze = 0, events = 0;
-    TrackerTime first, last; ///< of all lines
-    double rate_hz = 0.0;    ///< as the file says, or by its closest samples
+    bool has_left = false, has_right = false; ///< of all recordings
+    TrackerTime first, last;                  ///< of all lines
+    double rate_hz = 0.0;                     ///< the highest that the file names, or by its closest samples
     std::optional<glm::ivec2> screen_px;
     std::optional<glm::dvec2> screen_mm;
     std::optional<double> viewing_distance_mm, refresh_hz;
     std::optional<glm::dvec2> px_per_deg;
     std::int64_t lines = 0, skipped_lines = 0;
-    std::int64_t unfinished_events = 0, samples_that_are_no_gaze = 0, non_ascii_texts = 0;
+    std::int64_t unfinished_events = 0, samples_that_are_no_gaze = 0, events_that_are_no_gaze = 0;
+    std::int64_t non_ascii_texts = 0;
 };
+
+/// «LINE: why: the line», which is cut short and of ASCII.
+std::string skipped_line_text(std::int64_t line, std::string_view why, std::string_view text);
 
 /// A line that could not be read: «FILE:LINE: why: the line».
 using AscReport = std::function<void(const std::string&)>;

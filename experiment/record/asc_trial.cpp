@@ -196,7 +196,7 @@ void AscTrial::write(AscWriter& writer, const Line& line) {
     case Kind::input:
         return writer.port(line.event);
     case Kind::started:
-        return writer.start(line.ms);
+        return writer.start(line.ms, line.event.text);
     case Kind::ended:
         return writer.end(line.ms, line.event.text);
     case Kind::note:
@@ -204,12 +204,19 @@ void AscTrial::write(AscWriter& writer, const Line& line) {
     }
 }
 
-void AscTrial::write_until(AscWriter& writer, TrackerTime sample) {
-    const std::int64_t ms = asc_milliseconds(sample);
+void AscTrial::write_until(AscWriter& writer, std::span<const GazeSample> instant) {
+    const std::int64_t ms = asc_milliseconds(instant.front().sampled_at);
     while (written_ < lines_.size()) {
-        const Line& line = lines_[written_];
+        Line& line = lines_[written_];
         if (line.ms > ms || (line.ms == ms && line.after_samples))
             return;
+        // The file's START may name fewer eyes than its samples have; one that was added names none.
+        if (line.event.kind == Kind::started) {
+            if (line.event.text.empty())
+                line.event.text = writer.layout().eye_names();
+            for (const GazeSample& sample : instant)
+                line.event.text += sample.eye == Eye::left ? " LEFT" : " RIGHT";
+        }
         write(writer, line);
         ++written_;
     }

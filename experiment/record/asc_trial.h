@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -24,8 +25,8 @@ class AscTrial {
     /// No line at all.
     bool is_empty() const { return lines_.empty(); }
 
-    /// Writes what stands before a sample of this time.
-    void write_until(AscWriter& writer, TrackerTime sample);
+    /// Writes what stands before the samples of this instant.
+    void write_until(AscWriter& writer, std::span<const GazeSample> instant);
     /// Writes the rest.
     void finish(AscWriter& writer);
 

@@ -3,12 +3,14 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
 namespace overt {
 
 constexpr bool is_blank(char c) { return c == ' ' || c == '\t'; }
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Takes words from a line, separated by blanks and tabs.
 class Words {
@@ -46,5 +48,8 @@ inline std::optional<double> number_of(std::string_view word) {
         return std::nullopt;
     return number;
 }
+
+/// Microseconds of a time in milliseconds, such as «7196720» or «7196720.5»; nothing if it is none.
+std::optional<std::int64_t> asc_time_us(std::string_view text);
 
 } // namespace overt

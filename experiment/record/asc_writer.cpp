@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/record/asc_words.h"
 #include "experiment/record/joined_cells.h"
 #include "experiment/record/number_text.h"
 #include "experiment/record/utf8_text.h"
@@ -90,12 +91,21 @@ void AscWriter::note(std::string_view text) {
 }
 
 void AscWriter::message(std::int64_t ms, std::string_view text) {
+    if (Words words(text); words.next() == "RECCFG") {
+        words.next();
+        if (const std::optional<double> rate_hz = number_of(words.next()); rate_hz && *rate_hz >= 1.0)
+            layout_.rate_hz = *rate_hz;
+    }
     fmt::format_to(std::back_inserter(file_.text()), "MSG\t{} {}", ms - layout_.base_ms, ascii_of(text));
     end_line();
 }
 
-void AscWriter::start(std::int64_t ms) {
-    const std::string_view eyes = layout_.has_left ? (layout_.has_right ? "LEFT\tRIGHT" : "LEFT") : "RIGHT";
+void AscWriter::start(std::int64_t ms, std::string_view recorded) {
+    if (!recorded.empty()) {
+        layout_.has_left = recorded.find("LEFT") != std::string_view::npos;
+        layout_.has_right = recorded.find("RIGHT") != std::string_view::npos;
+    }
+    const std::string_view eyes = layout_.eye_names();
     line(fmt::format("START\t{} \t{}\tSAMPLES\tEVENTS", ms - layout_.base_ms, eyes));
     line("PRESCALER\t1");
     line("VPRESCALER\t1");
@@ -125,7 +135,7 @@ void AscWriter::eye(const GazeSample* sample) {
         return;
     }
     append_place(text, sample->gaze);
-    append_number(text, static_cast<double>(sample->pupil_area), pupil_decimals, 1);
+    append_number(text, shortest_decimal(sample->pupil_area), pupil_decimals, 1);
 }
 
 void AscWriter::samples(std::span<const GazeSample> samples) {

@@ -13,7 +13,7 @@
 
 namespace overt {
 
-/// What is the same in all of a file.
+/// What is the same in all of a file; eyes and rate may change from one recording to the next.
 struct AscLayout {
     bool has_left = false, has_right = true;
     double rate_hz = 1000.0;
@@ -23,6 +23,7 @@ struct AscLayout {
     bool fractional_times = false; ///< samples' times with their microseconds instead of whole milliseconds
 
     std::string_view eyes() const { return has_left ? (has_right ? "LR" : "L") : "R"; }
+    std::string_view eye_names() const { return has_left ? (has_right ? "LEFT\tRIGHT" : "LEFT") : "RIGHT"; }
 };
 
 /// Whole milliseconds of the tracker's clock, as ASC has times: fractions are left out, so that at 2000 Hz
@@ -43,8 +44,9 @@ class AscWriter {
     /// A line without a time, such as of a calibration's table.
     void note(std::string_view text);
     void message(std::int64_t ms, std::string_view text);
-    /// START with what is recorded.
-    void start(std::int64_t ms);
+    /// START with what is recorded, at the rate that the last message RECCFG named. `eyes`: of this
+    /// recording, LEFT, RIGHT or both; empty: as before.
+    void start(std::int64_t ms, std::string_view eyes = {});
     /// END; `resolution` as in GazeEvent::Kind::ended, or empty: the layout's.
     void end(std::int64_t ms, std::string_view resolution);
     /// Samples of one instant: one of each recorded eye, at most; an eye without one has no gaze.

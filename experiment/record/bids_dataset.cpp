@@ -117,8 +117,8 @@ void check_bids_dataset(const fs::path& dataset, const BidsNames& names, bool ov
                                      dataset.string()));
     if (const std::vector<fs::path> files = files_of(dataset, names); !files.empty() && !overwrite)
         throw InputError(
-            fmt::format("{}: the dataset holds this session already. Allow it to be overwritten, or "
-                        "name another folder.",
+            fmt::format("{}: the dataset holds this session already. Replace it with --overwrite, or name "
+                        "another folder.",
                         files.front().string()));
 }
 

@@ -1,6 +1,8 @@
 #include "experiment/record/bids_export.h"
 
+#include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -114,21 +116,25 @@ BidsExportCounts export_bids(const SessionRecord& record, const LookupFor& looku
         if (options.progress)
             options.progress(counts.runs, static_cast<int>(runs.size()));
     }
+    const auto finish = [&](const fs::path& folder) {
+        describe_bids_dataset(folder, record.header());
+        return add_bids_participant(folder, record);
+    };
+    std::optional<std::vector<std::string>> remarks;
     if (is_new) {
-        describe_bids_dataset(staged.path(), record.header());
-        for (std::string& remark : add_bids_participant(staged.path(), record))
-            counts.remarks.push_back(std::move(remark));
+        remarks = finish(staged.path());
         std::error_code error;
         fs::remove(dataset, error); // an empty folder
-        staged.publish();
-    } else {
+        if (!staged.publish_if_free())
+            remarks.reset(); // another export has begun the dataset meanwhile: it takes this one, too
+    }
+    if (!remarks) {
         const SessionLock lock(dataset);
         check_bids_dataset(dataset, names, options.overwrite);
         merge_into_bids_dataset(staged.path(), dataset, names);
-        describe_bids_dataset(dataset, record.header());
-        for (std::string& remark : add_bids_participant(dataset, record))
-            counts.remarks.push_back(std::move(remark));
+        remarks = finish(dataset);
     }
+    std::move(remarks->begin(), remarks->end(), std::back_inserter(counts.remarks));
     return counts;
 }
 

@@ -11,6 +11,7 @@
 #include "experiment/record/bids_tracker.h"
 #include "experiment/record/export_tables.h"
 #include "experiment/record/joined_cells.h"
+#include "experiment/record/number_text.h"
 #include "experiment/record/sample_rows.h"
 
 namespace fs = std::filesystem;
@@ -71,7 +72,7 @@ class EyeFiles {
         if (!first_)
             first_ = sample.sampled_at;
         gaze(samples_, sample);
-        sample.pupil_area > 0.0f ? samples_.fixed(static_cast<double>(sample.pupil_area), pupil_decimals)
+        sample.pupil_area > 0.0f ? samples_.fixed(shortest_decimal(sample.pupil_area), pupil_decimals)
                                  : samples_.missing();
         samples_.end_row();
     }

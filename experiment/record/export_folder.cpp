@@ -16,7 +16,7 @@ const fs::path& unless_refused(const fs::path& directory, bool overwrite,
         return directory;
     if (!overwrite || !fs::is_directory(directory))
         throw InputError(fmt::format(
-            "{}: exists already. Name another folder, or allow it to be overwritten.", directory.string()));
+            "{}: exists already. Name another folder, or replace it with --overwrite.", directory.string()));
     for (const auto& entry : fs::directory_iterator(directory))
         if (!is_ours(entry.path().filename().string()))
             throw InputError(

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "experiment/record/gaze_event_rows.h"
 #include "experiment/timing/ledger_fit.h"
 
 namespace overt {
@@ -307,6 +308,7 @@ ExportTables::ExportTables(const SessionHeader& header, std::optional<Degrees> c
         cone_parts = all_part_names(header);
         add_cone_columns(samples, cone_parts, *cone_accuracy);
     }
+    gaze_events = gaze_events_table();
     events = events_table();
     responses = responses_table(shared);
     stimuli = stimuli_table(shared);
@@ -314,7 +316,7 @@ ExportTables::ExportTables(const SessionHeader& header, std::optional<Degrees> c
 }
 
 std::vector<const Table*> ExportTables::all() const {
-    return {&trials, &flips, &samples, &events, &responses, &stimuli, &display_box};
+    return {&trials, &flips, &samples, &gaze_events, &events, &responses, &stimuli, &display_box};
 }
 
 nlohmann::ordered_json describe_columns(const std::vector<TableColumn>& columns, TableFormat format) {

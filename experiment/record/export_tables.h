@@ -22,7 +22,7 @@ struct ExportTables {
     /// The parts of all sculptures, each name once: a cone has a column for each, after p_object.
     std::vector<std::string> cone_parts;
 
-    Table trials, flips, samples, events, responses, stimuli, display_box;
+    Table trials, flips, samples, gaze_events, events, responses, stimuli, display_box;
 
     std::vector<const Table*> all() const;
 };

@@ -1,5 +1,6 @@
 #include "experiment/record/gaze_rows.h"
 
+#include "experiment/record/number_text.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
 
@@ -54,7 +55,7 @@ void GazeRows::begin_trial(std::int64_t trial_id) {
 void GazeRows::sample(const GazeSample& sample) {
     run_statement(insert_sample_, trial_id_, samples_++, microseconds(sample.sampled_at),
                   static_cast<int>(sample.eye), x_of(sample.gaze), y_of(sample.gaze),
-                  static_cast<double>(sample.pupil_area));
+                  shortest_decimal(sample.pupil_area));
 }
 
 void GazeRows::event(const GazeEvent& event) {
@@ -65,6 +66,12 @@ void GazeRows::event(const GazeEvent& event) {
                   static_cast<std::int64_t>(event.duration.count()), x_of(event.place), y_of(event.place),
                   x_of(event.arrival), y_of(event.arrival), event.pupil, event.amplitude_deg,
                   event.peak_velocity_deg_s, event.text);
+}
+
+void GazeRows::line_left_out(int sitting, const std::string& detail) {
+    SQLite::Statement insert(database_, "INSERT INTO event (sitting, at_ns, trial, kind, detail) "
+                                        "VALUES (?, 0, NULL, 'line left out', ?)");
+    run_statement(insert, sitting, detail);
 }
 
 void GazeRows::source(int sitting, const GazeSource& source) {

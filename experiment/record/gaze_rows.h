@@ -22,6 +22,9 @@ class GazeRows {
     void begin_trial(std::int64_t trial_id);
     void sample(const GazeSample& sample);
     void event(const GazeEvent& event);
+    /// Notes a line of the sitting's file that could not be read: an event outside of trials, at the
+    /// session's begin, for nobody knows when it was.
+    void line_left_out(int sitting, const std::string& detail);
     void source(int sitting, const GazeSource& source);
 
   private:

@@ -47,4 +47,13 @@ void append_fixed(std::string& text, double number, int decimals) {
         fmt::format_to(std::back_inserter(text), "{:.{}f}", number, decimals);
 }
 
+double shortest_decimal(float number) {
+    constexpr std::size_t longest = 32; // of the shortest text of a float
+    std::array<char, longest> digits;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    double decimal = 0.0;
+    std::from_chars(digits.data(), end, decimal);
+    return decimal;
+}
+
 } // namespace overt

@@ -45,16 +45,26 @@ PartialDirectory::PartialDirectory(const fs::path& final_path) : final_path_(fs:
 }
 
 void PartialDirectory::publish() {
+    if (!publish_if_free())
+        throw RecordError(fmt::format("{}: was made meanwhile by somebody else, and is not overwritten.",
+                                      final_path_.string()));
+}
+
+bool PartialDirectory::publish_if_free() {
     if (is_published())
-        return;
+        return true;
     sync_around(path_);
     std::error_code error;
     fs::rename(path_, final_path_, error);
+    if (error == std::errc::directory_not_empty || error == std::errc::file_exists ||
+        error == std::errc::not_a_directory)
+        return false;
     if (error)
         throw RecordError(fmt::format("{}: cannot be renamed to {}: {}. Check the permissions.",
                                       path_.string(), final_path_.filename().string(), error.message()));
     path_ = final_path_;
     sync_around(path_.parent_path());
+    return true;
 }
 
 void PartialDirectory::abandon() noexcept {

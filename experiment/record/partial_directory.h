@@ -24,6 +24,10 @@ class PartialDirectory {
     /// nothing may have its name. Throws RecordError.
     void publish();
 
+    /// The same, but gives false if somebody else has made something of its name, and leaves both as they
+    /// are.
+    bool publish_if_free();
+
     /// Removes what was not published; nothing otherwise.
     void abandon() noexcept;
 

@@ -7,6 +7,7 @@
 
 #include "experiment/error.h"
 #include "experiment/record/file_hash.h"
+#include "experiment/record/number_text.h"
 #include "experiment/record/schema_migration.h"
 #include "experiment/record/session_file.h"
 #include "experiment/record/session_schema.h"
@@ -187,7 +188,7 @@ void RowWriter::sample(int trial, const GazeSample& sample) {
                   static_cast<std::int64_t>(sample.sampled_at.time_since_epoch().count()),
                   static_cast<int>(sample.eye), sample.gaze ? Pixels(sample.gaze->x_px) : std::nullopt,
                   sample.gaze ? Pixels(sample.gaze->y_px) : std::nullopt,
-                  static_cast<double>(sample.pupil_area));
+                  shortest_decimal(sample.pupil_area));
 }
 
 void RowWriter::clock_pair(const ClockPair& pair) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-
 #include "experiment/parallel.h"
+#include "experiment/record/number_text.h"
 
 namespace overt {
 namespace {
@@ -67,7 +67,7 @@ void SampleRows::write_gaze(const GazeSample& sample) {
         row_.fixed(sample.gaze->x_px, pixel_decimals).fixed(sample.gaze->y_px, pixel_decimals);
     else
         row_.missing(2);
-    sample.pupil_area > 0.0f ? row_.fixed(static_cast<double>(sample.pupil_area), pupil_decimals)
+    sample.pupil_area > 0.0f ? row_.fixed(shortest_decimal(sample.pupil_area), pupil_decimals)
                              : row_.missing();
 }
 

@@ -21,7 +21,7 @@ void check_identity(const SQLite::Database& database, const std::filesystem::pat
             fmt::format("{}: this is an SQLite file, but not a session of overt.", file.string()));
     const std::int64_t version = pragma(database, "PRAGMA user_version");
     if (version > session_schema_version)
-        throw RecordError(
+        throw NewerFormatError(
             fmt::format("{}: written by a newer overt (session format {}, this program knows {} "
                         "and older): update overt to read it.",
                         file.string(), version, session_schema_version));

@@ -5,7 +5,15 @@
 
 #include <SQLiteCpp/Database.h>
 
+#include "experiment/error.h"
+
 namespace overt {
+
+/// A session of a format that this program does not know yet.
+class NewerFormatError : public RecordError {
+  public:
+    using RecordError::RecordError;
+};
 
 enum class SessionFileUse { read, write };
 

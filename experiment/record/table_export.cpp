@@ -8,6 +8,7 @@
 
 #include "experiment/record/export_folder.h"
 #include "experiment/record/export_tables.h"
+#include "experiment/record/gaze_event_rows.h"
 #include "experiment/record/ledger_rows.h"
 #include "experiment/record/sample_rows.h"
 
@@ -36,8 +37,8 @@ class TableExport {
         : record_(record), header_(record.header()), format_(options.format),
           tables_(header_, options.cone_accuracy), trials_(directory, tables_.trials, format_),
           flips_(directory, tables_.flips, format_), samples_(directory, tables_.samples, format_),
-          events_(directory, tables_.events, format_), responses_(directory, tables_.responses, format_),
-          stimuli_(directory, tables_.stimuli, format_),
+          gaze_events_(directory, tables_.gaze_events, format_), events_(directory, tables_.events, format_),
+          responses_(directory, tables_.responses, format_), stimuli_(directory, tables_.stimuli, format_),
           display_box_(directory, tables_.display_box, format_), directory_(directory),
           sample_rows_(samples_, record, tables_, options.cone_accuracy) {}
 
@@ -57,7 +58,7 @@ class TableExport {
     const SessionHeader& header_;
     const TableFormat format_;
     const ExportTables tables_;
-    TableWriter trials_, flips_, samples_, events_, responses_, stimuli_, display_box_;
+    TableWriter trials_, flips_, samples_, gaze_events_, events_, responses_, stimuli_, display_box_;
     const fs::path directory_;
     SampleRows sample_rows_;
     TableExportCounts counts_;
@@ -87,6 +88,7 @@ void TableExport::write_attempt_without_rows(const TrialRecord& trial) {
 void TableExport::write_trial(const TrialRecord& trial, const SurfaceLookup* lookup) {
     counts_.flips += write_ledger(flips_, record_, trial);
     const SampleCounts of_trial = sample_rows_.write(trial, lookup);
+    write_gaze_events(gaze_events_, record_, trial);
     write_response(trial);
 
     const TrialOutcome& outcome = trial.outcome;
@@ -124,6 +126,7 @@ void TableExport::write_response(const TrialRecord& trial) {
 }
 
 void TableExport::write_what_belongs_to_no_trial() {
+    write_gaze_events_outside(gaze_events_, record_);
     record_.read_events([this](const RecordedEvent& event) {
         events_.seconds(event.at);
         event.trial < 0 ? events_.missing() : events_.integer(event.trial + 1);
@@ -162,7 +165,7 @@ void TableExport::write_display_boxes() {
 
 void TableExport::close() {
     for (TableWriter* writer :
-         {&trials_, &flips_, &samples_, &events_, &responses_, &stimuli_, &display_box_}) {
+         {&trials_, &flips_, &samples_, &gaze_events_, &events_, &responses_, &stimuli_, &display_box_}) {
         counts_.rows += writer->rows();
         counts_.bytes += writer->bytes();
         writer->close();

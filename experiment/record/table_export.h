@@ -34,10 +34,10 @@ struct TableExportCounts {
 /// Gives the lookup for a sculpture, or null if there is none. Called once for each trial.
 using LookupFor = std::function<const SurfaceLookup*(int sculpture)>;
 
-/// Writes trials, flips, samples, events, responses and stimuli with a dictionary.json that explains each
-/// column. The same session gives the same bytes, on every machine and at any time: nothing of the wall clock
-/// is in them. Flips, samples and responses are those of completed trials. Memory does not grow with the
-/// session.
+/// Writes trials, flips, samples, the tracker's own events, events, responses and stimuli with a
+/// dictionary.json that explains each column. The same session gives the same bytes, on every machine and at
+/// any time: nothing of the wall clock is in them. Flips, samples and responses are those of completed
+/// trials. Memory does not grow with the session.
 ///
 /// The directory appears when it is complete. Throws InputError if it exists and is not to be overwritten, or
 /// is no earlier export; RecordError for a damaged session or a full disk.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -37,9 +38,15 @@ class SessionVerification {
         const std::optional<SessionManifest> manifest = look_at_manifest();
         look_at_log();
         look_at_session_file();
+        if (cannot_open_ && manifest && manifest->is_closed && result_.state != Verification::State::running)
+            result_.state = Verification::State::closed; // then its hash is known
         look_between_rows();
         if (manifest)
             look_at_files(*manifest);
+        if (newer_format_ && result_.is_sound() && result_.state == Verification::State::closed)
+            throw InputError(*newer_format_);
+        if (cannot_open_)
+            damage(session_file_name, fmt::format("cannot be opened: {}", *cannot_open_));
         return std::move(result_);
     }
 
@@ -78,8 +85,10 @@ class SessionVerification {
                 open_session_file(folder_ / session_file_name, SessionFileUse::read);
             SQLite::Statement(database, "BEGIN").exec(); // one state of it, also while it is written
             look_at_database(database);
+        } catch (const NewerFormatError& error) {
+            cannot_open_ = newer_format_ = error.what();
         } catch (const Error& error) {
-            damage(session_file_name, fmt::format("cannot be opened: {}", error.what()));
+            cannot_open_ = error.what();
         } catch (const SQLite::Exception& error) {
             damage(session_file_name, fmt::format("cannot be read: {}", error.what()));
         }
@@ -214,8 +223,9 @@ class SessionVerification {
     fs::path folder_;
     std::string log_name_ = std::string(session_file_name) + "-wal";
     bool is_without_manifest_ = false;
-    std::map<std::string, std::string> recorded_files_; ///< hash by file
-    std::optional<ContentHash> file_hash_;              ///< of an interrupted session's file, if it was noted
+    std::optional<std::string> cannot_open_, newer_format_; ///< why the session file cannot be looked into
+    std::map<std::string, std::string> recorded_files_;     ///< hash by file
+    std::optional<ContentHash> file_hash_; ///< of an interrupted session's file, if it was noted
     Verification result_;
 };
 

@@ -25,7 +25,8 @@ struct Verification {
 std::string_view name_of(Verification::State state);
 
 /// Reads all of a session: the files of its manifest, its write-ahead log and all sealed rows. Changes
-/// nothing. Throws InputError if the folder is no session's.
+/// nothing. Throws InputError if the folder is no session's, or if it is as it was recorded, by a newer
+/// program.
 Verification verify_session(const std::filesystem::path& folder);
 
 } // namespace overt

@@ -142,10 +142,10 @@ TEST_CASE("a disk that takes no more ends a bake with what it had, whole", "[ses
     // The maps are there; frames of noise are larger than the limit on files.
     REQUIRE(bake(experiment, {"--quality", "preview"}).exit_code == 0);
     const auto before = files_below(experiment.cache() / "frames");
-    const std::string command = fmt::format(
-        "trap '' XFSZ; ulimit -f 1; OVERT_CACHE={} exec {} bake {} --quality draft --context osmesa 2>{}",
-        experiment.cache().string(), OVERT_PROGRAM, experiment.protocol().string(),
-        (experiment.folder().path() / "said").string());
+    const std::string command =
+        fmt::format("ulimit -f 1; OVERT_CACHE={} exec {} bake {} --quality draft --context osmesa 2>{}",
+                    experiment.cache().string(), OVERT_PROGRAM, experiment.protocol().string(),
+                    (experiment.folder().path() / "said").string());
     const int status = std::system(("bash -c " + quoted_for_shell(command) + " >/dev/null").c_str());
     CHECK(WEXITSTATUS(status) == 1);
     const std::string said = text_of(experiment.folder().path() / "said");

@@ -16,7 +16,6 @@ int run_with_limit(const SmallExperiment& experiment, const std::vector<std::str
                    rlim_t largest_file) {
     RunningProgram program(arguments, {"OVERT_CACHE=" + experiment.cache().string()},
                            experiment.folder().path() / "said", [largest_file] {
-                               ::signal(SIGXFSZ, SIG_IGN);
                                const rlimit limit{largest_file, largest_file};
                                ::setrlimit(RLIMIT_FSIZE, &limit);
                            });

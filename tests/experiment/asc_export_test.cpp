@@ -9,6 +9,7 @@
 #include "experiment/record/asc_import.h"
 #include "experiment/record/number_text.h"
 #include "support/asc_readers.h"
+#include "support/asc_text.h"
 
 using namespace overt;
 using namespace overt::testing;
@@ -229,6 +230,38 @@ TEST_CASE("what was exported as ASC and imported has the same samples, and its e
     CHECK(first.trials()[1].status == TrialRecord::Status::aborted);
     CHECK(first.trials()[0].outcome.presentation_onset - first.trials()[0].outcome.task_screen_onset ==
           std::chrono::milliseconds(990));
+}
+
+TEST_CASE("recordings of one eye, of both and at other rates in one file are exported each as it was",
+          "[unit]") {
+    const Exported exported;
+    AscExample first, second;
+    first.right = true, first.rate_hz = 2000.0, first.trials = 1;
+    second.left = false, second.right = true, second.rate_hz = 250.0;
+    for (const bool both_first : {true, false}) {
+        AscExample last = both_first ? second : first;
+        last.trials = 2;
+        const std::string text = asc_text(last), begin = asc_text(both_first ? first : second);
+        const std::string cut = "TRIALID 2"; // the first trial of one, the second of the other
+        const auto line_of = [&](const std::string& all) {
+            const std::size_t at = all.find(cut);
+            return at == std::string::npos ? all.size() : all.rfind('\n', at) + 1;
+        };
+        const fs::path root = exported.root.path() / (both_first ? "a" : "b");
+        fs::create_directories(root);
+        import_asc(write_asc(root / "both.asc", begin.substr(0, line_of(begin)) + text.substr(line_of(text))),
+                   into(root / "session"));
+        const SessionRecord record(root / "session");
+        export_asc(record, root / "asc");
+        const std::string written = text_of(root / "asc" / "sub-AB7_ses-01_run-01.asc");
+        CHECK_THAT(written, Contains("SAMPLES\tGAZE\tRIGHT\tRATE\t 250.00") &&
+                                Contains("SAMPLES\tGAZE\tLEFT\tRIGHT\tRATE\t2000.00"));
+        import_asc(root / "asc" / "sub-AB7_ses-01_run-01.asc", into(root / "imported"));
+        CHECK(written_form(SessionRecord(root / "imported"), 1) == written_form(record, 1));
+        CHECK(written_form(record, 1).size() == 2 * 60 + 60);
+        export_asc(SessionRecord(root / "imported"), root / "again");
+        CHECK(text_of(root / "again" / "sub-AB7_ses-01_run-01.asc") == written);
+    }
 }
 
 TEST_CASE("an export as ASC replaces an earlier one only when asked, and a session without gaze has none",

@@ -188,7 +188,7 @@ TEST_CASE("each malformed line is reported with its place, counted, and left out
     const std::vector<std::pair<std::string, std::string>> cases{
         {"5000000\t12.0", "without all its values"},
         {"5000000\tabc\t12.0\t900.0\t...", "no number"},
-        {"5000000\tnan\t12.0\t900.0\t...", "no number"},
+        {"5000000\t-nan\t12.0\t900.0\t...", "no number"},
         {"5000000\tinf\t12.0\t900.0\t...", "no number"},
         {"99999999999999999999\t1.0\t2.0\t3.0", "no time stamp"},
         {"12-5\t1.0\t2.0\t3.0\t...", "no time stamp"},
@@ -226,6 +226,77 @@ TEST_CASE("each malformed line is reported with its place, counted, and left out
         REQUIRE(reports.size() == 1);
         CHECK_THAT(reports[0], Contains(fmt::format(".asc:{}: ", line_number)) && Contains(why));
         CHECK(record.gaze_source(1)->skipped_lines == 1);
+        // It stays known: the record has it, too.
+        const std::vector<RecordedEvent> events = record.events();
+        REQUIRE(events.size() == 1);
+        CHECK(events[0].kind == "line left out");
+        CHECK(events[0].detail == reports[0].substr(reports[0].find(".asc:") + 5));
+    }
+}
+
+TEST_CASE("what edf2asc was told to write for missing data is missing, as its points are", "[unit]") {
+    const test::TemporaryFolder root;
+    AscExample example;
+    for (const char* word : {"NaN", "nan", "-32768", "100000000"}) {
+        CAPTURE(word);
+        std::string text = asc_text(example);
+        const std::string point = "\t   .\t   .\t";
+        for (std::size_t at = text.find(point); at != std::string::npos; at = text.find(point, at + 1))
+            text.replace(at, point.size(), fmt::format("\t{0}\t{0}\t", word));
+        AscImportSummary summary;
+        check_samples(imported(root, text, &summary), example);
+        CHECK(summary.survey.skipped_lines == 0);
+    }
+}
+
+TEST_CASE("what an import does not keep of a recording is said", "[unit]") {
+    const test::TemporaryFolder root;
+    const auto remarks_of = [&](const std::string& text) {
+        AscImportSummary summary;
+        imported(root, text, &summary);
+        std::string remarks;
+        for (const std::string& remark : summary.remarks)
+            remarks += remark + "\n";
+        return remarks;
+    };
+    const auto with = [](std::string text, const std::string& from, const std::string& to) {
+        for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+            text.replace(at, from.size(), to);
+        return text;
+    };
+    const std::string sound = asc_text({});
+    CHECK_THAT(remarks_of(sound), !Contains("not kept") && !Contains("rate changes"));
+    CHECK_THAT(remarks_of(with(sound, "\t...\n", "\t   12.5\t  -3.0\t...\n")),
+               Contains("further numbers (velocity, resolution or input)"));
+    AscExample bare;
+    bare.left = false, bare.right = true, bare.has_layout = bare.has_blocks = bare.has_events = false;
+    CHECK_THAT(remarks_of(with(asc_text(bare), "\t...\n", "\t   12.5\t  -3.0\t 900.0\t.....\n")),
+               Contains("perhaps of the other eye"));
+    CHECK_THAT(remarks_of(with(sound, "\t 500.00", "\t1000.00").replace(sound.find(" 500 2 1"), 4, " 250")),
+               Contains("from 250 to 1000 Hz"));
+
+    const std::string in_the_head = with(sound, "EVENTS\tGAZE", "EVENTS\tHREF");
+    CHECK_THAT(remarks_of(in_the_head), Contains("4 fixations and saccades are not in gaze coordinates"));
+    const SessionRecord record = imported(root, in_the_head);
+    int seen = 0;
+    record.read_gaze_events(record.trials()[0], [&](const GazeEvent& event) {
+        CHECK_FALSE(event.place.has_value());
+        seen += event.kind == GazeEvent::Kind::fixation || event.kind == GazeEvent::Kind::saccade;
+    });
+    CHECK(seen == 2);
+}
+
+TEST_CASE("SYNCTIME says when the stimulus came, by as many milliseconds earlier as stand before it",
+          "[unit]") {
+    const test::TemporaryFolder root;
+    for (const auto& [words, late_ms] : std::vector<std::pair<std::string, int>>{
+             {"SYNCTIME", 0}, {"7 SYNCTIME", 7}, {"-11 SYNCTIME", -11}, {"5 SYNCTIME 3", 5}}) {
+        CAPTURE(words);
+        std::string text = asc_text({});
+        text.replace(text.find("PRESENTATION_ONSET"), 18, words);
+        const SessionRecord record = imported(root, text);
+        CHECK(record.trials()[0].outcome.presentation_onset ==
+              record.clock_map(1)->to_session(TrackerTime(std::chrono::milliseconds(5020 - late_ms))).time);
     }
 }
 
@@ -275,4 +346,31 @@ TEST_CASE("an imported session can be exported as tables", "[unit]") {
         imported(root, asc_text(example)), [](int) { return nullptr; }, root.path() / "tables");
     CHECK(counts.samples == 240);
     CHECK(counts.samples_without_gaze == 40);
+    // The tracker's own events have a table.
+    std::ifstream stream(root.path() / "tables" / "gaze_events.tsv");
+    const std::string table{std::istreambuf_iterator<char>(stream), {}};
+    CHECK_THAT(table,
+               Contains("\n1\tfixation\tleft\t1.030000000\t1.038000000\t0.010000000\t5030000\t5038000\t"
+                        "512.800\t394.500\tn/a\tn/a\t1063.0000\tn/a\tn/a\tn/a\n"));
+    CHECK_THAT(table, Contains("\n2\tsaccade\tleft\t") &&
+                          Contains("\t512.800\t-39.500\t509.200\t380.400\tn/a\t0.460\t57.000\tn/a\n"));
+    CHECK_THAT(table, Contains("\nn/a\tmessage\tn/a\t0.000000000\t0.000000000\tn/a\t4000000\t4000000\t") &&
+                          Contains("\tDISPLAY_COORDS 0 0 1023 767\n") && Contains("\tbutton\t"));
+    CHECK(std::count(table.begin(), table.end(), '\n') == 1 + 5 + 2 * 12);
+}
+
+TEST_CASE("a pupil in an export has the digits that it has in the recording", "[unit]") {
+    const test::TemporaryFolder root;
+    std::string text = asc_text({});
+    text.replace(text.find("  900.0"), 7, " 2338.6");
+    const SessionRecord record = imported(root, text);
+    export_tables(
+        record, [](int) { return nullptr; }, root.path() / "tables");
+    export_asc(record, root.path() / "asc");
+    const auto holds = [&](const fs::path& file, const std::string& words) {
+        std::ifstream stream(root.path() / file);
+        CHECK_THAT((std::string{std::istreambuf_iterator<char>(stream), {}}), Contains(words));
+    };
+    holds("tables/samples.tsv", "\t100.000\t700.000\t2338.6000\t");
+    holds("asc/sub-07_ses-01_run-01.asc", "\t  100.0\t  700.0\t 2338.6\t...\n");
 }

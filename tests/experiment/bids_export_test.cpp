@@ -1,6 +1,7 @@
 #include "experiment/record/bids_export.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -237,6 +238,26 @@ TEST_CASE("sessions join a dataset one by one and change nothing of the others",
     for (const auto& entry : fs::directory_iterator(dataset.root.path()))
         hidden += entry.path().filename().string().starts_with(".");
     CHECK(hidden == 0);
+}
+
+TEST_CASE("two exports that begin a dataset at once both stand in it", "[unit]") {
+    const test::TemporaryFolder root;
+    const fs::path dataset = root.path() / "dataset";
+    const SessionRecord first(make_eye_session(root.path() / "sessions", "AB7")),
+        second(make_eye_session(root.path() / "sessions", "C2"));
+    bool began = false;
+    // The second one runs from its begin to its end while the first has not yet given the dataset its name.
+    export_bids(first, no_surface, dataset, {false, false, [&](int, int) {
+                                                 if (!std::exchange(began, true))
+                                                     export_bids(second, no_surface, dataset, {});
+                                             }});
+    CHECK(BidsRules(dataset).text() == "");
+    CHECK_THAT(bytes_of(dataset / "participants.tsv"), Contains("\nsub-AB7\t") && Contains("\nsub-C2\t"));
+    Dataset alone;
+    auto both = content_of(dataset);
+    for (const auto& [file, content] : content_of(alone.path))
+        if (!file.starts_with("participants."))
+            CHECK(both[file] == content);
 }
 
 TEST_CASE("the observer's form stands in the table of participants, in words that BIDS knows", "[unit]") {

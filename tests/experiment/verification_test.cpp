@@ -170,6 +170,27 @@ TEST_CASE("files that are missing or shortened are damage, files that were added
     CHECK(names_file(verify_session(session), manifest_file_name));
 }
 
+TEST_CASE("a session of a newer program is not taken for a damaged one", "[unit]") {
+    const TemporaryFolder root;
+    const fs::path session = make_whole_session(root.path());
+    write_whole_session(session);
+    SQLite::Database((session / session_file_name).string(), SQLite::OPEN_READWRITE)
+        .exec("PRAGMA user_version = 99");
+    // Until the manifest says that the file was written so, it is a change.
+    Verification found = verify_session(session);
+    CHECK(names_file(found, session_file_name));
+    CHECK(found.state == Verification::State::closed);
+    CHECK_THAT(words(found), Contains("is not as it was when the session ended") && Contains("newer overt"));
+    reopen_manifest(session, example_header(), test_program);
+    close_manifest(session);
+    CHECK_THROWS_AS(verify_session(session), InputError);
+    CHECK_THROWS_WITH(verify_session(session), Contains("newer overt") && Contains("99"));
+    fs::resize_file(session / "stimuli/a.png", 10);
+    found = verify_session(session);
+    CHECK(names_file(found, "stimuli/a.png"));
+    CHECK(found.state == Verification::State::closed);
+}
+
 TEST_CASE("rows that are changed, added or taken away through SQL are found", "[unit]") {
     const TemporaryFolder root;
     const fs::path session = make_whole_session(root.path());

@@ -1,0 +1,43 @@
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include <catch2/catch.hpp>
+
+#include "support/asc_text.h"
+#include "support/running_program.h"
+#include "support/temporary_folder.h"
+
+using namespace overt;
+using namespace overt::testing;
+namespace fs = std::filesystem;
+
+namespace {
+
+bool has_partial_folder(const fs::path& folder) {
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().filename().string().find(".partial-") != std::string::npos)
+            return true;
+    return false;
+}
+
+} // namespace
+
+TEST_CASE("an import that is interrupted leaves nothing behind, and says so", "[session]") {
+    const test::TemporaryFolder root;
+    AscExample example;
+    example.rate_hz = 1000.0, example.trials = 60, example.samples = 1900;
+    const fs::path file = write_asc(root.path() / "long.asc", asc_text(example)),
+                   out = root.path() / "session", said = root.path() / "said";
+    test::RunningProgram program({"import", file.string(), "--out", out.string()}, {}, said);
+    while (!has_partial_folder(root.path()) && !fs::exists(out))
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    REQUIRE_FALSE(fs::exists(out));
+    program.signal(SIGINT);
+    CHECK(program.wait() == 1);
+    CHECK_FALSE(fs::exists(out));
+    CHECK_FALSE(has_partial_folder(root.path()));
+    std::ifstream stream(said);
+    CHECK_THAT((std::string{std::istreambuf_iterator<char>(stream), {}}),
+               Catch::Matchers::Contains("The import was interrupted"));
+}
