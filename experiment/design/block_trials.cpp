@@ -60,7 +60,7 @@ std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockSco
                 }));
         for (int i = 0; i < count_of(scope.sculptures); ++i) {
             const int sculpture = scope.sculptures[static_cast<std::size_t>(i)];
-            if (rotates) {
+            if (rotates && !scope.materials.empty()) {
                 const int cell = rotating_task * count_of(scope.sculptures) + i;
                 const int material =
                     scope.materials[static_cast<std::size_t>(rotated(protocol, row, cell, scope))];

@@ -33,6 +33,7 @@ std::vector<int> random_row(int size, int row, std::uint64_t seed, std::string_v
     };
     const std::vector<int> rows = shuffled(), columns = shuffled(), names = shuffled();
     std::vector<int> levels;
+    levels.reserve(columns.size());
     for (const int column : columns)
         levels.push_back(
             names[static_cast<std::size_t>((rows[static_cast<std::size_t>(row % size)] + column) % size)]);
@@ -59,9 +60,10 @@ std::vector<int> row_of_square(SquareKind kind, int size, int row, std::uint64_t
         return balanced_row(size, row);
     if (kind == SquareKind::random_square)
         return random_row(size, row, seed, purpose);
-    std::vector<int> levels;
-    for (int column = 0; column < size; ++column)
-        levels.push_back((row + column) % size);
+    std::vector<int> levels(static_cast<std::size_t>(size));
+    std::iota(levels.begin(), levels.end(), row % size);
+    for (int& level : levels)
+        level %= size;
     return levels;
 }
 

@@ -91,7 +91,7 @@ class PartMaker {
     }
 
     std::vector<int> ordered_levels() const {
-        const std::vector<int> levels = levels_in(protocol_, plan_.scope, block_.by);
+        std::vector<int> levels = levels_in(protocol_, plan_.scope, block_.by);
         if (block_.levels == LevelOrder::random || block_.levels == LevelOrder::fixed)
             return levels;
         std::vector<int> ordered;

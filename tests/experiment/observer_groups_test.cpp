@@ -90,3 +90,48 @@ TEST_CASE("groups see what they are to see, and an observer beyond the caps is r
                       Catch::Contains("observer number 13 is beyond the caps") &&
                           Catch::Contains("take 12 (gold 6, coat 6)"));
 }
+
+TEST_CASE("whatever groups, blocks and orders leave of each other, observers have an order of it or the "
+          "protocol is refused",
+          "[unit]") {
+    const std::vector<std::string> groups{"", "materials = [\"smooth\"]\n",
+                                          "materials = [\"coated\", \"rough\"]\n",
+                                          "sculptures = [\"runner\"]\n", "tasks = [\"age\", \"free\"]\n"},
+        scopes{"", "materials = [\"smooth\"]\n", "sculptures = [\"muse\", \"runner\"]\n",
+               "tasks = [\"age\"]\n", "stimuli = \"once-per-sculpture\"\n"},
+        orders{"order = \"random\"\n",
+               "order = \"sequential\"\n",
+               "order = \"blocked\"\nby = \"material\"\nlevels = \"balanced\"\n",
+               "order = \"blocked\"\nby = \"task\"\nlevels = \"random-square\"\n",
+               "order = \"weighted\"\nby = \"sculpture\"\nweights = [2, 1, 1]\n",
+               "order = \"weighted\"\nby = \"material\"\nweights = [2, 1, 1]\ndraws = 7\n"};
+    const std::string paper = text_of_file(source_path("protocols/overt_2019.toml"));
+    int refused = 0, ordered = 0;
+    for (const std::string& group : groups)
+        for (const std::string& scope : scopes)
+            for (const std::string& order : orders) {
+                const std::string text = paper + "[[group]]\nid = \"all\"\n[[group]]\nid = \"some\"\n" +
+                                         group + "[[block]]\nid = \"one\"\n" + scope + order;
+                const ReadText read(text);
+                CAPTURE(group, scope, order, read.diagnostics.print());
+                if (!read.protocol) {
+                    CHECK(read.diagnostics.has_errors());
+                    ++refused;
+                    continue;
+                }
+                ++ordered;
+                for (int number = 1; number <= 4; ++number) {
+                    const auto trials = make_schedule(*read.protocol, {"P", number}, 3).trials;
+                    REQUIRE_FALSE(trials.empty());
+                    for (const Trial& trial : trials) {
+                        if (scope.starts_with("materials") ||
+                            (number % 2 == 0 && group.find("smooth") != std::string::npos))
+                            REQUIRE(trial.condition.material == 0);
+                        if (number % 2 == 0 && group.find("coated") != std::string::npos)
+                            REQUIRE(trial.condition.material != 0);
+                    }
+                }
+            }
+    CHECK(refused > 5);
+    CHECK(ordered > 50);
+}
