@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "app/commands.h"
@@ -6,24 +8,42 @@
 #include "app/recorded_surface.h"
 #include "experiment/record/asc_export.h"
 #include "experiment/record/bids_export.h"
+#include "experiment/record/session_schema.h"
 #include "experiment/record/table_export.h"
 
 namespace overt {
 
 namespace {
 
+/// With no dots and no separator at its end; the session file itself may be named.
+std::filesystem::path folder_at(const std::filesystem::path& session) {
+    const std::filesystem::path path = std::filesystem::absolute(session).lexically_normal();
+    return path.has_filename() && path.filename() != session_file_name ? path : path.parent_path();
+}
+
 /// Where one of the sessions goes.
 std::filesystem::path folder_of(const ExportOptions& options, const SessionRecord& record) {
     if (options.out.empty())
         return record.directory() / ("export_" + options.format);
-    return options.sessions.size() > 1 ? options.out / record.directory().filename() : options.out;
+    if (options.sessions.size() == 1)
+        return options.out;
+    // Observers of several protocols have folders of the same names.
+    const std::filesystem::path folder = folder_at(record.directory());
+    const auto namesakes =
+        std::count_if(options.sessions.begin(), options.sessions.end(), [&](const auto& session) {
+            const std::filesystem::path other = folder_at(session);
+            return other.filename() == folder.filename() && other != folder;
+        });
+    return namesakes == 0 ? options.out / folder.filename()
+                          : options.out / folder.parent_path().filename() / folder.filename();
 }
 
 std::function<void(int, int)> progress_on(ProgressBar& bar, const SessionRecord& record) {
-    return [&bar, title = "exporting " + record.directory().filename().string()](int done, int all) {
-        bar.update(title, done, all);
-        Interruption::check("The export");
-    };
+    return
+        [&bar, title = "exporting " + folder_at(record.directory()).filename().string()](int done, int all) {
+            bar.update(title, done, all);
+            Interruption::check("The export");
+        };
 }
 
 void export_as_tables(const ExportOptions& options, const SessionRecord& record) {

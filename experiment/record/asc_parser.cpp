@@ -22,11 +22,6 @@ struct Place {
     std::optional<ScreenPoint> point;
 };
 
-/// How edf2asc writes what is missing: a point, or what its -miss names, which many have be NaN.
-bool is_missing(std::string_view word) {
-    return word == "." || word == "NaN" || word == "nan" || word == "NAN";
-}
-
 Place place_of(std::string_view x, std::string_view y) {
     if (is_missing(x) || is_missing(y))
         return {(is_missing(x) || number_of(x)) && (is_missing(y) || number_of(y)), std::nullopt};
@@ -74,8 +69,10 @@ void AscParser::line(std::string_view line) {
         return;
     if (is_digit(line.front()))
         return sample_line(line);
-    if (line.starts_with("**"))
+    if (line.starts_with("**")) {
+        format_.is_eyelinks = true;
         return listener_.header(line);
+    }
     if (line.starts_with(">>>"))
         return note(line);
     if (is_blank(line.front())) {
@@ -139,7 +136,11 @@ void AscParser::sample_line(std::string_view line) {
         sample.gaze = place.point;
         sample.pupil_area = place.point ? static_cast<float>(std::max(*pupil, 0.0)) : 0.0f;
     }
-    format_.has_further_numbers |= !format_.has_further_numbers && number_of(words.next());
+    if (!format_.has_further_numbers || !format_.is_eyelinks) {
+        const std::string_view further = words.next();
+        format_.has_further_numbers |= number_of(further).has_value();
+        format_.is_eyelinks |= is_status(further);
+    }
     last_sample_ = last_time_ = *time;
     if (!format_.is_gaze) {
         ++no_gaze_;

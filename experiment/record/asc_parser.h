@@ -20,6 +20,7 @@ struct AscFormat {
     double rate_hz = 0.0;                               ///< of the lines to come; 0: not known
     double lowest_rate_hz = 0.0, highest_rate_hz = 0.0; ///< of those so far
     bool pupil_is_diameter = false;
+    bool is_eyelinks = false; ///< something is as only EyeLink has it: not any table of numbers
     bool is_gaze = true; ///< else samples are of the pupil or the head's frame, and no place on the screen
     bool events_are_gaze = true; ///< the same of the places of fixations and saccades
     bool has_head_target = false;

@@ -222,6 +222,11 @@ AscSurvey survey_asc(const std::filesystem::path& file, const AscReport& report,
             fmt::format("{}: no recording of an EyeLink was found in {} lines, {} of them could not "
                         "be read. Give a file that edf2asc has written.",
                         file.string(), survey.lines, survey.skipped_lines));
+    if (!survey.format.is_eyelinks && !survey.format.eyes_are_known && survey.events == 0)
+        throw InputError(fmt::format(
+            "{}: is a table of numbers, and nothing in it is as an EyeLink has it: no header, no message, "
+            "no event, no status after the values of a sample. Give a file that edf2asc has written.",
+            file.string()));
     if (surveyor.clock_began_anew())
         throw InputError(
             fmt::format("{}: the tracker's clock began anew at time stamp {}: this is two recordings "

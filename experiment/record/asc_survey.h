@@ -64,7 +64,7 @@ std::string skipped_line_text(std::int64_t line, std::string_view why, std::stri
 using AscReport = std::function<void(const std::string&)>;
 
 /// Reads the file; each line that is skipped is reported. Throws InputError if it cannot be read, if it is no
-/// recording with gaze on a screen, or if the tracker's clock began anew in it.
+/// recording of an EyeLink with gaze on a screen, or if the tracker's clock began anew in it.
 AscSurvey survey_asc(const std::filesystem::path& file, const AscReport& report,
                      const std::function<void(std::int64_t, std::int64_t)>& progress = {});
 

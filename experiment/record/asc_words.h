@@ -49,6 +49,16 @@ inline std::optional<double> number_of(std::string_view word) {
     return number;
 }
 
+/// How edf2asc writes what is missing: a point, or what its -miss names, which many have be NaN.
+inline bool is_missing(std::string_view word) {
+    return word == "." || word == "NaN" || word == "nan" || word == "NAN";
+}
+
+/// What stands after a sample's values: points, and letters for what was wrong.
+inline bool is_status(std::string_view word) {
+    return word.size() >= 3 && word.find_first_not_of(".CRIMANFTBL") == std::string_view::npos;
+}
+
 /// Microseconds of a time in milliseconds, such as «7196720» or «7196720.5»; nothing if it is none.
 std::optional<std::int64_t> asc_time_us(std::string_view text);
 

@@ -332,6 +332,12 @@ TEST_CASE("an import overwrites nothing and leaves nothing behind when it fails"
     CHECK_THROWS_WITH(
         import_asc(write_asc(root.path() / "a.asc", "no recording\n"), options_for(root.path() / "t")),
         Contains("no recording of an EyeLink"));
+    // Another tracker's table, whose first numbers would pass for time, place and pupil.
+    std::string table = "time\tx\ty\tpupil\tvalidity\n";
+    for (int n = 0; n < 100; ++n)
+        table += fmt::format("{}\t{}.5\t{}.25\t3.64\t0\n", 1000 + 3 * n, 400 + n, 300 - n);
+    CHECK_THROWS_WITH(import_asc(write_asc(root.path() / "a.asc", table), options_for(root.path() / "t")),
+                      Contains("table of numbers"));
     CHECK_THROWS_WITH(import_asc(write_asc(root.path() / "a.asc", asc_text({}) + asc_text({})),
                                  options_for(root.path() / "t")),
                       Contains("began anew"));
