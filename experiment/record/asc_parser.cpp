@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/record/asc_place.h"
 #include "experiment/record/asc_words.h"
 #include "experiment/record/utf8_text.h"
 
@@ -12,26 +13,7 @@ namespace {
 
 using Kind = GazeEvent::Kind;
 
-/// Beyond these a coordinate is the tracker's sign for «missing» (-32768, 1e8) or nonsense.
-constexpr double largest_coordinate_px = 32000.0;
 constexpr double largest_pupil = 1e6;
-
-/// A place, nothing where it is missing, or an error.
-struct Place {
-    bool is_valid = false;
-    std::optional<ScreenPoint> point;
-};
-
-Place place_of(std::string_view x, std::string_view y) {
-    if (is_missing(x) || is_missing(y))
-        return {(is_missing(x) || number_of(x)) && (is_missing(y) || number_of(y)), std::nullopt};
-    const std::optional<double> x_px = number_of(x), y_px = number_of(y);
-    if (!x_px || !y_px)
-        return {};
-    if (std::abs(*x_px) > largest_coordinate_px || std::abs(*y_px) > largest_coordinate_px)
-        return {true, std::nullopt};
-    return {true, ScreenPoint{*x_px, *y_px}};
-}
 
 TrackerTime at(std::int64_t us) { return TrackerTime(TrackerClock::duration(us)); }
 
@@ -113,11 +95,22 @@ void AscParser::sample_line(std::string_view line) {
     in_calibration_ = false;
     Words words(line);
     const std::string_view stamp = words.next();
+    const std::optional<TrackerTime> stamp_before = last_stamp_;
+    const int repeats_before = repeats_;
+    const auto refuse = [&](std::string_view why) {
+        // A broken line stands for a sample of its own where its stamp comes next, and for none where it does
+        // not: then it must not part the two of a millisecond.
+        constexpr std::chrono::milliseconds next(10);
+        if (stamp_before && last_stamp_ &&
+            (*last_stamp_ < *stamp_before || *last_stamp_ > *stamp_before + next)) {
+            last_stamp_ = stamp_before;
+            repeats_ = repeats_before;
+        }
+        bad(why, line);
+    };
     const std::optional<TrackerTime> time = sample_time(stamp);
     if (!time)
-        return bad(asc_time_us(stamp) ? "a sample at this time was there already" : "no time stamp", line);
-    if (last_sample_ && *time <= *last_sample_)
-        return bad("earlier than the sample before it", line);
+        return refuse(asc_time_us(stamp) ? "a sample at this time was there already" : "no time stamp");
 
     const int eyes = format_.has_left && format_.has_right ? 2 : 1;
     std::array<GazeSample, 2> samples;
@@ -131,11 +124,13 @@ void AscParser::sample_line(std::string_view line) {
         const Place place = place_of(x, y);
         const std::optional<double> pupil = is_missing(pupil_word) ? 0.0 : number_of(pupil_word);
         if (!place.is_valid || !pupil || std::abs(*pupil) > largest_pupil)
-            return bad(pupil_word.empty() ? "a sample without all its values" : "a value that is no number",
-                       line);
+            return refuse(pupil_word.empty() ? "a sample without all its values"
+                                             : "a value that is no number");
         sample.gaze = place.point;
         sample.pupil_area = place.point ? static_cast<float>(std::max(*pupil, 0.0)) : 0.0f;
     }
+    if (last_sample_ && *time <= *last_sample_)
+        return refuse("earlier than the sample before it");
     if (!format_.has_further_numbers || !format_.is_eyelinks) {
         const std::string_view further = words.next();
         format_.has_further_numbers |= number_of(further).has_value();

@@ -300,6 +300,32 @@ TEST_CASE("SYNCTIME says when the stimulus came, by as many milliseconds earlier
     }
 }
 
+TEST_CASE("a malformed line between the two samples of a millisecond leaves both in their places", "[unit]") {
+    const test::TemporaryFolder root;
+    AscExample example;
+    example.rate_hz = 2000.0;
+    const std::string sound = asc_text(example);
+    const std::size_t first = sound.find("\n7005\t") + 1, second = sound.find("\n7005\t", first) + 1;
+    for (const char* line : {"1\t1.0\t2.0\t3.0\t...\n", "7\n", "900000000\tabc\t2.0\t3.0\t...\n", "noise\n",
+                             "99999999999999999999\t1.0\t2.0\t3.0\n"}) {
+        CAPTURE(line);
+        std::string text = sound;
+        text.insert(second, line);
+        AscImportSummary summary;
+        check_samples(imported(root, text, &summary), example);
+        CHECK(summary.survey.skipped_lines == 1);
+    }
+    // Where the first of the two is broken itself, the second keeps its half millisecond.
+    std::string broken = sound;
+    broken.replace(broken.find('\t', first) + 1, 3, "abc");
+    std::vector<std::string> reports;
+    const SessionRecord record = imported(root, broken, nullptr, &reports);
+    REQUIRE(reports.size() == 1);
+    const std::vector<GazeSample> samples = record.samples(record.trials()[1]);
+    REQUIRE(samples.size() == 59);
+    CHECK(samples[10].sampled_at == TrackerTime(std::chrono::microseconds(7'005'500)));
+}
+
 TEST_CASE("texts that are no UTF-8 are taken for Latin-1 and said to be so", "[unit]") {
     const test::TemporaryFolder root;
     AscImportSummary summary;
