@@ -25,6 +25,10 @@ std::string label_from(const std::filesystem::path& file) {
     for (const char c : file.stem().string())
         if (std::isalnum(static_cast<unsigned char>(c)))
             label += c;
+    if (label.empty())
+        throw InputError(fmt::format("{}: this name has no letters or digits to name the observer by: give "
+                                     "--observer.",
+                                     file.string()));
     return label;
 }
 

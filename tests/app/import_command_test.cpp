@@ -41,3 +41,15 @@ TEST_CASE("an import that is interrupted leaves nothing behind, and says so", "[
     CHECK_THAT((std::string{std::istreambuf_iterator<char>(stream), {}}),
                Catch::Matchers::Contains("The import was interrupted"));
 }
+
+TEST_CASE("an import of a file whose name is no observer's asks for one", "[session]") {
+    const test::TemporaryFolder root;
+    const fs::path file = write_asc(root.path() / "__-.asc", asc_text({})), said = root.path() / "said",
+                   out = root.path() / "session";
+    CHECK(test::RunningProgram({"import", file.string(), "--out", out.string()}, {}, said).wait() == 2);
+    std::ifstream stream(said);
+    CHECK_THAT((std::string{std::istreambuf_iterator<char>(stream), {}}),
+               Catch::Matchers::Contains("--observer"));
+    CHECK(test::RunningProgram({"import", file.string(), "--out", out.string(), "--observer", "07"}, {}, said)
+              .wait() == 0);
+}
