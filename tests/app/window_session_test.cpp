@@ -61,7 +61,7 @@ std::vector<std::string> in_real_time(const SmallExperiment& experiment) {
             "--trials",
             "1",
             "--refresh-check",
-            "1",
+            "2",
             "--windowed",
             "--sessions",
             experiment.sessions().string()};
