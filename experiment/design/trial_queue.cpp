@@ -219,9 +219,10 @@ ResumeEffect TrialQueue::resume(ResumePolicy policy) {
 
 void TrialQueue::restart_block() {
     std::erase_if(waiting_, [&](const Attempt& attempt) { return attempt.trial.block == block_; });
-    for (auto trial = schedule_.trials.rbegin(); trial != schedule_.trials.rend(); ++trial)
-        if (trial->block == block_)
-            waiting_.push_front({*trial});
+    std::for_each(schedule_.trials.rbegin(), schedule_.trials.rend(), [&](const Trial& trial) {
+        if (trial.block == block_)
+            waiting_.push_front({trial});
+    });
     // Practice that is not done yet still comes.
     std::erase_if(before_, [](const SessionStep& step) { return step.kind != SessionStep::Kind::practice; });
     if (const BlockSettings& settings = block_at(protocol_, block_); !settings.instructions.empty())

@@ -209,7 +209,7 @@ std::vector<std::string> balance_warnings(const DesignReport& report, const Prot
     }
     if (std::any_of(report.schedules.begin(), report.schedules.end(),
                     [](const Schedule& schedule) { return !schedule.is_even; }))
-        warnings.push_back(
+        warnings.emplace_back(
             "the limits leave too many orders to count and too few to meet by chance: they are "
             "kept, but orders come from a chain of random exchanges and are only nearly equally "
             "probable");

@@ -17,7 +17,7 @@ std::vector<std::string> warnings_about(const RecordedAnswer& answer) {
                         "{:.0f} dBFS",
                         answer.noise_dbfs, answer.peak_dbfs));
     if (answer.samples == 0 && answer.fault.empty())
-        warnings.push_back("empty: the sound device gave no sample");
+        warnings.emplace_back("empty: the sound device gave no sample");
     if (answer.overruns > 0)
         warnings.push_back(fmt::format("{} overruns, {} samples lost", answer.overruns, answer.lost_samples));
     return warnings;
