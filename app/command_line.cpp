@@ -1,7 +1,15 @@
 #include "app/command_line.h"
 
+#include <algorithm>
+#include <cstdio>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
 #include "app/command_line_groups.h"
 #include "build_info.h"
+#include "experiment/diagnostics.h"
 
 namespace overt {
 
@@ -13,6 +21,31 @@ const char* const synopsis =
 const char* const exit_codes =
     "Exit codes: 0 done, 1 failed, 2 bad input.\n"
     "Frames, maps and sculptures are kept in $OVERT_CACHE (default: ~/.cache/overt).";
+
+/// What is called as a command and is none: help, or a word that was mistyped. The exit code, or nothing
+/// where it is a command.
+std::optional<int> answer_to_no_command(const CLI::App& app, int argc, char** argv) {
+    const std::vector<const CLI::App*> commands = app.get_subcommands({});
+    const auto called = [&](std::string_view word) {
+        const auto found = std::find_if(commands.begin(), commands.end(),
+                                        [&](const CLI::App* command) { return command->get_name() == word; });
+        return found == commands.end() ? nullptr : *found;
+    };
+    if (argc < 2 || argv[1][0] == '-' || called(argv[1]))
+        return std::nullopt;
+    const bool is_help = argv[1] == std::string_view("help");
+    const char* const word = is_help && argc > 2 ? argv[2] : argv[1];
+    if (const CLI::App* command = is_help && argc == 2 ? &app : called(word)) {
+        fmt::print("{}", command == &app ? app.help() : command->help(app.get_name()));
+        return 0;
+    }
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands)
+        names.push_back(command->get_name());
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    fmt::print(stderr, "overt: there is no command \"{}\"; {}\n", word, suggest_name(word, known));
+    return 2;
+}
 
 } // namespace
 
@@ -29,6 +62,8 @@ int run_command_line(int argc, char** argv) {
     add_display_commands(app, chosen);
     add_machine_commands(app, chosen);
 
+    if (const std::optional<int> answer = answer_to_no_command(app, argc, argv))
+        return *answer;
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -1,6 +1,8 @@
 #include "app/command_line_groups.h"
 
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include <fmt/format.h>
@@ -39,6 +41,22 @@ CLI::Validator above_zero() {
 
 CLI::Validator not_negative() {
     return number_check("NONNEGATIVE", "of 0 or above", [](double value) { return value >= 0.0; });
+}
+
+CLI::Validator seed_number() {
+    return {[](const std::string& given) {
+                std::uint64_t seed = 0;
+                const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), seed);
+                return error == std::errc() && end == given.data() + given.size()
+                           ? std::string()
+                           : fmt::format("'{}' is not a whole number from 0 to {}", given, UINT64_MAX);
+            },
+            ""};
+}
+
+CLI::Validator seconds_up_to_an_hour() {
+    return number_check("", "of seconds from 0 to 3600",
+                        [](double value) { return value >= 0.0 && value <= 3600.0; });
 }
 
 CLI::Option* add_quality_option(CLI::App& command, std::optional<BakeQuality>& quality,

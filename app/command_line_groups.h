@@ -43,6 +43,10 @@ void add_context_option(CLI::App& command, ContextChoice& context);
 CLI::Option* add_quality_option(CLI::App& command, std::optional<BakeQuality>& quality,
                                 const std::string& what, const std::vector<std::string>& names);
 
+/// Checks of seeds, whole numbers that 64 bits hold, and of what lasts up to an hour.
+CLI::Validator seed_number();
+CLI::Validator seconds_up_to_an_hour();
+
 /// --frame K or all, required; `what` says what becomes of either.
 void add_frame_option(CLI::App& command, std::optional<int>& frame, const std::string& what);
 

@@ -27,11 +27,13 @@ void add_check(CLI::App& app, ChosenCommand& chosen) {
         .add_option("--answer-time", options.answer_time_s,
                     "Seconds an answer is taken to last, for the session's length")
         ->type_name("S")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(seconds_up_to_an_hour());
     command
         .add_option("--seed", options.seed,
                     "Show the orders that this seed gives, as the record of a session has it")
-        ->type_name("SEED");
+        ->type_name("SEED")
+        ->check(seed_number());
     command.add_flag("--frames", options.frames,
                      "Read every frame, and say how much of its light the display cannot show");
     command.add_flag("--json", options.json, "Print JSON");
@@ -72,7 +74,8 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
     command
         .add_option("--seed", options.seed,
                     "Seed of the order and of all that is simulated (default: the protocol's, or a new one)")
-        ->type_name("N");
+        ->type_name("N")
+        ->check(seed_number());
     command
         .add_option("--simulate-observer", options.simulate_observer,
                     "Let a simulated observer look and answer")

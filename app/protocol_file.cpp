@@ -40,6 +40,12 @@ Observer observer_labelled(const std::string& label) {
     check_observer_label(label);
     const std::optional<int> number = observer_number(label);
     if (!number) {
+        const char last = label.back();
+        if (last >= '0' && last <= '9')
+            throw InputError(
+                fmt::format("observer «{}»: the number at its end decides which materials are shown, "
+                            "and is from 1 to 999999999",
+                            label));
         throw InputError(
             fmt::format("observer «{}» has no number at its end, and the number decides which materials are "
                         "shown: call the observer {}01, say",

@@ -60,7 +60,8 @@ void say_after(const RunOptions& options, const SessionResult& result, const Los
             throw RecordError(fmt::format("{}: cannot be written", options.print_session_to.string()));
     }
     if (result.aborted)
-        fmt::print(stderr, "the session ended early: {}\n", result.reason);
+        fmt::print(stderr, "the session ended early: {}{}\n", result.reason,
+                   result.completed_trials > 0 ? "; overt run with --resume goes on with it" : "");
 }
 
 } // namespace overt

@@ -21,12 +21,15 @@ ScaledNumber OrderCounter::ways_from(const OrderState& state) {
     std::u16string key = state.key(keys_);
     if (const auto known = ways_.find(key); known != ways_.end())
         return known->second;
-    if (ways_.size() >= most_states_) {
+    const std::vector<OrderMove> moves = state.moves();
+    const auto looks = static_cast<std::size_t>(prepared_.kinds.count) * moves.size();
+    if (ways_.size() >= most_states_ || looks > looks_left_) {
         is_too_large_ = true;
         return {};
     }
+    looks_left_ -= looks;
     ScaledNumber ways;
-    for (const OrderMove& move : state.moves()) {
+    for (const OrderMove& move : moves) {
         OrderState next = state;
         next.make(move);
         ways += ways_from(next) * move.weight;

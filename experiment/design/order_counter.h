@@ -25,9 +25,12 @@ struct KindSequence {
 
 class OrderCounter {
   public:
-    /// Counting is given up beyond `most_states` different places. Both arguments outlive the counter.
+    /// Counting is given up beyond `most_states` different places, or fewer where many kinds make each of
+    /// them dear: where it has looked at a thousand kinds for each of so many. Both arguments outlive the
+    /// counter.
     OrderCounter(const PreparedProblem& prepared, std::size_t most_states)
-        : prepared_(prepared), most_states_(most_states), keys_(prepared.kinds) {}
+        : prepared_(prepared), most_states_(most_states), looks_left_(1000 * most_states),
+          keys_(prepared.kinds) {}
 
     /// Number of sequences of kinds that keep to the limits (of drawn segments: their probability); nothing
     /// if there are too many places to count. Zero is a proof that no order keeps to them.
@@ -44,6 +47,7 @@ class OrderCounter {
 
     const PreparedProblem& prepared_;
     std::size_t most_states_;
+    std::size_t looks_left_; ///< while counting
     OrderKeys keys_;
     bool is_too_large_ = false;
     std::unordered_map<std::u16string, ScaledNumber> ways_;

@@ -5,6 +5,8 @@
 #include <numeric>
 
 #include "experiment/design/order_counter.h"
+#include "experiment/design/order_exchanges.h"
+#include "experiment/design/order_guide.h"
 #include "experiment/error.h"
 
 namespace overt {
@@ -15,19 +17,10 @@ constexpr int shuffles = 2000;
 // Trials placed at most, in as many tries.
 constexpr int more_shuffled_trials = 10'000'000;
 constexpr int guided_trials = 1'000'000;
-
-int draw_by_weight(const OrderSegment& segment, RandomStream& random) {
-    double chance = random.uniform() * std::accumulate(segment.weights.begin(), segment.weights.end(), 0.0);
-    int last = -1;
-    for (std::size_t i = 0; i < segment.items.size(); ++i) {
-        if (segment.weights[i] <= 0.0)
-            continue;
-        last = segment.items[i];
-        if ((chance -= segment.weights[i]) < 0.0)
-            break;
-    }
-    return last;
-}
+// For each trial that is placed, each kind is looked at as what comes next, and for that all kinds.
+constexpr double guided_looks = 64e6;
+// More of them where nothing else tells whether there is an order.
+constexpr int repairs = 6, last_repairs = 16, repairing_exchanges = 400'000;
 
 /// Shuffles everything again and again.
 class Shuffler {
@@ -59,48 +52,6 @@ class Shuffler {
     std::vector<OrderPart> parts_;
 };
 
-/// Items for a sequence of kinds: those of a kind come in random order.
-ItemSequence fill_in(const PreparedProblem& prepared, const KindSequence& order, RandomStream& random) {
-    const OrderProblem& problem = *prepared.problem;
-    std::vector<std::vector<std::vector<std::vector<int>>>> waiting(problem.parts.size());
-    for (std::size_t part = 0; part < problem.parts.size(); ++part) {
-        for (const OrderSegment& segment : problem.parts[part].segments) {
-            auto& kinds = waiting[part].emplace_back(static_cast<std::size_t>(prepared.kinds.count));
-            for (const int item : segment.items)
-                kinds[static_cast<std::size_t>(prepared.kinds.kind_of_item[static_cast<std::size_t>(item)])]
-                    .push_back(item);
-            if (!segment.is_drawn()) {
-                for (std::vector<int>& items : kinds) {
-                    if (items.size() > 1)
-                        random.shuffle(std::span(items));
-                }
-            }
-        }
-    }
-    ItemSequence sequence;
-    for (const KindSequence::Place& place : order.places) {
-        const auto part = static_cast<std::size_t>(place.part),
-                   segment = static_cast<std::size_t>(place.segment);
-        const OrderSegment& from = problem.parts[part].segments[segment];
-        std::vector<int>& items = waiting[part][segment][static_cast<std::size_t>(place.kind)];
-        if (from.is_drawn()) {
-            OrderSegment of_kind;
-            for (std::size_t i = 0; i < from.items.size(); ++i) {
-                if (prepared.kinds.kind_of_item[static_cast<std::size_t>(from.items[i])] == place.kind) {
-                    of_kind.items.push_back(from.items[i]);
-                    of_kind.weights.push_back(from.weights[i]);
-                }
-            }
-            sequence.items.push_back(draw_by_weight(of_kind, random));
-        } else {
-            sequence.items.push_back(items.back());
-            items.pop_back();
-        }
-        sequence.parts.push_back(place.part);
-    }
-    return sequence;
-}
-
 } // namespace
 
 class OrderDraw::Work {
@@ -128,11 +79,17 @@ class OrderDraw::Work {
             return DrawnOrder{*std::move(shuffled)};
         if (count(most_counted_states))
             return draw_counted(random);
-        if (!search())
+        std::optional<KindSequence> found = draw_repaired(random, repairs);
+        if (!found)
+            found = search_renamed(random);
+        if (!found && search())
+            found = found_;
+        if (!found)
             return std::nullopt;
-        DrawnOrder order{fill_in(prepared_, *found_, random), OrderEvenness::near};
-        mix(order.sequence, random);
-        return order;
+        OrderExchanges exchanges(prepared_, *std::move(found));
+        exchanges.exchange_names(random);
+        exchanges.mix(random);
+        return DrawnOrder{fill_in(prepared_, exchanges.order(), random), OrderEvenness::near};
     }
 
   private:
@@ -165,8 +122,12 @@ class OrderDraw::Work {
         if (!searched_) {
             OrderSearch search(prepared_, most_searched_states);
             searched_ = search.find();
-            if (searched_ == OrderSearch::Answer::found)
+            if (searched_ == OrderSearch::Answer::found) {
                 found_ = search.order();
+            } else if (searched_ == OrderSearch::Answer::too_long) {
+                RandomStream random(0, "repair of an order");
+                found_ = draw_repaired(random, last_repairs);
+            }
         }
         return found_.has_value();
     }
@@ -180,99 +141,64 @@ class OrderDraw::Work {
         return count_.has_value();
     }
 
-    /// Draws by counting for the limits of one factor, and keeps what keeps to the others as well: exact, and
-    /// more often successful than a shuffle.
-    std::optional<ItemSequence> draw_guided(RandomStream& random) {
-        if (prepared_.kinds.limited.size() < 2)
-            return std::nullopt;
+    /// One for each limited factor, first what is rarest to be met: the rarer what it gives, the better it
+    /// guides.
+    std::vector<std::unique_ptr<OrderGuide>>& guides() {
         if (!guides_) {
             guides_.emplace();
             for (const int factor : prepared_.kinds.limited)
-                guides_->push_back(std::make_unique<Guide>(problem_, factor));
-            // The rarer what it gives, the better it guides.
+                guides_->push_back(
+                    std::make_unique<OrderGuide>(problem_, factor, most_quickly_counted_states));
             std::sort(guides_->begin(), guides_->end(),
                       [](const auto& a, const auto& b) { return a->share() < b->share(); });
         }
-        if (guides_->empty() || !guides_->front()->ways || guides_->front()->ways->is_zero())
+        return *guides_;
+    }
+
+    /// Draws by counting for the limits of one factor, and keeps what keeps to the others as well: exact, and
+    /// more often successful than a shuffle.
+    std::optional<ItemSequence> draw_guided(RandomStream& random) {
+        if (prepared_.kinds.limited.size() < 2 || !guides().front()->is_counted())
             return std::nullopt;
-        Guide& guide = *guides_->front();
-        for (int attempt = 0; attempt < guided_trials / problem_.length(); ++attempt) {
-            ItemSequence sequence = fill_in(guide.prepared, guide.counter.draw(random), random);
+        OrderGuide& guide = *guides().front();
+        const double looks = static_cast<double>(guide.kinds()) * guide.kinds();
+        const int tries =
+            static_cast<int>(std::min<double>(guided_trials, guided_looks / looks)) / problem_.length();
+        for (int attempt = 0; attempt < tries; ++attempt) {
+            ItemSequence sequence = guide.draw(random);
             if (keeps(sequence))
                 return sequence;
         }
         return std::nullopt;
     }
 
-    /// Exchanges random pairs within their segments where the limits allow it. Each exchange is as probable
-    /// as its reverse, so that the chain ends at every order that it reaches with equal probability
-    /// (Metropolis et al. 1953).
-    void mix(ItemSequence& sequence, RandomStream& random) const {
-        std::vector<std::pair<std::size_t, std::size_t>> stretches;
-        std::size_t begin = 0;
-        for (const KindSequence::Place* place = found_->places.data(); begin < found_->places.size();
-             place = found_->places.data() + begin) {
-            std::size_t end = begin;
-            while (end < found_->places.size() && found_->places[end].part == place->part &&
-                   found_->places[end].segment == place->segment)
-                ++end;
-            stretches.emplace_back(begin, end);
-            begin = end;
+    /// From random orders that keep to the limits of one factor, by exchanges to one that keeps to all.
+    std::optional<KindSequence> draw_repaired(RandomStream& random, int attempts) {
+        for (int attempt = 0; attempt < attempts; ++attempt) {
+            OrderGuide& guide = *guides()[static_cast<std::size_t>(attempt) % guides().size()];
+            std::optional<KindSequence> start = guide.start(prepared_, random);
+            if (!start)
+                continue;
+            OrderExchanges exchanges(prepared_, *std::move(start));
+            if (exchanges.repair(random, repairing_exchanges))
+                return exchanges.order();
         }
-        for (const auto& [first, end] : stretches) {
-            const auto length = static_cast<std::uint32_t>(end - first);
-            const double steps = 40.0 * length * std::log2(2.0 + length);
-            for (double step = 0.0; length > 1 && step < steps; ++step) {
-                const std::size_t a = first + random.below(length), b = first + random.below(length);
-                std::swap(sequence.items[a], sequence.items[b]);
-                if (!keeps_near(sequence, a) || !keeps_near(sequence, b))
-                    std::swap(sequence.items[a], sequence.items[b]);
-            }
-        }
+        return std::nullopt;
     }
 
-    /// Whether no limit is broken with the item of this place: none looks farther than its amount.
-    bool keeps_near(const ItemSequence& sequence, std::size_t place) const {
-        std::size_t reach = 0;
-        for (const OrderLimit& limit : problem_.limits)
-            reach = std::max(reach, static_cast<std::size_t>(limit.amount));
-        const std::size_t begin = place - std::min(place, reach);
-        const std::size_t end = std::min(sequence.items.size(), place + reach + 1);
-        return keeps_to_limits(problem_, prepared_.reach, sequence, begin, end);
+    /// What a search comes to that goes through the levels in random order.
+    std::optional<KindSequence> search_renamed(RandomStream& random) const {
+        const OrderProblem other = renamed(problem_, random);
+        const PreparedProblem prepared(other);
+        OrderSearch search(prepared, most_quickly_counted_states);
+        if (search.find() != OrderSearch::Answer::found)
+            return std::nullopt;
+        return in_kinds_of(prepared_, search.order(), fill_in(prepared, search.order(), random));
     }
 
     bool keeps(const ItemSequence& sequence) const {
         return keeps_to_limits(problem_, prepared_.reach, sequence, 0, sequence.items.size());
     }
-
-    /// The problem with the limits of one factor only.
-    struct Guide {
-        Guide(const OrderProblem& whole, int factor)
-            : problem(restricted(whole, factor)), prepared(problem),
-              counter(prepared, most_quickly_counted_states), ways(counter.count()) {}
-        static OrderProblem restricted(OrderProblem problem, int factor) {
-            std::erase_if(problem.limits, [&](const OrderLimit& limit) { return limit.factor != factor; });
-            return problem;
-        }
-        /// Logarithm of the share of all orders; infinite if it could not be counted.
-        double share() const {
-            if (!ways)
-                return INFINITY;
-            double all = 0.0;
-            for (const auto& part : prepared.kinds.counts) {
-                for (const std::vector<int>& counts : part) {
-                    all += std::lgamma(1.0 + std::accumulate(counts.begin(), counts.end(), 0));
-                    for (const int count : counts)
-                        all -= std::lgamma(1.0 + count);
-                }
-            }
-            return ways->is_zero() ? -INFINITY : ways->log() - all;
-        }
-        OrderProblem problem;
-        PreparedProblem prepared;
-        OrderCounter counter;
-        std::optional<ScaledNumber> ways;
-    };
 
     OrderProblem problem_;
     PreparedProblem prepared_;
@@ -280,7 +206,7 @@ class OrderDraw::Work {
     std::optional<OrderCounter> counter_;
     std::size_t counted_states_ = 0;
     std::optional<ScaledNumber> count_;
-    std::optional<std::vector<std::unique_ptr<Guide>>> guides_;
+    std::optional<std::vector<std::unique_ptr<OrderGuide>>> guides_;
     std::optional<OrderSearch::Answer> searched_;
     std::optional<KindSequence> found_;
 };

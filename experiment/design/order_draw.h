@@ -15,7 +15,7 @@ namespace overt {
 /// How evenly an order was drawn.
 enum class OrderEvenness : std::uint8_t {
     exact, ///< each order that keeps to the limits had the same probability, to the rounding of a double
-    near   ///< a long chain of random exchanges from an order that a search found comes near to it
+    near   ///< exchanges at random, until all limits are kept and long after, come near to it
 };
 
 struct DrawnOrder {
@@ -33,14 +33,16 @@ class OrderDraw {
     OrderDraw& operator=(OrderDraw&&) noexcept;
 
     enum class Existence : std::uint8_t { exists, none, unknown };
-    /// Whether any order keeps to the limits. `unknown` only after most_states places of a search, all of
-    /// them different, led to neither an order nor an end.
+    /// Whether any order keeps to the limits. `unknown` only after most_searched_states places of a search,
+    /// all of them different, led to neither an order nor an end, and exchanges to none either.
     Existence existence();
 
     /// Nothing if none exists, or none was found in bounded time. The first 2000 tries are plain shuffles, so
     /// that an order which a shuffle gives does not depend on how others are found; then orders are counted,
     /// for all limits or for those of one factor, the others being tried; then shuffled again, more often.
-    /// All of these are exact. What is left is found by search and mixed by random exchanges.
+    /// All of these are exact. What is left begins as a random order that keeps to the limits of one factor,
+    /// is repaired by exchanges (or, where that fails, searched for with its levels in random order), and
+    /// mixed.
     std::optional<DrawnOrder> draw(RandomStream& random);
 
     /// Places after which counting, and searching, are given up: some tenths of a second each.

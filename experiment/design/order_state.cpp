@@ -54,17 +54,32 @@ std::vector<OrderMove> OrderState::moves() const {
 std::vector<OrderMove> OrderState::urgent_moves() const {
     std::vector<OrderMove> moves = this->moves();
     const auto& kinds = prepared_->kinds;
-    const auto urgency = [&](const OrderMove& move) {
+    // What is left of each level of each limited factor, of the segment last looked at.
+    int segment = -2;
+    std::vector<std::vector<int>> left(kinds.limited.size());
+    const auto count_left = [&](const OrderMove& move) {
+        if (move.segment == segment)
+            return;
+        segment = move.segment;
         const std::vector<int>& counts =
             left_ > 0 ? counts_ : kinds.counts[part_][static_cast<std::size_t>(move.segment)];
-        int most = 0, all = 0;
-        for (const int factor : kinds.limited) {
-            const auto at = static_cast<std::size_t>(factor);
-            int same = 0;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            left[i].assign(left[i].size(), 0);
             for (std::size_t kind = 0; kind < counts.size(); ++kind) {
-                if (kinds.levels[kind][at] == kinds.levels[static_cast<std::size_t>(move.kind)][at])
-                    same += counts[kind];
+                const auto level =
+                    static_cast<std::size_t>(kinds.levels[kind][static_cast<std::size_t>(kinds.limited[i])]);
+                left[i].resize(std::max(left[i].size(), level + 1));
+                left[i][level] += counts[kind];
             }
+        }
+    };
+    const auto urgency = [&](const OrderMove& move) {
+        count_left(move);
+        int most = 0, all = 0;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            const int level =
+                kinds.levels[static_cast<std::size_t>(move.kind)][static_cast<std::size_t>(kinds.limited[i])];
+            const int same = left[i][static_cast<std::size_t>(level)];
             most = std::max(most, same);
             all += same;
         }

@@ -113,55 +113,92 @@ void check_block(ProtocolExamination& examination, int index) {
                           "take block_order = \"random-square\"");
 }
 
-/// Squares and rotations that the planned number of observers does not fill.
-void check_fill(ProtocolExamination& examination, std::string_view what, int rows) {
-    const Protocol& protocol = examination.protocol;
-    const int observers = protocol.schedule.observers;
-    const int groups = std::max(1, static_cast<int>(protocol.groups.size()));
-    if (rows <= 1 || (observers % groups == 0 && observers / groups % rows == 0))
+/// Those of the planned observers who see the same.
+struct AlikeObservers {
+    std::string of_group; ///< « of group "gold"», or nothing without groups
+    int count = 0;
+    int first = 1;  ///< number of one of them
+    int blocks = 0; ///< that they have
+};
+
+std::vector<AlikeObservers> planned_observers(const Protocol& protocol) {
+    if (protocol.groups.empty())
+        return {{"", protocol.schedule.observers, 1, block_count(protocol)}};
+    std::vector<AlikeObservers> groups(protocol.groups.size());
+    const int planned =
+        std::min(protocol.schedule.observers, group_capacity(protocol).value_or(protocol.schedule.observers));
+    for (int number = planned; number >= 1; --number) {
+        const auto group = static_cast<std::size_t>(group_place(protocol, number).group);
+        const GroupSettings& settings = protocol.groups[group];
+        groups[group] = {fmt::format(" of group \"{}\"", settings.id), groups[group].count + 1, number,
+                         settings.blocks.empty() ? block_count(protocol)
+                                                 : static_cast<int>(settings.blocks.size())};
+    }
+    std::erase_if(groups, [](const AlikeObservers& group) { return group.count == 0; });
+    return groups;
+}
+
+/// Squares and rotations that a number of observers does not fill.
+void check_fill(ProtocolExamination& examination, const AlikeObservers& observers, std::string_view what,
+                int rows) {
+    if (rows <= 1 || observers.count % rows == 0)
         return;
-    const int step = rows * groups, below = observers / step * step;
-    examination.warning({"schedule.observers"},
-                        fmt::format("{} observers do not fill {}, which takes {}{}", observers, what, rows,
-                                    groups > 1 ? fmt::format(" in each of {} groups", groups) : ""),
-                        below > 0 ? fmt::format("{} or {} observers would", below, below + step)
-                                  : fmt::format("{} observers would", step));
+    const int below = observers.count / rows * rows;
+    examination.warning(
+        {"schedule.observers"},
+        fmt::format("{} observers{} do not fill {}, which takes {}", observers.count, observers.of_group,
+                    what, rows),
+        below > 0 ? fmt::format("{} or {} observers{} would", below, below + rows, observers.of_group)
+                  : fmt::format("{} observers{} would", rows, observers.of_group));
+}
+
+bool rotates_materials(const Protocol& protocol, int block, const BlockScope& scope) {
+    return std::any_of(scope.tasks.begin(), scope.tasks.end(), [&](int task) {
+        return block_at(protocol, block)
+                   .stimuli.value_or(protocol.tasks[static_cast<std::size_t>(task)].stimuli) ==
+               TaskCoverage::once_per_sculpture;
+    });
 }
 
 void check_squares(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
     const ScheduleSettings& schedule = protocol.schedule;
-    if (schedule.block_order >= LevelOrder::cyclic)
-        check_fill(examination, "the square of blocks",
-                   rows_of_square(square_of(schedule.block_order), block_count(protocol)));
-    for (int index = 0; index < static_cast<int>(protocol.blocks.size()); ++index) {
-        const BlockSettings& block = protocol.blocks[static_cast<std::size_t>(index)];
-        if (block.order == OrderMethod::blocked && block.levels >= LevelOrder::cyclic)
-            check_fill(examination, fmt::format("the square of levels of block \"{}\"", block.id),
-                       rows_of_square(square_of(block.levels),
-                                      static_cast<int>(
-                                          levels_in(protocol, scope_of(protocol, index), block.by).size())));
+    for (const AlikeObservers& observers : planned_observers(protocol)) {
+        const std::vector<BlockPlan> plans = block_plans(protocol, observers.first, 0);
+        if (schedule.block_order >= LevelOrder::cyclic)
+            check_fill(examination, observers, "the square of blocks",
+                       rows_of_square(square_of(schedule.block_order), observers.blocks));
+        int rotation = 1;
+        for (const BlockPlan& plan : plans) {
+            const BlockSettings& block = block_at(protocol, plan.block);
+            if (block.order == OrderMethod::blocked && block.levels >= LevelOrder::cyclic)
+                check_fill(
+                    examination, observers, fmt::format("the square of levels of block \"{}\"", block.id),
+                    rows_of_square(square_of(block.levels),
+                                   static_cast<int>(levels_in(protocol, plan.scope, block.by).size())));
+            if (rotates_materials(protocol, plan.block, plan.scope))
+                rotation = std::max(rotation, rows_of_square(schedule.material_rotation,
+                                                             static_cast<int>(plan.scope.materials.size())));
+        }
+        if (!protocol.groups.empty())
+            check_fill(examination, observers, "the rotation of materials", rotation);
     }
 }
 
+/// Without groups, in the words of what is seen.
 void check_rotation(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
+    if (!protocol.groups.empty())
+        return;
     const int observers = protocol.schedule.observers;
     int rotation = 1;
     for (int index = 0; index < block_count(protocol); ++index) {
         const BlockScope scope = scope_of(protocol, index);
-        const auto rotates = [&](int task) {
-            return block_at(protocol, index)
-                       .stimuli.value_or(protocol.tasks[static_cast<std::size_t>(task)].stimuli) ==
-                   TaskCoverage::once_per_sculpture;
-        };
-        if (std::any_of(scope.tasks.begin(), scope.tasks.end(), rotates))
+        if (rotates_materials(protocol, index, scope))
             rotation = std::max(rotation, rows_of_square(protocol.schedule.material_rotation,
                                                          static_cast<int>(scope.materials.size())));
     }
-    if (!protocol.groups.empty()) {
-        check_fill(examination, "the rotation of materials", rotation);
-    } else if (observers % rotation != 0) {
+    if (observers % rotation != 0) {
         const int below = observers / rotation * rotation;
         examination.warning(
             {"schedule.observers"},

@@ -12,7 +12,9 @@ Section<BlockSettings> block() {
             "order. The limits of `[schedule]` hold in each block that does not set them itself, but for two "
             "cases, in which they would contradict what the block says: a sequential order has only limits "
             "of "
-            "its own, and one blocked by a factor has none from there on this factor.",
+            "its own, and one blocked by a factor has none from there on this factor (by stimulus: none on "
+            "stimulus, "
+            "sculpture and material).",
         .keys =
             {
                 {{.name = "id",

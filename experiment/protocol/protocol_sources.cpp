@@ -117,6 +117,12 @@ class Joiner {
         return read.is_whole;
     }
 
+    std::string name_of(int file) const {
+        const auto found = std::find_if(included.begin(), included.end(),
+                                        [&](const IncludedText& known) { return known.number == file; });
+        return found == included.end() ? "another included file" : found->name;
+    }
+
     /// Of two files side by side neither is above the other.
     void put_beside(TomlTable& table, TomlTable other) {
         for (const TomlEntry& section : other) {
@@ -127,8 +133,9 @@ class Joiner {
                 auto* earlier = find(std::get<TomlTable>(known->value.content), entry.key);
                 if (earlier)
                     diagnostics_.error("", entry.key_place,
-                                       fmt::format("{}.{} is set in line {} of another included file, too",
-                                                   section.key, entry.key, earlier->key_place.line),
+                                       fmt::format("{}.{} is set in line {} of {}, too", section.key,
+                                                   entry.key, earlier->key_place.line,
+                                                   name_of(earlier->key_place.file)),
                                        "set it in the file that includes both, and in neither of them");
             }
         }

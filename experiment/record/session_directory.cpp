@@ -91,6 +91,12 @@ void remove_remnants(const SessionPlace& place, std::optional<int> wanted) {
 } // namespace
 
 void check_observer_label(const std::string& label) {
+    constexpr std::size_t most_characters = 40;
+    if (label.size() > most_characters)
+        throw InputError(
+            fmt::format("Observer label «{}…»: {} characters are too many; {} is the most, for files "
+                        "are named by it.",
+                        label.substr(0, 12), label.size(), most_characters));
     if (label.empty() || !std::all_of(label.begin(), label.end(), is_letter_or_digit))
         throw InputError(fmt::format("Observer label «{}»: use letters and digits only, such as 07 or P07; "
                                      "files are named by it.",

@@ -197,7 +197,7 @@ TEST_CASE("observers, sessions and folders that cannot be are refused before any
     const SmallExperiment experiment;
     check_says(experiment.run({"--observer", "anna"}), 2, {"anna", "no number at its end", "anna01"});
     check_says(experiment.run({"--observer", "../P01"}), 2, {"../P01", "letters and digits only"});
-    check_says(experiment.run({"--session", "0"}), 2, {"--session"});
+    check_says(experiment.run({"--session", "0"}), 2, {"'0' is not a number above 0"});
     check_says(experiment.run({"--context", "vulkan"}), 2, {"--context"});
     check_says(experiment.run({"--trials", "many"}), 2, {"--trials"});
     check_says(experiment.overt({"run", experiment.protocol().string(), "--observer", "P01", "--virtual-time",
@@ -304,4 +304,22 @@ TEST_CASE("a damaged session is told from a sound one, and nothing is exported o
         check_says(shown, 2, {"no completed trial 3"});
     }
     CHECK_FALSE(std::filesystem::exists(tables));
+}
+
+TEST_CASE("what is mistyped on the command line is said with what can be meant", "[session]") {
+    const SmallExperiment experiment;
+    const std::string protocol = experiment.protocol().string();
+    check_says(experiment.overt({"chek", protocol}), 2, {"no command \"chek\"", "\"check\""});
+    check_says(experiment.overt({"help", "rum"}), 2, {"no command \"rum\"", "\"run\""});
+    const ProgramRun help = experiment.overt({"help", "check"});
+    CHECK(help.exit_code == 0);
+    CHECK(help.out == experiment.overt({"check", "--help"}).out);
+    check_says(experiment.run({"--session", "0"}), 2, {"'0' is not a number above 0"});
+    check_says(experiment.overt({"check", protocol, "--seed=-1"}), 2,
+               {"'-1' is not a whole number from 0 to"});
+    check_says(experiment.overt({"check", protocol, "--answer-time", "nan"}), 2, {"not a number of seconds"});
+    for (const char* const observer : {"0", "99999999999"})
+        check_says(experiment.overt({"check", protocol, "--observer", observer}), 2, {"from 1 to 999999999"});
+    check_says(experiment.overt({"check", protocol, "--observer", std::string(41, 'x')}), 2,
+               {"41 characters are too many"});
 }

@@ -343,3 +343,23 @@ TEST_CASE("a number of observers that does not fill a square is warned of", "[un
                    Contains("6 or 12 observers would") &&
                    Contains("9 observers do not fill the square of levels of block \"one\""));
 }
+
+TEST_CASE("a square is filled group by group, by the observers and the levels that the group has", "[unit]") {
+    const auto warnings_for = [](int observers, int gold, int coating) {
+        std::string text = text_of_file(source_path("protocols/overt_2019.toml"));
+        text.replace(text.find("observers = 12"), 14, fmt::format("observers = {}", observers));
+        const ReadText read(
+            text, fmt::format("[[group]]\nid = \"gold\"\nmaterials = [\"smooth\", \"rough\"]\ncap = {}\n"
+                              "[[group]]\nid = \"coating\"\nmaterials = [\"coated\"]\ncap = {}\n",
+                              gold, coating));
+        CHECK_FALSE(read.diagnostics.has_errors());
+        return read.diagnostics.print();
+    };
+    // The rotation takes two rows of the first group, one of the second.
+    CHECK_THAT(warnings_for(10, 6, 4), !Contains("do not fill"));
+    CHECK_THAT(warnings_for(11, 6, 5), !Contains("do not fill"));
+    CHECK_THAT(
+        warnings_for(10, 7, 3),
+        Contains("7 observers of group \"gold\" do not fill the rotation of materials, which takes 2") &&
+            Contains("6 or 8 observers of group \"gold\" would"));
+}

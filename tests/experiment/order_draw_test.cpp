@@ -210,6 +210,64 @@ TEST_CASE(
         CHECK(items[static_cast<std::size_t>(item)] == item);
 }
 
+/// So many sculptures, materials and tasks, each combination once.
+std::vector<std::vector<int>> crossed(int sculptures, int materials, int tasks) {
+    std::vector<std::vector<int>> levels(3);
+    for (int item = 0; item < sculptures * materials * tasks; ++item) {
+        levels[0].push_back(item % sculptures);
+        levels[1].push_back(item / sculptures % materials);
+        levels[2].push_back(item / (sculptures * materials));
+    }
+    return levels;
+}
+
+TEST_CASE("limits that leave hardly any room give each seed an order of its own", "[unit]") {
+    const OrderProblem problem = one_segment(crossed(6, 4, 2), {distance(0, 5), distance(1, 3), run(2, 1)});
+    OrderDraw draw(problem);
+    std::vector<std::vector<int>> orders;
+    std::set<int> first_levels;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        RandomStream random(seed, "tight orders");
+        const auto order = draw.draw(random);
+        REQUIRE(order);
+        CHECK(order->evenness == OrderEvenness::near);
+        CHECK(keeps_to_limits(problem, order->sequence));
+        orders.push_back(order->sequence.items);
+        first_levels.insert(problem.levels[0][static_cast<std::size_t>(order->sequence.items[0])]);
+    }
+    CHECK(first_levels.size() > 2);
+    for (std::size_t a = 0; a < orders.size(); ++a) {
+        for (std::size_t b = 0; b < a; ++b) {
+            int equal = 0;
+            for (std::size_t place = 0; place < orders[a].size(); ++place)
+                equal += orders[a][place] == orders[b][place] ? 1 : 0;
+            CHECK(equal < 24); // of 48; a twelfth and less where nothing is amiss
+        }
+    }
+}
+
+TEST_CASE("an order that a search from the front does not come to is found by exchanges", "[unit]") {
+    const OrderProblem problem =
+        one_segment(crossed(4, 4, 4), {distance(0, 4), distance(1, 3), distance(2, 2)});
+    const PreparedProblem prepared(problem);
+    CHECK(OrderSearch(prepared, 20'000).find() == OrderSearch::Answer::too_long);
+    OrderDraw draw(problem);
+    CHECK(draw.existence() == OrderDraw::Existence::exists);
+    RandomStream random(1, "exchanges");
+    const auto order = draw.draw(random);
+    REQUIRE(order);
+    CHECK(keeps_to_limits(problem, order->sequence));
+}
+
+TEST_CASE("two thousand trials of as many kinds are searched through, not waited for", "[unit]") {
+    // Each place looks at its kinds once, not once for each kind: what took minutes takes a second.
+    const OrderProblem problem = one_segment(crossed(100, 20, 1), {run(0, 1), run(1, 1), distance(0, 50)});
+    RandomStream random(1, "large orders");
+    const auto order = OrderDraw(problem).draw(random);
+    REQUIRE(order);
+    CHECK(keeps_to_limits(problem, order->sequence));
+}
+
 TEST_CASE("limits that no order keeps to are named, as few of them as are needed for that", "[unit]") {
     RandomStream random(5, "conflicts");
     int single = 0, several = 0;

@@ -126,9 +126,8 @@ TEST_CASE("two files side by side may not set the same key", "[unit]") {
     files.write("a.toml", "[display]\nwidth_px = 1920\n");
     files.write("b.toml", "[display]\nheight_px = 1080\nwidth_px = 1921\n");
     CHECK_FALSE(files.read());
-    CHECK_THAT(
-        files.print(),
-        Contains("b.toml:3:1: error: display.width_px is set in line 2 of another included file, too"));
+    CHECK_THAT(files.print(),
+               Contains("b.toml:3:1: error: display.width_px is set in line 2 of a.toml, too"));
 }
 
 TEST_CASE("an include that cannot be read, or that stands or is something else, is said", "[unit]") {
