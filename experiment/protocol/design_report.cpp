@@ -69,6 +69,9 @@ SessionLength session_length(const Protocol& protocol, const Schedule& schedule,
     const double answer_s = std::clamp(assumptions.answer_s, screens.response_min_s, screens.response_max_s);
     SessionLength length;
     length.calibration_s = assumptions.calibration_s;
+    // What is read before the first trial: consent, and the pages of [instructions].
+    length.instructions_s = assumptions.text_s * static_cast<double>(protocol.instructions.pages.size() +
+                                                                     (protocol.consent.text.empty() ? 0 : 1));
     TrialQueue queue(protocol, schedule);
     while (const std::optional<SessionStep> step = queue.next()) {
         switch (step->kind) {

@@ -17,7 +17,7 @@ namespace overt {
 /// What a protocol does not say, but a session's length and size depend on.
 struct DesignAssumptions {
     double calibration_s = 180.0;   ///< calibrating and validating once a session
-    double text_s = 20.0;           ///< reading the instructions of a block
+    double text_s = 20.0;           ///< reading the consent, a page, or the instructions of a block
     double question_s = 4.0;        ///< reading a question; screens.task_min_s if that is longer
     double answer_s = 10.0;         ///< answering aloud, kept within response_min_s … response_max_s
     double bytes_per_page_px = 4.0; ///< a page of the frame store: the four bytes that are sent

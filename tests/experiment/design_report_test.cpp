@@ -52,6 +52,18 @@ TEST_CASE("a session is as long as its parts, each as the protocol and the assum
     CHECK(session.total_s() == Approx(100.0 + 30.0 + 30.0 + 246.0 + 1800.0));
 }
 
+TEST_CASE("consent and each page of instructions are read in the session's length", "[unit]") {
+    Protocol protocol = paper_protocol();
+    DesignAssumptions assumptions;
+    assumptions.text_s = 15.0;
+    const SessionLength before = make_design_report(protocol, {}, 1, assumptions).session;
+    protocol.consent.text = "May we?";
+    protocol.instructions.pages = {"Look.", "Answer."};
+    const SessionLength with_texts = make_design_report(protocol, {}, 1, assumptions).session;
+    CHECK(with_texts.instructions_s == Approx(before.instructions_s + 45.0));
+    CHECK(with_texts.total_s() == Approx(before.total_s() + 45.0));
+}
+
 TEST_CASE("frames and maps need a page for each distinct pose", "[unit]") {
     const DesignReport report = make_design_report(paper_protocol(), {});
     CHECK(report.memory.pages_per_stimulus_bytes == 31.0 * 1024 * 1024 * 4);
