@@ -177,7 +177,8 @@ SessionHeader read_session_header(const SQLite::Database& database) {
         when_late);
     Query row(database, sql.c_str());
     if (!row.step())
-        throw RecordError("table session: the one row that describes the session is missing");
+        throw RecordError(fmt::format("{}: table session: the one row that describes the session is missing",
+                                      database.getFilename()));
     read_session(row, header);
     read_characterisation(database, header);
     read_design(database, header);

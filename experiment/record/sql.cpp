@@ -11,10 +11,10 @@ namespace {
 std::string_view remedy_for(int error_code) {
     switch (error_code & 0xff) {
     case SQLITE_FULL:
-        return "The disk is full: make room, then go on with --resume";
+        return "The disk is full: make room; a session that was running can go on with --resume";
     case SQLITE_IOERR:
-        return "The disk refuses to write or read: check its space, its quota and its cable, then go on "
-               "with --resume";
+        return "The disk refuses to write or read: check its space, its quota and its cable; a session "
+               "that was running can go on with --resume";
     case SQLITE_CORRUPT:
         return "The file is damaged: work on a copy and try the sqlite3 program's .recover on it";
     case SQLITE_NOTADB:
