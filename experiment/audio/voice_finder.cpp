@@ -38,7 +38,7 @@ void VoiceFinder::add(std::span<const float> samples) {
         } else {
             run_ = 0;
         }
-        const double in = static_cast<double>(sample);
+        const auto in = static_cast<double>(sample);
         const double first = pole_ * first_out_ + in - last_in_;
         second_out_ = pole_ * second_out_ + first - first_out_;
         first_out_ = first;

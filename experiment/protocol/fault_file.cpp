@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -107,7 +108,8 @@ template <class Take> void keys_of(FaultKeys& out, Take&& take) {
 
 class FaultReader {
   public:
-    FaultReader(const std::string& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
+    FaultReader(std::string file, Diagnostics& diagnostics)
+        : file_(std::move(file)), diagnostics_(diagnostics) {}
 
     void read(const TomlFile& toml, DisplayFaults& out) {
         for (const TomlEntry& entry : toml.root) {
