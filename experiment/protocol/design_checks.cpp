@@ -138,6 +138,10 @@ std::vector<AlikeObservers> planned_observers(const Protocol& protocol) {
     return groups;
 }
 
+std::string observers_in_words(int count) {
+    return fmt::format("{} observer{}", count, count == 1 ? "" : "s");
+}
+
 /// Squares and rotations that a number of observers does not fill.
 void check_fill(ProtocolExamination& examination, const AlikeObservers& observers, std::string_view what,
                 int rows) {
@@ -146,8 +150,8 @@ void check_fill(ProtocolExamination& examination, const AlikeObservers& observer
     const int below = observers.count / rows * rows;
     examination.warning(
         {"schedule.observers"},
-        fmt::format("{} observers{} do not fill {}, which takes {}", observers.count, observers.of_group,
-                    what, rows),
+        fmt::format("{}{} {} not fill {}, which takes {}", observers_in_words(observers.count),
+                    observers.of_group, observers.count == 1 ? "does" : "do", what, rows),
         below > 0 ? fmt::format("{} or {} observers{} would", below, below + rows, observers.of_group)
                   : fmt::format("{} observers{} would", rows, observers.of_group));
 }
@@ -203,9 +207,8 @@ void check_rotation(ProtocolExamination& examination) {
         examination.warning(
             {"schedule.observers"},
             fmt::format(
-                "{} observers cannot see {} materials equally often under the tasks that are asked once "
-                "per sculpture",
-                observers, protocol.materials.size()),
+                "{} cannot see {} materials equally often under the tasks that are asked once per sculpture",
+                observers_in_words(observers), protocol.materials.size()),
             below > 0 ? fmt::format("{} or {} observers would", below, below + rotation)
                       : fmt::format("{} observers would", rotation));
     }

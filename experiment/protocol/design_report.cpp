@@ -1,6 +1,7 @@
 #include "experiment/protocol/design_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -40,22 +41,27 @@ AnimationFacts animation_facts(const Protocol& protocol) {
 VisualAngles visual_angles(const Protocol& protocol) {
     const ScreenGeometry geometry = screen_geometry_of(protocol);
     const ScreenPoint centre = geometry.centre();
-    const auto width_deg = [&](double px) {
-        return geometry
-            .angle_between({centre.x_px - 0.5 * px, centre.y_px}, {centre.x_px + 0.5 * px, centre.y_px})
-            .value;
+    /// Of an area, along its middle row and its middle column.
+    const auto size_deg = [&](ScreenPoint middle, glm::dvec2 px) {
+        const glm::dvec2 half = 0.5 * px;
+        const auto& [x, y] = middle;
+        return glm::dvec2(geometry.angle_between({x - half.x, y}, {x + half.x, y}).value,
+                          geometry.angle_between({x, y - half.y}, {x, y + half.y}).value);
     };
-    const auto height_deg = [&](double px) {
-        return geometry
-            .angle_between({centre.x_px, centre.y_px - 0.5 * px}, {centre.x_px, centre.y_px + 0.5 * px})
-            .value;
-    };
+    const glm::dvec2 image_px(geometry.image_px), screen = size_deg(centre, geometry.screen_px);
+    const ScreenPoint middle = geometry.screen_from_image(0.5 * image_px);
+    const glm::dvec2 image = size_deg(middle, image_px);
     VisualAngles angles;
-    angles.screen_width_deg = width_deg(geometry.screen_px.x);
-    angles.screen_height_deg = height_deg(geometry.screen_px.y);
-    angles.image_width_deg = width_deg(geometry.image_px.x);
-    angles.image_height_deg = height_deg(geometry.image_px.y);
-    angles.camera_fov_deg = protocol.view.vertical_fov_deg.value_or(angles.image_height_deg);
+    angles.screen_width_deg = screen.x;
+    angles.screen_height_deg = screen.y;
+    angles.image_width_deg = image.x;
+    angles.image_height_deg = image.y;
+    angles.image_right_deg = std::copysign(geometry.angle_between(centre, {middle.x_px, centre.y_px}).value,
+                                           middle.x_px - centre.x_px);
+    angles.image_up_deg = std::copysign(geometry.angle_between(centre, {centre.x_px, middle.y_px}).value,
+                                        centre.y_px - middle.y_px);
+    // The camera stands before the middle of its picture, wherever that is shown.
+    angles.camera_fov_deg = protocol.view.vertical_fov_deg.value_or(size_deg(centre, image_px).y);
     angles.px_per_deg = geometry.px_per_deg_at_centre();
     return angles;
 }

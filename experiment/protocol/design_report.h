@@ -36,9 +36,10 @@ struct AnimationFacts {
 
 struct VisualAngles {
     double screen_width_deg = 0.0, screen_height_deg = 0.0;
-    double image_width_deg = 0.0, image_height_deg = 0.0;
-    double camera_fov_deg = 0.0; ///< vertical
-    double px_per_deg = 0.0;     ///< at the middle of the screen
+    double image_width_deg = 0.0, image_height_deg = 0.0; ///< where it is shown
+    double image_right_deg = 0.0, image_up_deg = 0.0;     ///< from the screen's middle to the image's
+    double camera_fov_deg = 0.0;                          ///< vertical
+    double px_per_deg = 0.0;                              ///< at the middle of the screen
 };
 
 /// Of one session, by what is on the screen.

@@ -81,6 +81,7 @@ Json to_json(const DesignReport& report) {
     json["angles"] = {
         {"screen_width_deg", angles.screen_width_deg}, {"screen_height_deg", angles.screen_height_deg},
         {"image_width_deg", angles.image_width_deg},   {"image_height_deg", angles.image_height_deg},
+        {"image_right_deg", angles.image_right_deg},   {"image_up_deg", angles.image_up_deg},
         {"camera_fov_deg", angles.camera_fov_deg},     {"px_per_deg", angles.px_per_deg}};
     if (const auto& light = report.display.characterisation) {
         const auto numbers = [](const glm::dvec3& xyz) { return Json{xyz.x, xyz.y, xyz.z}; };

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -94,11 +95,16 @@ void add_overview(std::string& text, const DesignReport& report) {
                                     light->luminance_of(report.display.background)));
         add_facts(text, "Light", lines);
     }
-    add_facts(text, "Stimulus",
-              {fmt::format("{} x {} px: {:.2f} x {:.2f} deg, {:.1f} px per degree", report.view.width_px,
-                           report.view.height_px, angles.image_width_deg, angles.image_height_deg,
-                           angles.px_per_deg),
-               fmt::format("rendered under {:.2f} deg", angles.camera_fov_deg)});
+    std::vector<std::string> stimulus{
+        fmt::format("{} x {} px: {:.2f} x {:.2f} deg, {:.1f} px per degree at the screen's middle",
+                    report.view.width_px, report.view.height_px, angles.image_width_deg,
+                    angles.image_height_deg, angles.px_per_deg),
+        fmt::format("rendered under {:.2f} deg", angles.camera_fov_deg)};
+    if (std::hypot(angles.image_right_deg, angles.image_up_deg) > 2.0 / angles.px_per_deg)
+        stimulus.push_back(fmt::format("its middle stands {:.2f} deg to the right of the screen's and {:.2f} "
+                                       "deg above it",
+                                       angles.image_right_deg, angles.image_up_deg));
+    add_facts(text, "Stimulus", stimulus);
     add_facts(text, "Memory",
               {fmt::format("{} of frames and {} of maps for each stimulus",
                            in_bytes(report.memory.pages_per_stimulus_bytes),

@@ -122,6 +122,9 @@ std::string without_preamble(std::string_view description) {
     return std::string(end == std::string_view::npos ? description : description.substr(end + 2));
 }
 
+/// What some editors of Windows call Unicode: two bytes for each character, a mark of their order before all.
+bool is_utf16(std::string_view text) { return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"); }
+
 } // namespace
 
 std::string_view TomlValue::kind() const {
@@ -132,6 +135,11 @@ std::string_view TomlValue::kind() const {
 
 TomlFile parse_toml(std::string_view text, const std::string& file, Diagnostics& diagnostics) {
     TomlFile result;
+    if (is_utf16(text)) {
+        result.is_whole = false;
+        diagnostics.error(file, {1, 1}, "the file is in UTF-16", "save it as UTF-8");
+        return result;
+    }
     std::string remaining(text);
     int last_line = 0;
     while (true) {

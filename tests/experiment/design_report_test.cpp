@@ -41,6 +41,29 @@ TEST_CASE("visual angles are those of the screen's trigonometry", "[unit]") {
     CHECK(report.angles.px_per_deg == Approx(1920 / 698.4 * 1750.0 * std::tan(std::numbers::pi / 180.0)));
 }
 
+TEST_CASE("the visual angles of a stimulus are those of the place where it is shown", "[unit]") {
+    Protocol protocol = paper_protocol();
+    protocol.view.centre_right_deg = 8.0;
+    protocol.view.centre_up_deg = -4.0;
+    protocol.view.width_px = protocol.view.height_px = 200;
+    const VisualAngles angles = make_design_report(protocol, {}).angles;
+    const glm::dvec2 mm_per_px(698.4 / 1920, 392.9 / 1080);
+    CHECK(angles.image_right_deg == Approx(8.0).margin(0.02)); // to the pixel
+    CHECK(angles.image_up_deg == Approx(-4.0).margin(0.02));
+    // The directions from the eye to the ends of the middle row and column.
+    const double x = 1750.0 * std::tan(angles.image_right_deg * std::numbers::pi / 180.0),
+                 y = 1750.0 * std::tan(angles.image_up_deg * std::numbers::pi / 180.0);
+    const auto between = [](glm::dvec3 a, glm::dvec3 b) {
+        return std::acos(glm::dot(glm::normalize(a), glm::normalize(b))) * 180.0 / std::numbers::pi;
+    };
+    const glm::dvec2 half_mm = 100.0 * mm_per_px;
+    CHECK(angles.image_width_deg ==
+          Approx(between({x - half_mm.x, y, 1750.0}, {x + half_mm.x, y, 1750.0})).epsilon(1e-7));
+    CHECK(angles.image_height_deg ==
+          Approx(between({x, y - half_mm.y, 1750.0}, {x, y + half_mm.y, 1750.0})).epsilon(1e-7));
+    CHECK(angles.camera_fov_deg > 1.005 * angles.image_height_deg);
+}
+
 TEST_CASE("a session is as long as its parts, each as the protocol and the assumptions have it", "[unit]") {
     Protocol protocol = paper_protocol();
     DesignAssumptions assumptions{.calibration_s = 100.0, .question_s = 0.5, .answer_s = 90.0};

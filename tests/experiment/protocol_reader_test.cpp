@@ -103,6 +103,17 @@ TEST_CASE("lines lost to syntax errors raise no complaints about what they may h
     CHECK_THAT(lines[1], Catch::StartsWith("5:"));
 }
 
+TEST_CASE("a protocol in UTF-16 is told by one error, and one in UTF-8 with a mark before it is taken",
+          "[unit]") {
+    std::string utf16 = "\xff\xfe";
+    for (const char character : std::string(minimal_protocol))
+        (utf16 += character) += '\0';
+    const ReadText read(utf16);
+    CHECK(read.lines() == Lines{"1:1: the file is in UTF-16"});
+    CHECK(read.diagnostics.findings().front().hint == "save it as UTF-8");
+    CHECK(ReadText("\xef\xbb\xbf" + std::string(minimal_protocol)).protocol);
+}
+
 TEST_CASE("headings without a name are found, whatever stands in their place", "[unit]") {
     for (const char* heading : {"[=]\n", "[.a]\n", "[[{]]\n", "  [[ é ]]\n", "[]\n"}) {
         CAPTURE(heading);
