@@ -1,6 +1,8 @@
 #include "experiment/record/asc_parser.h"
 
 #include <algorithm>
+#include <chrono>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,6 +16,9 @@ namespace {
 using Kind = GazeEvent::Kind;
 
 constexpr double largest_pupil = 1e6;
+
+/// In a recording; trackers that lose an eye go on with samples.
+constexpr std::chrono::milliseconds longest_gap(200);
 
 TrackerTime at(std::int64_t us) { return TrackerTime(TrackerClock::duration(us)); }
 
@@ -74,50 +79,34 @@ void AscParser::note(std::string_view line) {
     listener_.event(event);
 }
 
-std::optional<TrackerTime> AscParser::sample_time(std::string_view stamp) {
-    const std::optional<std::int64_t> us = asc_time_us(stamp);
-    if (!us)
-        return std::nullopt;
-    const TrackerTime time = at(*us);
-    if (time != last_stamp_) {
-        last_stamp_ = time;
-        repeats_ = 0;
-        return time;
-    }
-    // A rate that is not known is the only one at which whole milliseconds are repeated.
-    const double rate_hz = format_.rate_hz > 0.0 ? format_.rate_hz : 2000.0;
-    ++repeats_;
-    const auto later = TrackerClock::duration(static_cast<std::int64_t>(1e6 / rate_hz) * repeats_);
-    return later < std::chrono::milliseconds(1) ? std::optional(time + later) : std::nullopt;
-}
-
 void AscParser::sample_line(std::string_view line) {
     in_calibration_ = false;
     Words words(line);
-    const std::string_view stamp = words.next();
-    const std::optional<TrackerTime> stamp_before = last_stamp_;
-    const int repeats_before = repeats_;
+    const std::optional<std::int64_t> us = asc_time_us(words.next());
+    if (us)
+        settle_leap(at(*us));
+    const AscStamps before = stamps_;
     const auto refuse = [&](std::string_view why) {
         // A broken line stands for a sample of its own where its stamp comes next, and for none where it does
         // not: then it must not part the two of a millisecond.
         constexpr std::chrono::milliseconds next(10);
-        if (stamp_before && last_stamp_ &&
-            (*last_stamp_ < *stamp_before || *last_stamp_ > *stamp_before + next)) {
-            last_stamp_ = stamp_before;
-            repeats_ = repeats_before;
-        }
+        if (before.last() && stamps_.last() &&
+            (*stamps_.last() < *before.last() || *stamps_.last() > *before.last() + next))
+            stamps_ = before;
         bad(why, line);
     };
-    const std::optional<TrackerTime> time = sample_time(stamp);
+    if (!us)
+        return refuse("no time stamp");
+    const std::optional<TrackerTime> time = stamps_.next(*us, format_.rate_hz);
     if (!time)
-        return refuse(asc_time_us(stamp) ? "a sample at this time was there already" : "no time stamp");
+        return refuse("a sample at this time was there already");
 
-    const int eyes = format_.has_left && format_.has_right ? 2 : 1;
-    std::array<GazeSample, 2> samples;
-    for (int i = 0; i < eyes; ++i) {
-        GazeSample& sample = samples[static_cast<std::size_t>(i)];
+    Samples taken;
+    taken.eyes = format_.has_left && format_.has_right ? 2 : 1;
+    for (int i = 0; i < taken.eyes; ++i) {
+        GazeSample& sample = taken.of_eyes[static_cast<std::size_t>(i)];
         sample.sampled_at = *time;
-        sample.eye = eyes == 2          ? (i == 0 ? Eye::left : Eye::right)
+        sample.eye = taken.eyes == 2    ? (i == 0 ? Eye::left : Eye::right)
                      : format_.has_left ? Eye::left
                                         : Eye::right;
         const std::string_view x = words.next(), y = words.next(), pupil_word = words.next();
@@ -136,12 +125,32 @@ void AscParser::sample_line(std::string_view line) {
         format_.has_further_numbers |= number_of(further).has_value();
         format_.is_eyelinks |= is_status(further);
     }
-    last_sample_ = last_time_ = *time;
+    if (const std::optional<TrackerTime> earlier = last_sample_ ? last_sample_ : recording_start_;
+        earlier && recording_start_ && std::chrono::abs(*time - *earlier) > longest_gap)
+        leap_ = Leap{taken, *earlier, before, lines_, std::string(line)};
+    else
+        deliver(taken);
+}
+
+void AscParser::deliver(const Samples& taken) {
+    last_sample_ = last_time_ = taken.of_eyes[0].sampled_at;
     if (!format_.is_gaze) {
         ++no_gaze_;
         return;
     }
-    listener_.samples(std::span(samples).first(static_cast<std::size_t>(eyes)));
+    listener_.samples(std::span(taken.of_eyes).first(static_cast<std::size_t>(taken.eyes)));
+}
+
+void AscParser::settle_leap(std::optional<TrackerTime> next) {
+    if (!leap_)
+        return;
+    const Leap leap = *std::exchange(leap_, std::nullopt);
+    const TrackerTime leapt = leap.samples.of_eyes[0].sampled_at;
+    if (next && std::chrono::abs(*next - leapt) < std::chrono::abs(*next - leap.from))
+        return deliver(leap.samples);
+    stamps_ = leap.stamps_before;
+    listener_.malformed(leap.line, "far from the times of the sample before it and of the line after it",
+                        leap.text);
 }
 
 void AscParser::event_line(std::string_view line) {
@@ -186,6 +195,7 @@ void AscParser::message_line(std::string_view line) {
     if (!us)
         return bad("a message without a time", line);
     GazeEvent event;
+    settle_leap(at(*us));
     event.start = event.end = last_time_ = at(*us);
     event.text = utf8(words.rest());
     in_calibration_ = event.text.starts_with("!CAL");
@@ -264,6 +274,7 @@ void AscParser::recording_line(std::string_view line, bool begins) {
         return bad("the begin or end of a recording without a time", line);
     drop_open_events();
     GazeEvent event;
+    settle_leap(at(*us));
     event.kind = begins ? Kind::started : Kind::ended;
     event.start = event.end = last_time_ = at(*us);
     bool left = false, right = false;
@@ -284,8 +295,9 @@ void AscParser::recording_line(std::string_view line, bool begins) {
         event.text = left && right ? "LEFT RIGHT" : left ? "LEFT" : right ? "RIGHT" : "";
         // A new recording may begin with the time of the last one's end.
         last_sample_.reset();
-        last_stamp_.reset();
+        stamps_ = {};
     }
+    recording_start_ = begins ? std::optional(event.start) : std::nullopt;
     listener_.event(event);
 }
 
@@ -296,6 +308,7 @@ void AscParser::port_line(std::string_view line, Kind kind) {
     if (!us)
         return bad("a button or input without a time", line);
     GazeEvent event;
+    settle_leap(at(*us));
     event.kind = kind;
     event.start = event.end = last_time_ = at(*us);
     for (std::string_view word = words.next(); !word.empty(); word = words.next())
@@ -336,6 +349,9 @@ void AscParser::samples_layout(std::string_view line) {
     }
 }
 
-void AscParser::end() { drop_open_events(); }
+void AscParser::end() {
+    settle_leap(std::nullopt);
+    drop_open_events();
+}
 
 } // namespace overt

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "experiment/record/asc_stamps.h"
 #include "experiment/record/gaze_event.h"
 
 namespace overt {
@@ -78,17 +79,34 @@ class AscParser {
     void samples_layout(std::string_view line);
     void note(std::string_view line);
     void bad(std::string_view why, std::string_view line) { listener_.malformed(lines_, why, line); }
-    std::optional<TrackerTime> sample_time(std::string_view stamp);
+    /// A sample's line: of one eye or both, the left one first.
+    struct Samples {
+        std::array<GazeSample, 2> of_eyes;
+        int eyes = 1;
+    };
+    /// A sample far later than the one before it, or far from its recording's begin. Either its stamp is
+    /// broken or the recording has a gap: the time of the line after it tells.
+    struct Leap {
+        Samples samples;
+        TrackerTime from; ///< the sample before it, or the recording's begin
+        AscStamps stamps_before;
+        std::int64_t line = 0;
+        std::string text;
+    };
+    void deliver(const Samples& taken);
+    void settle_leap(std::optional<TrackerTime> next);
     std::string utf8(std::string_view text);
     void drop_open_events();
 
     AscListener& listener_;
     AscFormat format_;
     std::int64_t lines_ = 0, unfinished_ = 0, no_gaze_ = 0, no_gaze_events_ = 0, recoded_ = 0;
-    bool in_calibration_ = false; ///< lines without a time belong to it
-    TrackerTime last_time_;       ///< of any line
-    std::optional<TrackerTime> last_sample_, last_stamp_;
-    int repeats_ = 0; ///< of the last stamp
+    bool in_calibration_ = false;                ///< lines without a time belong to it
+    TrackerTime last_time_;                      ///< of any line
+    std::optional<TrackerTime> recording_start_; ///< of what goes on; nothing outside of START and END
+    std::optional<TrackerTime> last_sample_;
+    AscStamps stamps_;
+    std::optional<Leap> leap_;
     std::array<bool, 6> open_events_{};
 };
 
