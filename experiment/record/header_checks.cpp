@@ -30,9 +30,11 @@ bool is_screen(const ScreenGeometry& screen) {
 /// A presentation must be one that can be laid out refresh by refresh.
 bool is_animation(const Animation& animation, double refresh_hz) {
     constexpr double most_refreshes = 1e7;
-    return is_within(refresh_hz, 0.0, 1e5) && is_within(animation.frame_rate_hz, 1e-3, 1e5) &&
-           is_within(animation.duration_s, 0.0, 1e6) && is_within(animation.amplitude.value, -1e6, 1e6) &&
-           is_within(animation.frame_count, 1, 1e6) && animation.duration_s * refresh_hz <= most_refreshes &&
+    // Where a recording was imported, no rate is known.
+    return (refresh_hz == 0.0 || is_within(refresh_hz, 0.1, 1e5)) &&
+           is_within(animation.frame_rate_hz, 1e-3, 1e5) && is_within(animation.duration_s, 0.0, 1e6) &&
+           is_within(animation.amplitude.value, -1e6, 1e6) && is_within(animation.frame_count, 1, 1e6) &&
+           animation.duration_s * refresh_hz <= most_refreshes &&
            animation.duration_s * animation.frame_rate_hz <= most_refreshes &&
            animation.frame_count / animation.frame_rate_hz * refresh_hz <= most_refreshes;
 }

@@ -1,6 +1,7 @@
 /// What was measured in the trials of a session: refreshes, gaze and spoken answers.
 #include <fmt/format.h>
 
+#include "experiment/error.h"
 #include "experiment/record/gaze_rows.h"
 #include "experiment/record/session_record.h"
 #include "experiment/record/sql.h"
@@ -67,7 +68,7 @@ RecordedAnswer read_answer(Query& row, int trial) {
 } // namespace
 
 std::vector<FlipRecord> SessionRecord::flips(const TrialRecord& trial) const {
-    return reading_session(file_, [&] {
+    std::vector<FlipRecord> rows = reading_session(file_, [&] {
         return read_rows(
             *database_,
             fmt::format("SELECT refresh_in_trial, refresh, planned, shown, pose, requested_ns, swapped_ns, "
@@ -75,6 +76,12 @@ std::vector<FlipRecord> SessionRecord::flips(const TrialRecord& trial) const {
                         has_column(*database_, "flip", "uncertainty_ns") ? "uncertainty_ns" : "0"),
             [&](Query& row) { return read_flip(row, trial.trial.index); }, trial.id);
     });
+    if (!rows.empty() && header_.display.refresh_hz == 0.0)
+        throw RecordError(
+            fmt::format("{}: trial {} has flips of a display that has no refresh rate: the file is "
+                        "damaged.",
+                        file_.string(), trial.trial.index + 1));
+    return rows;
 }
 
 std::vector<MissedRefresh> SessionRecord::missed_refreshes(const TrialRecord& trial) const {
