@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "experiment/error.h"
+#include "render/processor_clones.h"
 
 namespace overt {
 
@@ -96,9 +97,9 @@ using FourInts = int __attribute__((vector_size(16)));
 /// What encode_row() makes of whole pairs joined by a box filter, for a display that linearises itself, with
 /// all channels of a pair at once: half of the time to load a stimulus went into this. Clones for processors
 /// that have wider registers give the same bytes: there is nothing in it that they may round differently.
-__attribute__((target_clones("default", "avx2"))) void encode_linear_pairs(const glm::vec4* pixels, int pairs,
-                                                                           double background, double levels,
-                                                                           double half, std::byte* into) {
+OVERT_PROCESSOR_CLONES("avx2")
+void encode_linear_pairs(const glm::vec4* pixels, int pairs, double background, double levels, double half,
+                         std::byte* into) {
     const Four all_levels = Four{} + levels, all_halves = Four{} + half, zero{}, one = Four{} + 1.0;
     for (int pair = 0; pair < pairs; ++pair, pixels += 2, into += 8) {
         FourFloats left, right;

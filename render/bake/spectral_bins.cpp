@@ -4,13 +4,7 @@
 #include <bit>
 #include <cstdint>
 
-// The loader picks a version for the processor before a sanitizer is ready for that.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) &&                \
-    !defined(__clang__)
-#define OVERT_FOR_EACH_PROCESSOR __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define OVERT_FOR_EACH_PROCESSOR
-#endif
+#include "render/processor_clones.h"
 
 namespace overt {
 
@@ -38,29 +32,31 @@ inline float power_of_two(float x) {
 
 float Bins::largest() const { return *std::max_element(value.begin(), value.begin() + spectral_bins); }
 
-OVERT_FOR_EACH_PROCESSOR void scale(Bins& bins, float factor) {
+OVERT_PROCESSOR_CLONES("avx2", "avx512f") void scale(Bins& bins, float factor) {
     for (std::size_t i = 0; i < Bins::padded; ++i)
         bins.value[i] *= factor;
 }
 
-OVERT_FOR_EACH_PROCESSOR void multiply(Bins& bins, const Bins& by) {
+OVERT_PROCESSOR_CLONES("avx2", "avx512f") void multiply(Bins& bins, const Bins& by) {
     for (std::size_t i = 0; i < Bins::padded; ++i)
         bins.value[i] *= by.value[i];
 }
 
-OVERT_FOR_EACH_PROCESSOR void multiply_mixed(Bins& bins, const Bins& from, const Bins& to, float share) {
+OVERT_PROCESSOR_CLONES("avx2", "avx512f")
+void multiply_mixed(Bins& bins, const Bins& from, const Bins& to, float share) {
     for (std::size_t i = 0; i < Bins::padded; ++i)
         bins.value[i] *= from.value[i] + share * (to.value[i] - from.value[i]);
 }
 
-OVERT_FOR_EACH_PROCESSOR void absorb(Bins& bins, const Bins& absorbance, float path) {
+OVERT_PROCESSOR_CLONES("avx2", "avx512f") void absorb(Bins& bins, const Bins& absorbance, float path) {
     for (std::size_t i = 0; i < Bins::padded; ++i) {
         const float exponent = -1.44269504f * path * absorbance.value[i];
         bins.value[i] *= power_of_two(exponent < -125.0f ? -125.0f : exponent);
     }
 }
 
-OVERT_FOR_EACH_PROCESSOR void add_lit(Bins& sum, const Bins& bins, const RgbBasis& basis, glm::vec3 rgb) {
+OVERT_PROCESSOR_CLONES("avx2", "avx512f")
+void add_lit(Bins& sum, const Bins& bins, const RgbBasis& basis, glm::vec3 rgb) {
     const float r = rgb.x, g = rgb.y, b = rgb.z;
     for (std::size_t i = 0; i < Bins::padded; ++i) {
         sum.value[i] +=
@@ -68,7 +64,7 @@ OVERT_FOR_EACH_PROCESSOR void add_lit(Bins& sum, const Bins& bins, const RgbBasi
     }
 }
 
-OVERT_FOR_EACH_PROCESSOR void add(Bins& sum, const Bins& bins) {
+OVERT_PROCESSOR_CLONES("avx2", "avx512f") void add(Bins& sum, const Bins& bins) {
     for (std::size_t i = 0; i < Bins::padded; ++i)
         sum.value[i] += bins.value[i];
 }
