@@ -109,10 +109,15 @@ class ExportBench {
         for (const int times : {1, 4})
             sessions_.push_back(
                 record_session(scratch_.path() / fmt::format("session_{}", times), trials * times));
-        run("tsv export", [&](const std::filesystem::path& session, const std::filesystem::path& out) {
-            const auto counts = export_tables(SessionRecord(session), no_surface, out);
-            return Work{1e-6 * static_cast<double>(counts.bytes), static_cast<double>(counts.rows)};
-        });
+        for (const TableFormat format : {TableFormat::tsv, TableFormat::jsonl}) {
+            TableExportOptions tables;
+            tables.format = format;
+            run(fmt::format("{} export", ending_of(format)),
+                [&](const std::filesystem::path& session, const std::filesystem::path& out) {
+                    const auto counts = export_tables(SessionRecord(session), no_surface, out, tables);
+                    return Work{1e-6 * static_cast<double>(counts.bytes), static_cast<double>(counts.rows)};
+                });
+        }
         run("bids export", [&](const std::filesystem::path& session, const std::filesystem::path& out) {
             const auto counts = export_bids(SessionRecord(session), no_surface, out);
             return Work{1e-6 * static_cast<double>(counts.bytes), static_cast<double>(counts.rows)};
