@@ -157,8 +157,11 @@ bool finish_manifest(const RunOptions& options, const SessionPlace& place) {
     } catch (const RecordError&) {
         return false; // damaged, or of an earlier program: overt verify says which
     }
-    fold_session_file(folder / session_file_name);
-    close_manifest(folder);
+    if (!fold_session_file(folder / session_file_name) || !close_manifest(folder))
+        throw InputError(fmt::format("{}: all trials are done, but another program has the session open, so "
+                                     "that its manifest cannot be finished: close it there, and run this "
+                                     "again.",
+                                     folder.string()));
     fmt::print("{}: all trials were done; the manifest is finished now\n", folder.string());
     return true;
 }

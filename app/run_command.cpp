@@ -254,7 +254,10 @@ int run_session(const RunOptions& options) {
     progress.finish();
     box.leave(store);
     store.close();
-    close_manifest(folder.path);
+    if (!close_manifest(folder.path))
+        fmt::print(stderr,
+                   "the session is recorded, but its manifest is not finished, for another program has "
+                   "session.sqlite open, or the disk is full: afterwards overt run … --resume finishes it\n");
     say_after(options, result, store.lost(), plan.schedule, folder.path);
     return result.aborted ? 1 : 0;
 }

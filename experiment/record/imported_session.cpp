@@ -34,7 +34,7 @@ void finish_imported_session(const std::filesystem::path& folder, const ProgramB
     });
     const SessionRecord record(folder);
     reopen_manifest(folder, record.header(), {"overt", program.version, hash_of_file("/proc/self/exe")});
-    close_manifest(folder);
+    static_cast<void>(close_manifest(folder)); // it has no log: nobody knows of the folder yet
 }
 
 } // namespace overt

@@ -188,11 +188,11 @@ void reopen_manifest(const fs::path& folder, const SessionHeader& header,
     write_manifest(folder, manifest);
 }
 
-void close_manifest(const fs::path& folder) {
+bool close_manifest(const fs::path& folder) {
     std::error_code none;
     if (const fs::path log = folder / (std::string(session_file_name) + "-wal");
         fs::exists(log, none) && fs::file_size(log, none) > 0)
-        return;
+        return false;
     SessionManifest manifest = read_manifest(folder);
     for (const std::string& name : files_of_session(folder, true)) {
         const bool is_known =
@@ -205,6 +205,7 @@ void close_manifest(const fs::path& folder) {
               [](const SessionManifest::File& a, const SessionManifest::File& b) { return a.path < b.path; });
     manifest.is_closed = true;
     write_manifest(folder, manifest);
+    return true;
 }
 
 } // namespace overt

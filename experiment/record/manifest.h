@@ -62,8 +62,8 @@ void reopen_manifest(const std::filesystem::path& folder, const SessionHeader& h
                      const SessionManifest::Program& program);
 
 /// When the session has ended in order: adds session.sqlite and the files that have come since. Those that
-/// were there keep the hashes they had. Does nothing while session.sqlite still needs its log, because
-/// somebody reads it or the disk is full. Throws RecordError.
-void close_manifest(const std::filesystem::path& folder);
+/// were there keep the hashes they had. False, and nothing done, while session.sqlite still needs its log,
+/// because somebody reads it or the disk is full. Throws RecordError.
+[[nodiscard]] bool close_manifest(const std::filesystem::path& folder);
 
 } // namespace overt

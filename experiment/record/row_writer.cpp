@@ -319,9 +319,11 @@ void RowWriter::close() {
     seals_.seal_rest(SealKind::end, sitting_);
     forget_file_hash(database_);
     commit_to_disk();
-    // One plain file can be read from any place, a read-only one too. Where somebody is reading it just now
-    // it stays as it is, which is as good but for that.
-    database_.tryExec("PRAGMA journal_mode = DELETE");
+    try {
+        static_cast<void>(fold_log(database_));
+    } catch (const SQLite::Exception&) {
+        // All is recorded; what is left to do needs more room on the disk.
+    }
 }
 
 } // namespace overt

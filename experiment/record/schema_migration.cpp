@@ -118,7 +118,11 @@ std::optional<fs::path> migrate_session_file(const fs::path& file) {
         if (version >= session_schema_version)
             return std::nullopt;
         // What a killed program left in the log goes into the file, so that the copy is all of it.
-        database.exec("PRAGMA journal_mode = DELETE; PRAGMA synchronous = FULL; PRAGMA foreign_keys = OFF");
+        if (!fold_log(database))
+            throw RecordError(fmt::format("{}: another program has this session open, so that it cannot be "
+                                          "brought to today's format: close it there, and try again.",
+                                          file.string()));
+        database.exec("PRAGMA synchronous = FULL; PRAGMA foreign_keys = OFF");
         const fs::path copy = file.parent_path() / fmt::format("session.version-{}.sqlite", version);
         keep_copy(file, copy);
         SQLite::Transaction transaction(database);

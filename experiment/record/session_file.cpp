@@ -1,5 +1,7 @@
 #include "experiment/record/session_file.h"
 
+#include <thread>
+
 #include <fmt/format.h>
 #include <sqlite3.h>
 
@@ -73,9 +75,25 @@ SQLite::Database open_session_file(const std::filesystem::path& file, SessionFil
     }
 }
 
-void fold_session_file(const std::filesystem::path& file) {
+bool fold_log(SQLite::Database& database, std::chrono::milliseconds patience) {
+    // SQLite's own patience does not cover this step: whoever has the file open makes it fail at once.
+    const auto deadline = std::chrono::steady_clock::now() + patience;
+    for (;;) {
+        const int code = database.tryExec("PRAGMA journal_mode = DELETE");
+        if (code == SQLITE_OK)
+            return true;
+        if (code != SQLITE_BUSY && code != SQLITE_LOCKED)
+            throw SQLite::Exception(database.getHandle(), code);
+        if (std::chrono::steady_clock::now() >= deadline)
+            return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+}
+
+bool fold_session_file(const std::filesystem::path& file) {
     try {
-        open_session_file(file, SessionFileUse::write).exec("PRAGMA journal_mode = DELETE");
+        SQLite::Database database = open_session_file(file, SessionFileUse::write);
+        return fold_log(database);
     } catch (const SQLite::Exception& reason) {
         throw_record_error(file, "folding the session into one file", reason);
     }

@@ -1,6 +1,7 @@
 /// Opening a session file, and refusing what is none.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 
 #include <SQLiteCpp/Database.h>
@@ -26,8 +27,15 @@ inline constexpr int writer_patience_ms = 20'000;
 /// none, if it is another kind of file, damaged, or written by a newer program.
 SQLite::Database open_session_file(const std::filesystem::path& file, SessionFileUse use);
 
-/// Brings what a log still holds into the file and takes the log away, where nobody else has the file open.
-/// Throws RecordError.
-void fold_session_file(const std::filesystem::path& file);
+/// How long a session that has ended waits for whoever reads it, before it leaves its log to be.
+inline constexpr std::chrono::milliseconds fold_patience{2'000};
+
+/// Brings what a log still holds into the file and takes the log away: one plain file can be read from any
+/// place, a read-only one too. That takes a moment in which nobody else has the file open; false if there was
+/// none for so long: then it stays as it is, which is as good but for that. Throws SQLite::Exception.
+[[nodiscard]] bool fold_log(SQLite::Database& database, std::chrono::milliseconds patience = fold_patience);
+
+/// The same of a file that is not open. Throws RecordError.
+[[nodiscard]] bool fold_session_file(const std::filesystem::path& file);
 
 } // namespace overt

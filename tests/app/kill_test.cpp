@@ -90,17 +90,20 @@ class KilledSessions {
             if (fs::exists(session))
                 check_nothing_is_lost(session, before);
         }
-        const SessionRecord record(session);
-        CHECK(record.is_complete());
-        CHECK(is_the_plan(record));
+        {
+            const SessionRecord record(session);
+            CHECK(record.is_complete());
+            CHECK(is_the_plan(record));
+        }
         CHECK(fs::exists(session / "session.sqlite"));
         CHECK_FALSE(fs::exists(session / "session.sqlite-wal"));
         // Whatever it was killed in, it is whole in the end: once more, if only the manifest was missing.
         std::vector<std::string> again = run_arguments(experiment_, observer, {"--virtual-time", "--resume"});
-        const int code = experiment_.overt(again).exit_code;
-        CHECK((code == 0 || code == 2));
+        const ProgramRun finished = experiment_.overt(again);
+        INFO(finished.out << finished.err);
+        CHECK((finished.exit_code == 0 || finished.exit_code == 2));
         CHECK(read_manifest(session).is_closed);
-        finished_later_ += code == 0;
+        finished_later_ += finished.exit_code == 0;
         ++sessions_;
     }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/record/manifest.h"
 #include "support/tsv_file.h"
 
 using namespace overt;
@@ -194,4 +195,30 @@ TEST_CASE("imported sessions and copies with imported gaze are not gone on with,
     const ProgramRun original = resume(experiment, {"--resume", "--session", "1"});
     INFO(original.err);
     CHECK(original.exit_code == 0);
+}
+
+TEST_CASE("a session that is being read when it ends is finished afterwards, and it is said how", "[session]") {
+    const SmallExperiment experiment(two_blocks());
+    const fs::path said = experiment.folder().path() / "said";
+    RunningProgram program(run_arguments(experiment, "P01", {"--virtual-time"}),
+                           {"OVERT_CACHE=" + experiment.cache().string()}, said);
+    while (program.is_running() && attempts_so_far(experiment.session()).empty())
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    {
+        const SessionRecord reader(experiment.session());
+        CHECK(program.wait() == 0);
+        CHECK_THAT(text_of(said), Contains("its manifest is not finished"));
+        CHECK(is_the_plan(SessionRecord(experiment.session())));
+        const ProgramRun too_early = resume(experiment, {"--resume"});
+        CHECK(too_early.exit_code == 2);
+        CHECK_THAT(too_early.err, Contains("another program has the session open"));
+    }
+    const ProgramRun verified = experiment.overt({"verify", experiment.session().string()});
+    CHECK(verified.exit_code == 0);
+    CHECK_THAT(verified.out, Contains("--resume finishes it"));
+    const ProgramRun finished = resume(experiment, {"--resume"});
+    INFO(finished.err);
+    CHECK(finished.exit_code == 0);
+    CHECK_THAT(finished.out, Contains("the manifest is finished now"));
+    CHECK(read_manifest(experiment.session()).is_closed);
 }

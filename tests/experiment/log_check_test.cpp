@@ -145,7 +145,7 @@ TEST_CASE("a session whose log was cut off is sound, says so, and is gone on wit
         SessionStore store(session.folder / session_file_name, patient());
         store.close();
     }
-    close_manifest(session.folder);
+    REQUIRE(close_manifest(session.folder));
     const Verification resumed = verify_session(session.folder);
     CHECK(resumed.is_sound());
     CHECK(resumed.state == Verification::State::closed);

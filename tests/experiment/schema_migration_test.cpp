@@ -78,7 +78,7 @@ TEST_CASE("a session of an earlier format that goes on becomes one of today, and
         store.close();
     }
     begin_manifest(session, example_header(), test_program);
-    close_manifest(session);
+    REQUIRE(close_manifest(session));
     CHECK(version_of(session / session_file_name) == session_schema_version);
     const fs::path copy = session / ("session.version-" + std::to_string(version) + ".sqlite");
     CHECK(text_of(copy) == before);

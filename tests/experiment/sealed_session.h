@@ -70,7 +70,7 @@ inline void write_whole_session(const std::filesystem::path& session) {
     }
     store.event({at_ms(40000), -1, "session completed", ""});
     store.close();
-    close_manifest(session);
+    REQUIRE(close_manifest(session));
 }
 
 /// Two trials and a third that a kill cuts off, with its rows in the log.

@@ -1,9 +1,11 @@
 #include "experiment/record/session_store.h"
 
+#include <atomic>
 #include <thread>
 
 #include <catch2/catch.hpp>
 
+#include "experiment/record/session_file.h"
 #include "experiment/record/session_record.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/store_rows.h"
@@ -97,6 +99,49 @@ TEST_CASE("a closed session is one file, and a read-only folder does not hinder 
     fs::permissions(session, fs::perms::owner_read | fs::perms::owner_exec);
     CHECK(SessionRecord(session).trials().size() == 1);
     fs::permissions(session, fs::perms::owner_all);
+}
+
+TEST_CASE("a session that is read again and again while it ends is one file all the same", "[unit]") {
+    const TemporaryFolder root;
+    const fs::path session = make_session(root.path(), example_header());
+    std::atomic<bool> is_over = false;
+    SessionStore store(session / session_file_name, patient());
+    write_trial(store, example_header().schedule.trials[0]);
+    std::thread reader([&] {
+        while (!is_over) {
+            {
+                const SessionRecord record(session);
+                std::this_thread::sleep_for(std::chrono::milliseconds(40));
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    store.close();
+    is_over = true;
+    reader.join();
+    CHECK_FALSE(fs::exists(session / (std::string(session_file_name) + "-wal")));
+    CHECK(SessionRecord(session).trials().size() == 1);
+}
+
+TEST_CASE("a session that somebody keeps open keeps its log, and is folded once it is let go", "[unit]") {
+    const TemporaryFolder root;
+    const fs::path session = make_session(root.path(), example_header());
+    const fs::path file = session / session_file_name, log = file.string() + "-wal";
+    SessionStore store(file, patient());
+    write_trial(store, example_header().schedule.trials[0]);
+    {
+        const SessionRecord reader(session);
+        store.close();
+        CHECK(fs::exists(log));
+        CHECK(reader.trials().size() == 1);
+        SQLite::Database database = open_session_file(file, SessionFileUse::write);
+        CHECK_FALSE(fold_log(database, std::chrono::milliseconds(20)));
+    }
+    CHECK(SessionRecord(session).trials().size() == 1);
+    CHECK(fold_session_file(file));
+    CHECK_FALSE(fs::exists(log));
+    CHECK(SessionRecord(session).trials().size() == 1);
 }
 
 TEST_CASE("rows of a running trial can be read before it ends", "[unit]") {

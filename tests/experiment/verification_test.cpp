@@ -74,7 +74,7 @@ TEST_CASE("sessions as they were written are sound, closed ones and those that w
         CHECK(running.state == Verification::State::running);
         store.close();
     }
-    close_manifest(killed);
+    REQUIRE(close_manifest(killed));
     const Verification resumed = verify_session(killed);
     INFO(words(resumed));
     CHECK(resumed.is_sound());
@@ -182,7 +182,7 @@ TEST_CASE("a session of a newer program is not taken for a damaged one", "[unit]
     CHECK(found.state == Verification::State::closed);
     CHECK_THAT(words(found), Contains("is not as it was when the session ended") && Contains("newer overt"));
     reopen_manifest(session, example_header(), test_program);
-    close_manifest(session);
+    REQUIRE(close_manifest(session));
     CHECK_THROWS_AS(verify_session(session), InputError);
     CHECK_THROWS_WITH(verify_session(session), Contains("newer overt") && Contains("99"));
     fs::resize_file(session / "stimuli/a.png", 10);
