@@ -9,6 +9,8 @@
 #include "app/protocol_file.h"
 #include "app/rig.h"
 #include "experiment/error.h"
+#include "experiment/record/folder_lock.h"
+#include "experiment/record/session_record.h"
 #include "experiment/schedule.h"
 
 namespace overt {
@@ -28,6 +30,27 @@ Schedule new_schedule(const RunOptions& options, const Protocol& protocol, const
     if (options.trials && *options.trials < static_cast<int>(schedule.trials.size()))
         schedule.trials.resize(static_cast<std::size_t>(*options.trials));
     return schedule;
+}
+
+/// Whoever begins another session may have meant to go on with the last one.
+void mention_interrupted(const SessionPlace& place) {
+    for (const int number : session_numbers(place)) {
+        try {
+            const std::filesystem::path folder = session_path(place, number);
+            const SessionRecord record(folder);
+            const bool is_imported = record.header().stimuli.empty();
+            if (record.is_complete() || is_imported ||
+                FolderLock(folder, FolderLock::Patience::none).is_refused())
+                continue;
+            fmt::print(
+                stderr,
+                "observer {}: session {} was interrupted, and this is a new one: --resume --session {} "
+                "goes on with that\n",
+                place.observer_label, number, number);
+        } catch (const Error&) {
+            continue; // what cannot be read is nothing to go on with
+        }
+    }
 }
 
 /// The faults of --faults, or none. What is wrong with the file is printed, with its places.
@@ -66,8 +89,10 @@ SessionPlan plan_session(const RunOptions& options, const SessionPlace& place, c
     SessionPlan plan;
     if (options.resume)
         plan.resumed = take_up_session(options, place, protocol);
-    else
+    else {
         check_session_place(place, options.session_number);
+        mention_interrupted(place);
+    }
     plan.faults = read_faults_or_report(options.faults);
     // Whoever goes on was asked already.
     if (!plan.resumed || !plan.resumed->so_far.is_opened)

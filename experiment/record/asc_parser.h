@@ -67,7 +67,6 @@ class AscParser {
     std::int64_t non_ascii_texts() const { return recoded_; } ///< taken for Latin-1, as they are not UTF-8
 
   private:
-    void data_line(std::string_view line);
     void sample_line(std::string_view line);
     void event_line(std::string_view line);
     void message_line(std::string_view line);

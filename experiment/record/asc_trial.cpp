@@ -10,10 +10,6 @@ namespace {
 
 using Kind = GazeEvent::Kind;
 
-bool is_eye_event(Kind kind) {
-    return kind == Kind::fixation || kind == Kind::saccade || kind == Kind::blink;
-}
-
 std::string text_at(const auto& list, int index, std::string_view what) {
     return fmt::format("{}={}", what, list[static_cast<std::size_t>(index)].id);
 }

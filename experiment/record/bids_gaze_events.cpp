@@ -40,10 +40,6 @@ Table events_table() {
          {"peak_velocity_deg_s", "Peak velocity of a saccade", "deg/s", {}}}};
 }
 
-bool is_eye_event(Kind kind) {
-    return kind == Kind::fixation || kind == Kind::saccade || kind == Kind::blink;
-}
-
 /// When the trial and its screens began, in the tracker's time.
 std::vector<GazeEvent> begins_of(const TrialRecord& trial, const ClockMap& clock_map) {
     std::vector<GazeEvent> messages;

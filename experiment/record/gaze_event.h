@@ -37,6 +37,9 @@ struct GazeEvent {
 };
 std::string_view name_of(GazeEvent::Kind kind);
 
+/// Whether it is one eye's: a fixation, a saccade or a blink.
+bool is_eye_event(GazeEvent::Kind kind);
+
 /// Nothing for a word that is no kind's name.
 std::optional<GazeEvent::Kind> gaze_event_kind(std::string_view word);
 

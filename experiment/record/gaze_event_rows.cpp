@@ -5,8 +5,6 @@
 namespace overt {
 namespace {
 
-using Kind = GazeEvent::Kind;
-
 class GazeEventRows {
   public:
     GazeEventRows(TableWriter& writer, const SessionRecord& record, int sitting)
@@ -19,9 +17,7 @@ class GazeEventRows {
         event.eye ? row_.word(*event.eye == Eye::left ? "left" : "right") : row_.missing();
         session_time(event.start);
         session_time(event.end);
-        const bool lasts =
-            event.kind == Kind::fixation || event.kind == Kind::saccade || event.kind == Kind::blink;
-        lasts ? row_.seconds(SessionDuration(event.duration)) : row_.missing();
+        is_eye_event(event.kind) ? row_.seconds(SessionDuration(event.duration)) : row_.missing();
         row_.integer(event.start.time_since_epoch().count()).integer(event.end.time_since_epoch().count());
         place(event.place);
         place(event.arrival);

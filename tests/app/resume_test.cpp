@@ -96,6 +96,18 @@ TEST_CASE("an interrupted trial is done again, and the session is as planned", "
     CHECK_THAT(resume(experiment, {"--resume", "--session", "7"}).err, Contains("there is no session 7"));
 }
 
+TEST_CASE("a new session names those that were interrupted", "[session]") {
+    const SmallExperiment experiment(two_blocks());
+    make_interrupted_session(experiment, 1);
+    const ProgramRun second = resume(experiment, {"--trials", "1"});
+    CHECK(second.exit_code == 0);
+    CHECK_THAT(second.err, Contains("session 1 was interrupted") && Contains("--resume --session 1"));
+    CHECK(resume(experiment, {"--resume", "--session", "1"}).exit_code == 0);
+    const ProgramRun third = resume(experiment, {"--trials", "1"});
+    CHECK(third.exit_code == 0);
+    CHECK_THAT(third.err, !Contains("was interrupted"));
+}
+
 TEST_CASE("an interrupted trial can be skipped, which is recorded", "[session]") {
     const SmallExperiment experiment(two_blocks());
     make_interrupted_session(experiment, 1);
@@ -197,7 +209,8 @@ TEST_CASE("imported sessions and copies with imported gaze are not gone on with,
     CHECK(original.exit_code == 0);
 }
 
-TEST_CASE("a session that is being read when it ends is finished afterwards, and it is said how", "[session]") {
+TEST_CASE("a session that is being read when it ends is finished afterwards, and it is said how",
+          "[session]") {
     const SmallExperiment experiment(two_blocks());
     const fs::path said = experiment.folder().path() / "said";
     RunningProgram program(run_arguments(experiment, "P01", {"--virtual-time"}),
