@@ -14,6 +14,7 @@
 
 #include "experiment/random.h"
 #include "experiment/record/manifest.h"
+#include "experiment/record/session_record.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/session_fixture.h"
 
@@ -84,11 +85,17 @@ inline void write_killed_session(const std::filesystem::path& session) {
             store.trial_finished(header.schedule.trials[trial], outcome_at(static_cast<int>(trial) * 10000));
         }
         write_rows(store, header.schedule.trials[2], 300);
-        std::this_thread::sleep_for(std::chrono::milliseconds(400));
-        ::raise(SIGKILL);
+        for (;;)
+            ::pause();
     }
-    int status = 0;
-    ::waitpid(child, &status, 0);
+    const auto is_all_there = [&] {
+        const SessionRecord record(session);
+        return record.trials().size() == 3 && record.missed_refreshes(record.trials()[2]).size() == 1;
+    };
+    while (::waitpid(child, nullptr, WNOHANG) == 0 && !is_all_there())
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
 }
 
 /// Turns one bit of a file over, and back in the end.

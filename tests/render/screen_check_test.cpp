@@ -183,15 +183,15 @@ TEST_CASE("a window that is resized while it is held still says so, and not befo
     WindowContext window({{320, 240}, "test"});
     put_window(10, 10, 320, 240);
     window.hold_still();
-    const auto disturbed = [&] {
-        for (int i = 0; i < 200 && window.disturbance() == WindowDisturbance::none; ++i) {
+    const auto disturbed_within = [&](int seconds) {
+        for (int i = 0; i < 200 * seconds && window.disturbance() == WindowDisturbance::none; ++i) {
             window.poll_events();
             usleep(5000);
         }
         return window.disturbance();
     };
     put_window(20, 30, 320, 240); // on the same screen
-    CHECK(disturbed() == WindowDisturbance::none);
+    CHECK(disturbed_within(1) == WindowDisturbance::none);
     put_window(20, 30, 300, 240);
-    CHECK(disturbed() == WindowDisturbance::resized);
+    CHECK(disturbed_within(60) == WindowDisturbance::resized);
 }
