@@ -13,6 +13,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -29,6 +30,9 @@ class TerminalDevice {
     TerminalDevice(int master, Answer answer, std::function<std::string(double now_s)> stream = {})
         : thread_(
               [master, answer = std::move(answer), stream = std::move(stream)](const std::stop_token& stop) {
+                  // A device answers also while the machine is busy. Where that is refused it is as good
+                  // without, most of the time.
+                  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), -10);
                   const auto begun = std::chrono::steady_clock::now();
                   while (!stop.stop_requested()) {
                       pollfd waiting{master, POLLIN, 0};
