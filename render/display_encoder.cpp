@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "experiment/error.h"
+#include "experiment/protocol/frame_memory.h"
 #include "render/processor_clones.h"
 
 namespace overt {
@@ -123,18 +124,11 @@ std::size_t pixels_in(glm::ivec2 size_px) {
 } // namespace
 
 DisplayEncoder::DisplayEncoder(const DisplaySettings& display)
-    : display_(display),
-      leaves_last_step_(display.output == OutputMode::native_10bit ||
-                        (display.output == OutputMode::native_8bit && display.dither != Dithering::none)),
-      reach_px_(joins_pixels_in_pairs(display.output) && display.pair_filter == PairFilter::lanczos ? 6 : 0),
+    : display_(display), leaves_last_step_(keeps_16_bits(display)), reach_px_(pair_reach_px(display)),
       luminance_(luminance_shares(display)), tables_(tables_of(display)), lanczos_(lanczos_weights()) {}
 
 ScreenPatch DisplayEncoder::patch_of(glm::ivec2 origin_px, glm::ivec2 size_px) const {
-    if (!joins_pixels_in_pairs(display_.output))
-        return {origin_px, size_px};
-    // Pairs count from the left edge of the screen, and there is nothing beyond its edges.
-    const int begin = std::max(0, origin_px.x - reach_px_) & ~1;
-    const int end = std::min(display_.width_px, (origin_px.x + size_px.x + reach_px_ + 1) & ~1);
+    const auto [begin, end] = changed_columns(display_, origin_px.x, size_px.x);
     return {{begin, origin_px.y}, {end - begin, size_px.y}};
 }
 

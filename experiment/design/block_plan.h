@@ -63,6 +63,7 @@ std::vector<OrderChain> order_chains(const Protocol& protocol, int observer_numb
 struct LimitSetting {
     int amount = 0;
     std::string key;
+    bool is_dropped = false; ///< the schedule has one, but it would contradict the order that the block has
 };
 LimitSetting limit_in(const Protocol& protocol, int block, TrialFactor factor, OrderLimit::Kind kind);
 

@@ -186,7 +186,8 @@ LimitSetting limit_in(const Protocol& protocol, int block, TrialFactor factor, O
         settings.order == OrderMethod::sequential ||
         (settings.order == OrderMethod::blocked &&
          (factor == settings.by || (settings.by == TrialFactor::stimulus && factor != TrialFactor::task)));
-    return {is_given ? 0 : limit_in(protocol.schedule, factor, kind), "schedule." + name};
+    const int common = limit_in(protocol.schedule, factor, kind);
+    return {is_given ? 0 : common, "schedule." + name, is_given && common > 0};
 }
 
 std::vector<OrderChain> order_chains(const Protocol& protocol, int observer_number, std::uint64_t seed) {

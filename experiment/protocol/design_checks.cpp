@@ -37,12 +37,15 @@ template <class Entry>
 void check_entry_ids(ProtocolExamination& examination, std::string_view section,
                      const std::vector<Entry>& entries) {
     for (std::size_t i = 0; i < entries.size(); ++i) {
-        for (std::size_t earlier = 0; earlier < i; ++earlier) {
-            if (entries[i].id == entries[earlier].id)
-                examination.error(
-                    {fmt::format("{}[{}].id", section, i)},
-                    fmt::format("the id \"{}\" is taken by an earlier [[{}]]", entries[i].id, section));
-        }
+        const auto first = std::find_if(entries.begin(), entries.end(),
+                                        [&](const Entry& earlier) { return earlier.id == entries[i].id; });
+        const auto earlier = static_cast<std::size_t>(first - entries.begin());
+        const std::string path = fmt::format("{}[{}].id", section, i);
+        if (earlier < i && !entries[i].id.empty())
+            examination.error(
+                {path}, fmt::format("id \"{}\" is taken already", entries[i].id),
+                fmt::format("by the [[{}]] in {}", section,
+                            examination.line_of(fmt::format("{}[{}].id", section, earlier), path)));
     }
 }
 
@@ -272,14 +275,16 @@ void check_schedule(ProtocolExamination& examination) {
             return;
         }
         if (trials == 0.0) {
-            examination.error(
-                {"group", "block"}, fmt::format("observer {} would have no trials", number),
-                protocol.groups.empty() ? "" : "nothing is left of the blocks by what the group leaves out");
+            const int group = group_place(protocol, number).group;
+            examination.error({group >= 0 ? fmt::format("group[{}]", group) : "block"},
+                              fmt::format("observer {} would have no trials", number),
+                              group >= 0 ? "nothing is left of the blocks by what the group leaves out" : "");
             return;
         }
     }
     if (const auto conflict = find_order_conflict(protocol))
         examination.error(conflict->keys, conflict->message, conflict->hint);
+    check_dropped_limits(examination);
     check_rotation(examination);
     check_squares(examination);
 }

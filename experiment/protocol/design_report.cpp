@@ -7,9 +7,10 @@
 #include <fmt/format.h>
 
 #include "experiment/design/block_plan.h"
-#include "experiment/design/latin_square.h"
 #include "experiment/design/observer_groups.h"
 #include "experiment/design/trial_queue.h"
+#include "experiment/protocol/design_balance.h"
+#include "experiment/protocol/frame_memory.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/schedule.h"
 
@@ -90,7 +91,10 @@ SessionLength session_length(const Protocol& protocol, const Schedule& schedule,
                 length.practice_s += assumptions.question_s;
             break;
         case SessionStep::Kind::pause:
-            length.breaks_s += protocol.breaks.duration_s;
+            // No key ends a self-paced one before its least time.
+            length.breaks_s += protocol.breaks.pace == BreakPace::self
+                                   ? std::max(protocol.breaks.duration_s, protocol.breaks.min_s)
+                                   : protocol.breaks.duration_s;
             ++length.breaks;
             break;
         case SessionStep::Kind::trial:
@@ -105,32 +109,14 @@ SessionLength session_length(const Protocol& protocol, const Schedule& schedule,
     return length;
 }
 
-/// Whether which trials come is a matter of the seed, too.
-bool is_drawn(const Protocol& protocol) {
-    return std::any_of(protocol.blocks.begin(), protocol.blocks.end(), [](const BlockSettings& block) {
-        return block.order == OrderMethod::weighted && block.draws.has_value();
-    });
-}
-
-std::vector<IncidenceCell> incidence(const Protocol& protocol, ScheduleMaker& maker, std::uint64_t seed) {
-    const int sculptures = static_cast<int>(protocol.sculptures.size());
-    const int materials = static_cast<int>(protocol.materials.size());
-    std::vector<IncidenceCell> cells;
-    for (int task = 0; task < static_cast<int>(protocol.tasks.size()); ++task) {
-        for (int sculpture = 0; sculpture < sculptures; ++sculpture) {
-            for (int material = 0; material < materials; ++material)
-                cells.push_back({task, {sculpture, material}, 0});
-        }
-    }
-    for (const Observer& observer : planned_observers(protocol)) {
-        for (const Trial& trial :
-             is_drawn(protocol) ? maker.make(observer, seed).trials : trials_of(protocol, observer.number)) {
-            const int cell =
-                (trial.task * sculptures + trial.condition.sculpture) * materials + trial.condition.material;
-            ++cells[static_cast<std::size_t>(cell)].presentations;
-        }
-    }
-    return cells;
+MemoryNeed memory_need(const Protocol& protocol, int poses) {
+    constexpr double bytes_per_map_px = 4.0; // a triangle's number
+    MemoryNeed need;
+    need.pages_per_stimulus_bytes = most_pages(protocol) * page_bytes(protocol);
+    need.next_fits = 2.0 * need.pages_per_stimulus_bytes <= 1e6 * protocol.display.frame_store_mb;
+    need.maps_per_sculpture_bytes =
+        bytes_per_map_px * poses * protocol.view.width_px * protocol.view.height_px;
+    return need;
 }
 
 std::string order_in_words(const BlockSettings& block) {
@@ -191,40 +177,6 @@ SessionLength longest_session(const Protocol& protocol, ScheduleMaker& maker, st
     return longest;
 }
 
-std::vector<std::string> balance_warnings(const DesignReport& report, const Protocol& protocol) {
-    std::vector<std::string> warnings;
-    const std::size_t cells_per_task = report.incidence.size() / report.tasks.size();
-    // Blocks and groups may leave out stimuli on purpose, or show some more often: then only the numbers of
-    // those that are shown at all are compared, and nothing is said of what would fill them.
-    const bool is_plain = protocol.blocks.empty() && protocol.groups.empty();
-    for (std::size_t task = 0; task < report.tasks.size(); ++task) {
-        int least = std::numeric_limits<int>::max(), most = 0;
-        for (std::size_t cell = task * cells_per_task; cell < (task + 1) * cells_per_task; ++cell) {
-            const int presentations = report.incidence[cell].presentations;
-            if (presentations > 0 || is_plain)
-                least = std::min(least, presentations);
-            most = std::max(most, presentations);
-        }
-        if (least >= most)
-            continue;
-        std::string warning =
-            fmt::format("under task \"{}\" some stimuli are shown {} times and others {} times",
-                        report.tasks[task], least, most);
-        if (is_plain)
-            warning += fmt::format(": let the number of observers be a multiple of {}",
-                                   rows_of_square(protocol.schedule.material_rotation,
-                                                  static_cast<int>(report.materials.size())));
-        warnings.push_back(std::move(warning));
-    }
-    if (std::any_of(report.schedules.begin(), report.schedules.end(),
-                    [](const Schedule& schedule) { return !schedule.is_even; }))
-        warnings.emplace_back(
-            "the limits leave too many orders to count and too few to meet by chance: they are "
-            "kept, but orders come from a chain of random exchanges and are only nearly equally "
-            "probable");
-    return warnings;
-}
-
 } // namespace
 
 std::vector<Observer> planned_observers(const Protocol& protocol) {
@@ -260,16 +212,21 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     const std::uint64_t seed = takes_seed ? example_seed : protocol.schedule.seed.value_or(example_seed);
     ScheduleMaker maker(protocol);
     report.session = longest_session(protocol, maker, seed, report.animation.duration_s, assumptions);
-    const double pose_px = static_cast<double>(report.animation.distinct_poses) * protocol.view.width_px *
-                           protocol.view.height_px;
-    report.memory = {pose_px * assumptions.bytes_per_page_px, pose_px * assumptions.bytes_per_map_px};
-    report.incidence = incidence(protocol, maker, seed);
+    report.memory = memory_need(protocol, report.animation.distinct_poses);
+    const Presentations presentations = count_presentations(protocol, maker, seed);
+    report.incidence = presentations.cells;
     for (const Observer& observer : observers) {
         report.schedules.push_back(maker.make(observer, seed));
         if (const int group = group_place(protocol, observer.number).group; group >= 0)
             report.schedule_groups.push_back(protocol.groups[static_cast<std::size_t>(group)].id);
     }
-    report.warnings = balance_warnings(report, protocol);
+    report.warnings = balance_warnings(protocol, presentations);
+    if (std::any_of(report.schedules.begin(), report.schedules.end(),
+                    [](const Schedule& schedule) { return !schedule.is_even; }))
+        report.warnings.emplace_back(
+            "the limits leave too many orders to count and too few to meet by chance: they are "
+            "kept, but orders come from a chain of random exchanges and are only nearly equally "
+            "probable");
     return report;
 }
 

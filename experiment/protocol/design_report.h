@@ -16,12 +16,10 @@ namespace overt {
 
 /// What a protocol does not say, but a session's length and size depend on.
 struct DesignAssumptions {
-    double calibration_s = 180.0;   ///< calibrating and validating once a session
-    double text_s = 20.0;           ///< reading the consent, a page, or the instructions of a block
-    double question_s = 4.0;        ///< reading a question; screens.task_min_s if that is longer
-    double answer_s = 10.0;         ///< answering aloud, kept within response_min_s … response_max_s
-    double bytes_per_page_px = 4.0; ///< a page of the frame store: the four bytes that are sent
-    double bytes_per_map_px = 4.0;  ///< a coordinate map: a triangle's number
+    double calibration_s = 180.0; ///< calibrating and validating once a session
+    double text_s = 20.0;         ///< reading the consent, a page, or the instructions of a block
+    double question_s = 4.0;      ///< reading a question; screens.task_min_s if that is longer
+    double answer_s = 10.0;       ///< answering aloud, kept within response_min_s … response_max_s
 };
 
 struct AnimationFacts {
@@ -55,10 +53,12 @@ struct SessionLength {
     }
 };
 
-/// One page and one map per distinct pose.
+/// Pages on the graphics card, and one map for each distinct pose of a sculpture.
 struct MemoryNeed {
-    double pages_per_stimulus_bytes = 0.0;
-    double maps_per_stimulus_bytes = 0.0;
+    double pages_per_stimulus_bytes = 0.0; ///< of the stimulus that has most
+    bool next_fits = true;                 ///< the frame store has room for the next stimulus, too
+    double maps_per_sculpture_bytes = 0.0;
+    double pages_at_once_bytes() const { return (next_fits ? 2.0 : 1.0) * pages_per_stimulus_bytes; }
 };
 
 /// How often a stimulus is shown under a task, summed over the planned observers.

@@ -19,7 +19,9 @@ std::string counted(int count, std::string_view one, std::string_view several = 
 }
 
 std::string in_bytes(double bytes) {
-    return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
+    return bytes < 9.5e6 ? fmt::format("{:.2g} MB", bytes / 1e6)
+           : bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6)
+                         : fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
 std::size_t longest(const std::vector<std::string>& names) {
@@ -71,16 +73,17 @@ void add_overview(std::string& text, const DesignReport& report) {
                          : "",
                      counted(report.trials_per_observer, "trial"), counted(report.observers, "observer"))});
     add_blocks(text, report);
-    add_facts(text, "Animation",
-              {fmt::format("{} ({}), {}, {} deg to each side", counted(animation.frames, "frame"),
-                           name_of(report.motion.playback),
-                           counted(animation.distinct_poses, "distinct pose"), report.motion.amplitude.value),
-               fmt::format("shown: {} frames at {} Hz = {:.3f} s = {:.4g} swings to and fro",
-                           animation.shown_frames, report.motion.frame_rate_hz, animation.duration_s,
-                           animation.periods),
-               fmt::format("each frame is lit for {} at {} Hz: {} refreshes",
-                           counted(animation.refreshes_per_frame, "refresh", "refreshes"),
-                           report.display.refresh_hz, animation.refreshes)});
+    add_facts(
+        text, "Animation",
+        {fmt::format("{} ({}), {}, {} deg to each side", counted(animation.frames, "frame"),
+                     name_of(report.motion.playback), counted(animation.distinct_poses, "distinct pose"),
+                     report.motion.amplitude.value),
+         fmt::format("shown: {} at {:.6g} Hz = {:.3f} s = {:.4g} swings to and fro",
+                     counted(animation.shown_frames, "frame"), animation.shown_frames / animation.duration_s,
+                     animation.duration_s, animation.periods),
+         fmt::format("each frame is lit for {} at {} Hz: {} refreshes",
+                     counted(animation.refreshes_per_frame, "refresh", "refreshes"),
+                     report.display.refresh_hz, animation.refreshes)});
     add_facts(
         text, "Screen",
         {fmt::format("{} x {} px, {} x {} mm, seen from {} mm: {:.2f} x {:.2f} deg", report.display.width_px,
@@ -105,10 +108,16 @@ void add_overview(std::string& text, const DesignReport& report) {
                                        "deg above it",
                                        angles.image_right_deg, angles.image_up_deg));
     add_facts(text, "Stimulus", stimulus);
-    add_facts(text, "Memory",
-              {fmt::format("{} of frames and {} of maps for each stimulus",
-                           in_bytes(report.memory.pages_per_stimulus_bytes),
-                           in_bytes(report.memory.maps_per_stimulus_bytes))});
+    const MemoryNeed& memory = report.memory;
+    add_facts(
+        text, "Memory",
+        {memory.next_fits
+             ? fmt::format("{} of frames for a stimulus, {} on the graphics card with those of the next",
+                           in_bytes(memory.pages_per_stimulus_bytes), in_bytes(memory.pages_at_once_bytes()))
+             : fmt::format("{} of frames for a stimulus; those of the next do not fit beside them, and "
+                           "are loaded before its trial (frame_store_mb = {})",
+                           in_bytes(memory.pages_per_stimulus_bytes), report.display.frame_store_mb),
+         fmt::format("{} of maps for each sculpture", in_bytes(memory.maps_per_sculpture_bytes))});
 }
 
 void add_surfaces(std::string& text, const DesignReport& report) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/protocol/frame_memory.h"
 #include "experiment/protocol/photodiode_patch.h"
 #include "experiment/protocol/protocol_checks.h"
 #include "experiment/protocol/protocol_keys.h"
@@ -66,7 +67,7 @@ void check_keys_of_mode(ProtocolExamination& examination) {
                 fmt::format("{} is sent through no box: box needs mono++, color++ or bits++", mode));
     }
     if (display.box != "auto" && display.box != "none" && !display.box.starts_with('/'))
-        examination.error({"display.box"}, fmt::format("«{}» is no serial port", display.box),
+        examination.error({"display.box"}, fmt::format("\"{}\" is no serial port", display.box),
                           "write \"auto\", \"none\", or a path such as \"/dev/ttyACM0\"");
 }
 
@@ -125,12 +126,28 @@ void check_photodiode(ProtocolExamination& examination) {
     }
 }
 
+void check_frame_store(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    const double stimulus_mb = 1e-6 * most_pages(protocol) * page_bytes(protocol);
+    const double store_mb = protocol.display.frame_store_mb;
+    if (stimulus_mb <= store_mb)
+        return;
+    examination.error(
+        {"display.frame_store_mb", "view.width_px", "view.height_px", "animation.frame_count"},
+        fmt::format("a stimulus takes {:.4g} MB of the frame store, which may take {}", stimulus_mb,
+                    store_mb),
+        fmt::format("write frame_store_mb = {:.0f}, if the graphics card has as much ({:.0f} with "
+                    "the next stimulus), or show fewer or smaller frames",
+                    std::ceil(stimulus_mb), std::ceil(2.0 * stimulus_mb)));
+}
+
 } // namespace
 
 void check_output(ProtocolExamination& examination) {
     check_keys_of_mode(examination);
     check_place(examination);
     check_photodiode(examination);
+    check_frame_store(examination);
 }
 
 } // namespace overt

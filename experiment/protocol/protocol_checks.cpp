@@ -30,6 +30,17 @@ void ProtocolExamination::warning(std::initializer_list<std::string_view> paths,
                              std::move(hint));
 }
 
+std::string ProtocolExamination::line_of(std::string_view path, std::string_view seen_from) const {
+    const Place there = protocol.places.of(path);
+    if (there.file == protocol.places.of(seen_from).file)
+        return fmt::format("line {}", there.line);
+    const auto included = std::find_if(protocol.included.begin(), protocol.included.end(),
+                                       [&](const IncludedText& known) { return known.number == there.file; });
+    return fmt::format("line {} of {}", there.line,
+                       included == protocol.included.end() ? protocol.file.filename().string()
+                                                           : included->name);
+}
+
 bool ProtocolExamination::is_any_faulty(std::initializer_list<std::string_view> paths) const {
     return std::any_of(paths.begin(), paths.end(),
                        [&](std::string_view path) { return faulty.contains(path); });
@@ -76,8 +87,10 @@ void check_animation(ProtocolExamination& examination) {
                 "a refresh rate of {} Hz is no whole multiple of the frame rate of {} Hz: frames would "
                 "be lit for unequal times",
                 refresh_hz, animation.frame_rate_hz),
-            below > 0.0 ? fmt::format("{} Hz or {} Hz would do", below, above)
-                        : fmt::format("{} Hz would do", above));
+            below > 0.0 ? fmt::format("{} Hz or {} Hz would do; or frame_rate_hz = {:.6g} or {:.6g}", below,
+                                      above, refresh_hz / std::floor(refresh_hz / animation.frame_rate_hz),
+                                      refresh_hz / std::ceil(refresh_hz / animation.frame_rate_hz))
+                        : fmt::format("{} Hz would do; or frame_rate_hz = {:.6g}", above, refresh_hz));
     }
     const double frames = animation.duration_s * animation.frame_rate_hz;
     const double whole = std::max(1.0, std::round(frames));

@@ -29,6 +29,9 @@ class ProtocolExamination {
     void error(const std::vector<std::string>& paths, std::string message, std::string hint = {});
     void warning(std::initializer_list<std::string_view> paths, std::string message, std::string hint = {});
 
+    /// «line 12», or «line 12 of rig.toml» for a key that stands in another file than the key `seen_from`.
+    std::string line_of(std::string_view path, std::string_view seen_from) const;
+
     /// Where findings about files that the protocol names belong.
     Diagnostics& diagnostics() { return diagnostics_; }
 
@@ -48,6 +51,8 @@ void check_output(ProtocolExamination& examination);
 void check_animation(ProtocolExamination& examination);
 void check_screens(ProtocolExamination& examination);
 void check_schedule(ProtocolExamination& examination);
+/// Limits that are written in [schedule] and do not hold in a block, because of its order.
+void check_dropped_limits(ProtocolExamination& examination);
 
 /// Blocks and groups: what they name, and what belongs together in one.
 void check_blocks(ProtocolExamination& examination);

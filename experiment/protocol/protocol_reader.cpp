@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/protocol/key_hints.h"
 #include "experiment/protocol/protocol_checks.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/protocol/protocol_sources.h"
@@ -41,7 +42,7 @@ class ProtocolWalk {
         diagnostics_.error(file_, entry.key_place,
                            is_key ? fmt::format("key \"{}\" stands outside all sections", entry.key)
                                   : fmt::format("unknown section [{}]", entry.key),
-                           suggest_name(entry.key, section_names_));
+                           is_key ? hint_for_stray_key(entry.key) : suggest_name(entry.key, section_names_));
     }
 
     template <class Struct> void read_section(const Section<Struct>& section) {
@@ -154,21 +155,6 @@ class ProtocolWalk {
         diagnostics_.error(file_, entry.key_place,
                            fmt::format("unknown key \"{}\" in [{}]", entry.key, section.name),
                            hint_for_unknown_key(entry.key, section.name, names));
-    }
-
-    /// The near name, or else the section where this very key is at home.
-    std::string hint_for_unknown_key(std::string_view key, std::string_view section,
-                                     const std::vector<std::string_view>& names) const {
-        std::string home;
-        for_each_section([&](const auto& other) {
-            for (const auto& row : other.keys) {
-                if (row.rule.name == key && other.name != section && home.empty())
-                    home = fmt::format("\"{}\" belongs to [{}]", key, other.name);
-            }
-        });
-        if (key == "include")
-            return "\"include\" stands before the first section";
-        return home.empty() || nearest_name(key, names) ? suggest_name(key, names) : home;
     }
 
     template <class Struct>

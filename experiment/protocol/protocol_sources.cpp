@@ -79,9 +79,13 @@ class Joiner {
     }
 
     void wrong_kind(const std::filesystem::path& file, const TomlValue& value) {
+        const bool is_empty = std::holds_alternative<std::string>(value.content) || value.list();
         diagnostics_.error(
             file.string(), value.place,
-            fmt::format("include: expected the path of a file or a list of them, found {}", value.kind()));
+            is_empty ? std::string("include: names no file")
+                     : fmt::format("include: expected the path of a file or a list of them, found {}",
+                                   value.kind()),
+            is_empty ? "leave it out, or write the path from the folder of this file" : "");
     }
 
     bool load_one(const TomlValue& value, const std::filesystem::path& file, TomlTable& into) {

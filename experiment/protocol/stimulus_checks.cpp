@@ -38,11 +38,9 @@ void check_list(ProtocolExamination& examination, std::string_view list, const s
         const auto [first, is_new] = seen.try_emplace(entries[i].id, i);
         if (is_new || entries[i].id.empty())
             continue;
-        const Place there = examination.protocol.places.of(entry_path(list, first->second, "id"));
-        const bool is_elsewhere = there.file != examination.protocol.places.of(path).file;
         examination.error({path}, fmt::format("id \"{}\" is taken already", entries[i].id),
-                          fmt::format("by the [[{}]] in line {}{}", list, there.line,
-                                      is_elsewhere ? " of another of the protocol's files" : ""));
+                          fmt::format("by the [[{}]] in {}", list,
+                                      examination.line_of(entry_path(list, first->second, "id"), path)));
     }
 }
 

@@ -4,6 +4,10 @@
 #include <cctype>
 #include <optional>
 
+#include <fmt/format.h>
+
+#include "experiment/protocol/toml_remedy.h"
+
 // toml++ 3.3 takes a few things for granted that a damaged file does not keep to, and goes on with undefined
 // behaviour: a heading without a name (`[=`), and letters beyond ASCII where there might be blanks. So its
 // assertions are kept in every build, and thrown; and its test for blanks answers no instead of never ending.
@@ -116,14 +120,20 @@ Place place_of_broken_promise(std::string_view text) {
     return place;
 }
 
+std::string remedy_at(std::string_view text, Place place, std::string_view message) {
+    const auto span = find_line(text, place.line);
+    return span ? toml_remedy(message, text.substr(span->begin, span->end - span->begin), place.column)
+                : std::string();
+}
+
 /// toml++ opens with «Error while parsing …: », which the place says already.
 std::string without_preamble(std::string_view description) {
     const std::size_t end = description.find(": ");
     return std::string(end == std::string_view::npos ? description : description.substr(end + 2));
 }
 
-/// What some editors of Windows call Unicode: two bytes for each character, a mark of their order before all.
-bool is_utf16(std::string_view text) { return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"); }
+/// Who has written more wrong lines has given a file of another kind; and each costs reading the text anew.
+constexpr int most_errors = 20;
 
 } // namespace
 
@@ -135,14 +145,14 @@ std::string_view TomlValue::kind() const {
 
 TomlFile parse_toml(std::string_view text, const std::string& file, Diagnostics& diagnostics) {
     TomlFile result;
-    if (is_utf16(text)) {
+    if (const auto unreadable = why_unreadable(text)) {
         result.is_whole = false;
-        diagnostics.error(file, {1, 1}, "the file is in UTF-16", "save it as UTF-8");
+        diagnostics.error(file, unreadable->place, unreadable->message, unreadable->hint);
         return result;
     }
     std::string remaining(text);
     int last_line = 0;
-    while (true) {
+    for (int errors = 1;; ++errors) {
         Place place;
         std::string message;
         try {
@@ -159,10 +169,16 @@ TomlFile parse_toml(std::string_view text, const std::string& file, Diagnostics&
         // After a line was passed over, an error before it is a consequence and none of the user's.
         if (place.line <= last_line)
             return result;
-        diagnostics.error(file, place, message);
+        diagnostics.error(file, place, message, remedy_at(remaining, place, message));
         last_line = place.line;
         if (!pass_over(remaining, place.line))
             return result;
+        if (errors == most_errors) {
+            diagnostics.error(file, place,
+                              fmt::format("{} lines are no TOML: the rest was not looked at", most_errors),
+                              "is this a protocol? `overt new FILE` writes one to begin with");
+            return result;
+        }
     }
 }
 

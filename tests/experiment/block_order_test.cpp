@@ -328,7 +328,7 @@ TEST_CASE("what a block says wrongly is said", "[unit]") {
                  "[[task]]\nid = \"idle\"\nquestion = \"?\"\n[[block]]\nid = \"one\"\ntasks = \"free\"\n")
             .diagnostics.print(),
         Contains("p.toml:15:1: warning: no block asks task \"idle\""));
-    CHECK_THAT(first("[[block]]\nid = \"one\"\n"), Contains("is taken by an earlier [[block]]"));
+    CHECK_THAT(first("[[block]]\nid = \"one\"\n"), Contains("id \"one\" is taken already"));
     CHECK_THAT(first("[[group]]\nid = \"g\"\ncap = 3\n"),
                Contains("12 observers are planned") && Contains("only 3"));
 }

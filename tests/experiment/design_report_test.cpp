@@ -90,7 +90,68 @@ TEST_CASE("consent and each page of instructions are read in the session's lengt
 TEST_CASE("frames and maps need a page for each distinct pose", "[unit]") {
     const DesignReport report = make_design_report(paper_protocol(), {});
     CHECK(report.memory.pages_per_stimulus_bytes == 31.0 * 1024 * 1024 * 4);
-    CHECK(report.memory.maps_per_stimulus_bytes == 31.0 * 1024 * 1024 * 4);
+    CHECK(report.memory.maps_per_sculpture_bytes == 31.0 * 1024 * 1024 * 4);
+    CHECK(report.memory.pages_at_once_bytes() == 2 * 31.0 * 1024 * 1024 * 4);
+}
+
+TEST_CASE("ready-made frames need a page each, and a small frame store holds one stimulus at a time",
+          "[unit]") {
+    Protocol protocol = paper_protocol();
+    protocol.frames.emplace_back();
+    protocol.frames.back().sculpture = protocol.sculptures[1].id;
+    protocol.frames.back().material = protocol.materials[2].id;
+    protocol.display.frame_store_mb = 500;
+    const DesignReport report = make_design_report(protocol, {});
+    CHECK(report.memory.pages_per_stimulus_bytes == 61.0 * 1024 * 1024 * 4);
+    CHECK_FALSE(report.memory.next_fits);
+    CHECK(report.memory.pages_at_once_bytes() == 61.0 * 1024 * 1024 * 4);
+    CHECK_THAT(to_text(report), Contains("256 MB of frames for a stimulus; those of the next do not fit"));
+}
+
+TEST_CASE("a self-paced break lasts as long as no key may end it", "[unit]") {
+    Protocol protocol = paper_protocol();
+    protocol.breaks.every_trials = 10;
+    protocol.breaks.pace = BreakPace::self;
+    protocol.breaks.duration_s = 30.0;
+    protocol.breaks.min_s = 50.0;
+    CHECK(make_design_report(protocol, {}).session.breaks_s == Approx(2 * 50.0));
+    protocol.breaks.pace = BreakPace::timed;
+    CHECK(make_design_report(protocol, {}).session.breaks_s == Approx(2 * 30.0));
+}
+
+TEST_CASE("a frame rate that the display only comes near to is said as it is shown", "[unit]") {
+    Protocol protocol = paper_protocol();
+    protocol.display.refresh_hz = 119.88;
+    CHECK_THAT(to_text(make_design_report(protocol, {})), Contains("240 frames at 29.97 Hz = 8.008 s"));
+}
+
+TEST_CASE("weights and groups that show some stimuli more often are no imbalance, lost rotations are",
+          "[unit]") {
+    Protocol protocol = paper_protocol();
+    BlockSettings block;
+    block.id = "weighted";
+    block.order = OrderMethod::weighted;
+    block.by = TrialFactor::material;
+    block.weights = {2.0, 1.0, 1.0};
+    protocol.blocks = {block};
+    CHECK(make_design_report(protocol, {}).warnings.empty());
+
+    protocol.blocks.clear();
+    GroupSettings gold, coating;
+    gold.id = "gold";
+    gold.materials = {protocol.materials[0].id, protocol.materials[1].id};
+    coating.id = "coating";
+    coating.materials = {protocol.materials[2].id};
+    coating.cap = 2;
+    protocol.groups = {gold, coating};
+    protocol.schedule.observers = 12;
+    CHECK(make_design_report(protocol, {}).warnings.empty());
+
+    protocol.schedule.observers = 11; // nine of gold, whose two materials go round
+    const DesignReport report = make_design_report(protocol, {});
+    REQUIRE(report.warnings.size() == 4);
+    CHECK_THAT(report.warnings[0],
+               Contains("some stimuli are shown 4 times and others 5 times to group \"gold\""));
 }
 
 TEST_CASE("the incidence table adds up to all trials of all observers", "[unit]") {

@@ -40,7 +40,7 @@ TEST_CASE("keys that a mode of output cannot follow are errors at these keys", "
 
 TEST_CASE("a display box is named by its port, and only where the output goes through one", "[unit]") {
     CHECK(ReadText(minimal_protocol, "[display]\nbox = \"ttyACM0\"\n").lines() ==
-          Lines{"13:7: «ttyACM0» is no serial port"});
+          Lines{"13:7: \"ttyACM0\" is no serial port"});
     CHECK(ReadText(minimal_protocol, "[display]\noutput = \"vpixx-m16\"\nbox = \"/dev/ttyACM0\"\n").lines() ==
           Lines{"14:7: vpixx-m16 is sent through no box: box needs mono++, color++ or bits++"});
     for (const char* sound : {"box = \"auto\"\n", "box = \"none\"\n", "box = \"/dev/pts/3\"\n",

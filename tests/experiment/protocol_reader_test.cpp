@@ -65,7 +65,7 @@ TEST_CASE("hints name the nearest rates, names and lines", "[unit]") {
     std::map<int, std::string> hints;
     for (const Finding& finding : diagnostics.findings())
         hints.try_emplace(finding.place.line, finding.hint);
-    CHECK(hints[6] == "90 Hz or 120 Hz would do");
+    CHECK(hints[6] == "90 Hz or 120 Hz would do; or frame_rate_hz = 33.3333 or 25");
     CHECK(hints[7] == "did you mean \"viewing_distance_mm\"?");
     CHECK(hints[9] == "did you mean \"color++\"?");
     CHECK(hints[11] == "did you mean \"tracker\"?");
@@ -112,6 +112,79 @@ TEST_CASE("a protocol in UTF-16 is told by one error, and one in UTF-8 with a ma
     CHECK(read.lines() == Lines{"1:1: the file is in UTF-16"});
     CHECK(read.diagnostics.findings().front().hint == "save it as UTF-8");
     CHECK(ReadText("\xef\xbb\xbf" + std::string(minimal_protocol)).protocol);
+}
+
+TEST_CASE("what is no TOML is told after twenty lines, however long it is", "[unit]") {
+    std::string prose;
+    for (int line = 0; line < 50000; ++line)
+        prose += "no protocol\n";
+    const ReadText read(prose);
+    CHECK_FALSE(read.protocol);
+    REQUIRE(read.lines().size() == 21);
+    CHECK_THAT(read.lines().back(), Catch::StartsWith("20:"));
+    CHECK_THAT(read.lines().back(), Catch::Contains("the rest was not looked at"));
+}
+
+TEST_CASE("a key of very many parts is refused rather than followed", "[unit]") {
+    std::string key;
+    for (int part = 0; part < 200000; ++part)
+        key += "a.";
+    CHECK(ReadText(minimal_protocol, key + "b = 1\n").lines() == Lines{"12:1: a key of more than 32 parts"});
+    CHECK(ReadText(minimal_protocol, "[screens]\nresponse_text = \"Wait." + std::string(200, '.') +
+                                         " www.a.b.c. 1.2.3. One. Two. Three.\"\n")
+              .protocol);
+}
+
+TEST_CASE("other encodings are named", "[unit]") {
+    std::string utf16, utf32 = {'\xff', '\xfe', '\0', '\0'};
+    for (const char character : std::string(minimal_protocol)) {
+        (utf16 += '\0') += character;
+        ((((utf32 += character) += '\0') += '\0') += '\0');
+    }
+    CHECK(ReadText(utf16).lines() == Lines{"1:1: the file is in UTF-16"});
+    CHECK(ReadText(utf32).lines() == Lines{"1:1: the file is in UTF-32"});
+    const ReadText latin(minimal_protocol, "[screens]\nresponse_text = \"Caf\xe9\"\n");
+    REQUIRE(latin.lines().size() == 1);
+    CHECK(latin.diagnostics.findings()[0].place.line == 13);
+    CHECK(latin.diagnostics.findings()[0].hint == "save the file as UTF-8");
+}
+
+TEST_CASE("the usual slips of TOML come with what mends them", "[unit]") {
+    const std::pair<const char*, const char*> slips[] = {
+        {"[display]\ngamma = 2,2\n", "numbers have a point"},
+        {"[display]\ngamma = .5\n", "write a 0 before the point"},
+        {"[display]\noutput = native-8bit\n", "a text stands between quotation marks: \"native-8bit\""},
+        {"[display]\noutput = “mono++”\n", "straight quotation marks"},
+        {"[display]\ngamma 2.2\n", "write the key, =, and its value"},
+        {"[breaks]\nbetween_blocks = True\n", "small letters"},
+        {"[screens]\nwelcome_text = \"Hello\nfarewell_text = \"Bye\"\n", "the text is not closed"},
+        {"[display]\ngamma = 2\n[display]\n", "all keys of a section stand below one heading"},
+        {"[display\ngamma = 2\n", "a section is [name]"}};
+    for (const auto& [slip, remedy] : slips) {
+        CAPTURE(slip);
+        const ReadText read(minimal_protocol, slip);
+        REQUIRE_FALSE(read.lines().empty());
+        CHECK_THAT(read.diagnostics.findings()[0].hint, Catch::Contains(remedy));
+    }
+}
+
+TEST_CASE("a key above all headings is told where it belongs", "[unit]") {
+    const ReadText stray("gamma = 2.2\n", minimal_protocol);
+    REQUIRE(stray.lines() == Lines{"1:1: key \"gamma\" stands outside all sections"});
+    CHECK(stray.diagnostics.findings()[0].hint == "write it below the heading [display]");
+}
+
+TEST_CASE("a stimulus that the frame store cannot hold is an error before anyone sits down", "[unit]") {
+    // 31 distinct poses of 1024 x 1024 pixels of 4 bytes.
+    CHECK(ReadText(minimal_protocol, "[display]\nframe_store_mb = 131\n").protocol);
+    const ReadText small(minimal_protocol, "[display]\nframe_store_mb = 130\n");
+    CHECK(small.lines() == Lines{"13:18: a stimulus takes 130 MB of the frame store, which may take 130"});
+    CHECK_THAT(small.diagnostics.findings()[0].hint, Catch::StartsWith("write frame_store_mb = 131"));
+    // Noise is added by the card, to pages of 8 bytes.
+    const ReadText noise(minimal_protocol, "[display]\nframe_store_mb = 131\noutput = \"native-8bit\"\n"
+                                           "gamma = 2\ndither = \"ordered\"\n");
+    REQUIRE(noise.lines().size() == 1);
+    CHECK_THAT(noise.lines()[0], Catch::StartsWith("13:18: a stimulus takes 260 MB"));
 }
 
 TEST_CASE("headings without a name are found, whatever stands in their place", "[unit]") {
@@ -161,6 +234,23 @@ TEST_CASE("limits that no order keeps to are errors of the protocol", "[unit]") 
     CHECK(read.lines() ==
           Lines{"23:16: no order keeps to runs of 1 with the same task: one task has 4 of the 6 trials"});
     CHECK(read.diagnostics.findings()[0].hint == "allow runs of 2 at least, or 0 for no limit");
+}
+
+TEST_CASE("a limit of the schedule that a block's order drops is warned of, unless the block has its own",
+          "[unit]") {
+    const std::string more = "[[sculpture]]\nid = \"b\"\nshipped = \"runner\"\n[schedule]\n"
+                             "max_sculpture_run = 1\n[[block]]\nid = \"one\"\norder = \"blocked\"\n"
+                             "by = \"stimulus\"\n";
+    const ReadText read(minimal_protocol, more);
+    REQUIRE(read.protocol);
+    REQUIRE(read.lines() == Lines{"16:21: this limit does not hold in block \"one\" (blocked by stimulus), "
+                                  "whose order says otherwise"});
+    CHECK(ReadText(minimal_protocol, more + "max_sculpture_run = 0\n").lines().empty());
+    // The default of 2 was never asked for.
+    CHECK(ReadText(minimal_protocol, "[[sculpture]]\nid = \"b\"\nshipped = \"runner\"\n[[block]]\n"
+                                     "id = \"one\"\norder = \"sequential\"\n")
+              .lines()
+              .empty());
 }
 
 TEST_CASE("text that cannot be read and pictures that do not fit are errors", "[unit]") {

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "experiment/protocol/frame_memory.h"
 #include "experiment/random.h"
 
 using namespace overt;
@@ -258,5 +259,28 @@ TEST_CASE("whole pairs are sent as pairs that begin in the middle of a picture a
         const auto begin = all.begin() + static_cast<std::ptrdiff_t>(row * (columns + 8) + 8);
         CHECK(std::equal(begin, begin + static_cast<std::ptrdiff_t>(columns),
                          pairs.begin() + static_cast<std::ptrdiff_t>(row * columns)));
+    }
+}
+
+TEST_CASE("what a page takes is reckoned before any is drawn as the encoder has it", "[unit]") {
+    for (const OutputMode mode :
+         {OutputMode::native_8bit, OutputMode::native_10bit, OutputMode::mono_plus_plus,
+          OutputMode::color_plus_plus, OutputMode::vpixx_c48}) {
+        for (const Dithering dither : {Dithering::none, Dithering::blue_noise}) {
+            for (const int left : {0, 1, 37, 1920 - 201, 1920 - 200}) {
+                Protocol protocol;
+                protocol.display.output = mode;
+                protocol.display.dither = dither;
+                protocol.display.pair_filter = left % 2 == 0 ? PairFilter::lanczos : PairFilter::box;
+                protocol.view.width_px = 200;
+                protocol.view.height_px = 30;
+                protocol.view.left_px = left;
+                const DisplayEncoder encoder(protocol.display);
+                const ScreenGeometry geometry = screen_geometry_of(protocol);
+                const glm::ivec2 size = encoder.patch_of(geometry.image_origin_px, geometry.image_px).size_px;
+                CHECK(page_bytes(protocol) ==
+                      double(size.x) * size.y * static_cast<double>(bytes_per_pixel(encoder.format())));
+            }
+        }
     }
 }

@@ -1,0 +1,30 @@
+/// What a stimulus takes in the frame store on the graphics card, before any of it is drawn.
+#pragma once
+
+#include "experiment/protocol/protocol.h"
+
+namespace overt {
+
+/// Columns of the screen, the last excluded.
+struct ScreenColumns {
+    int begin = 0, end = 0;
+};
+
+/// Whether pages are kept with 16 bits a channel, for the card to take the last step to the signal: of native
+/// outputs with more than 8 bits, or with noise that is new in each refresh.
+bool keeps_16_bits(const DisplaySettings& display);
+
+/// How far a filter reaches beside a pair of pixels, in pixels.
+int pair_reach_px(const DisplaySettings& display);
+
+/// What of the screen a picture of `width_px` changes that begins in column `left_px`: whole pairs where
+/// pixels are joined, and as far as the filter reaches.
+ScreenColumns changed_columns(const DisplaySettings& display, int left_px, int width_px);
+
+/// Of one page: 4 bytes a pixel, or 8 with 16 bits a channel.
+double page_bytes(const Protocol& protocol);
+
+/// Pages of the stimulus that has most: one for each distinct pose, or for each frame that is ready-made.
+int most_pages(const Protocol& protocol);
+
+} // namespace overt
