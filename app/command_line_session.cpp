@@ -50,9 +50,8 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
                                     "1 --virtual-time --context osmesa");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
     command
-        .add_option(
-            "--observer", options.observer,
-            "Who sits there: letters, digits and hyphens; the digits at the end are the observer's number")
+        .add_option("--observer", options.observer,
+                    "Who sits there: letters and digits; the digits at the end are the observer's number")
         ->required()
         ->type_name("ID");
     command

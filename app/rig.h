@@ -73,6 +73,10 @@ class Rig {
     ResponsePanel& panel() { return *panel_; }
     /// Who looks and speaks; also there where somebody real sits, who then is not asked.
     const SimulatedObserver& simulated_observer() const { return *observer_; }
+    /// Keys of the simulated operator that the session had no moment for.
+    std::vector<std::string> operator_keys_not_pressed() const {
+        return simulated_panel_ ? simulated_panel_->not_pressed() : std::vector<std::string>();
+    }
     /// What keeps the time of a display that is not there, or null.
     const VirtualRefresh* virtual_refresh() const { return virtual_refresh_; }
     /// Those who see what is shown: the simulated observer, the hidden pass if it is live, and the display's

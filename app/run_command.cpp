@@ -74,12 +74,12 @@ void note_struck(const VirtualRefresh& display, const Trial& trial, const Clock&
     }
 }
 
-std::vector<ScriptedOperatorKey> operators_keys(const RunOptions& options) {
+std::vector<ScriptedOperatorKey> operators_keys(const RunOptions& options, const OperatorSettings& settings) {
     if (!options.operator_keys.empty() && !options.simulate_observer)
         throw InputError("--simulate-operator is for sessions with --simulate-observer");
     std::vector<ScriptedOperatorKey> keys;
     for (const std::string& key : options.operator_keys)
-        keys.push_back(read_operator_key(key));
+        keys.push_back(read_operator_key(key, static_cast<int>(settings.skip_reasons.size())));
     return keys;
 }
 
@@ -203,7 +203,8 @@ int run_session(const RunOptions& options) {
 
     Rig rig(protocol, experiment.sculptures,
             {options.context, options.virtual_time, options.windowed, options.simulate_observer.has_value(),
-             seed_of_simulated(options, plan), options.maps, options.monitor, operators_keys(options)},
+             seed_of_simulated(options, plan), options.maps, options.monitor,
+             operators_keys(options, protocol.operators)},
             cache_folder());
     say_before(protocol, plan.schedule, rig.context().description(), options);
     say_risks(rig.screen_findings());
@@ -258,6 +259,8 @@ int run_session(const RunOptions& options) {
         fmt::print(stderr,
                    "the session is recorded, but its manifest is not finished, for another program has "
                    "session.sqlite open, or the disk is full: afterwards overt run … --resume finishes it\n");
+    for (const std::string& key : rig.operator_keys_not_pressed())
+        fmt::print(stderr, "--simulate-operator {}: was not pressed: the session had no such moment\n", key);
     say_after(options, result, store.lost(), plan.schedule, folder.path);
     return result.aborted ? 1 : 0;
 }

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/error.h"
 
@@ -31,6 +32,32 @@ void say_risks(const std::vector<ScreenFinding>& findings) {
             fmt::print(stderr, "risk: {}: {}\n", finding.what, finding.finding);
 }
 
+namespace {
+
+/// What the operator should know of an attempt before the next.
+std::vector<std::string> remarks_on(const TrialOutcome& outcome, double drift_limit_deg) {
+    using enum TrialOutcome::Afterwards;
+    std::vector<std::string> remarks;
+    if (outcome.missed_refreshes > 0)
+        remarks.push_back(fmt::format("{} refreshes missed", outcome.missed_refreshes));
+    if (outcome.drift && outcome.drift->value > drift_limit_deg)
+        remarks.push_back(fmt::format("the drift check found {:.2f} deg, more than {}", outcome.drift->value,
+                                      drift_limit_deg));
+    if (outcome.shown_refreshes > 0 && !outcome.drift)
+        remarks.emplace_back("the drift check found no eye");
+    if (outcome.failure.empty())
+        return remarks;
+    const bool counts = outcome.status == TrialOutcome::Status::completed;
+    remarks.push_back(fmt::format("{}: {}", outcome.failure,
+                                  counts                               ? "counts as it is"
+                                  : outcome.afterwards == now          ? "comes again now"
+                                  : outcome.afterwards == end_of_block ? "comes again at the end of the block"
+                                                                       : "does not come again"));
+    return remarks;
+}
+
+} // namespace
+
 TrialProgress::TrialProgress(const Protocol& protocol, int total) : protocol_(&protocol), total_(total) {
     bar_.update("trials", 0, total_);
 }
@@ -38,12 +65,13 @@ TrialProgress::TrialProgress(const Protocol& protocol, int total) : protocol_(&p
 void TrialProgress::operator()(const Trial& trial, const TrialOutcome& outcome, int done) {
     const auto name = [](const auto& list, int index) { return list[static_cast<std::size_t>(index)].id; };
     bar_.update("trials", done, total_);
-    if (outcome.missed_refreshes > 0) {
-        bar_.finish();
-        fmt::print(stderr, "trial {} ({}, {}, {}): {} refreshes missed\n", trial.index + 1,
-                   name(protocol_->tasks, trial.task), name(protocol_->sculptures, trial.condition.sculpture),
-                   name(protocol_->materials, trial.condition.material), outcome.missed_refreshes);
-    }
+    const std::vector<std::string> remarks = remarks_on(outcome, protocol_->tracker.drift_limit_deg);
+    if (remarks.empty())
+        return;
+    bar_.finish();
+    fmt::print(stderr, "trial {} ({}, {}, {}): {}\n", trial.index + 1, name(protocol_->tasks, trial.task),
+               name(protocol_->sculptures, trial.condition.sculpture),
+               name(protocol_->materials, trial.condition.material), fmt::join(remarks, ", "));
 }
 
 void say_after(const RunOptions& options, const SessionResult& result, const LostRows& lost,
@@ -51,8 +79,11 @@ void say_after(const RunOptions& options, const SessionResult& result, const Los
     if (lost.flips + lost.samples > 0)
         fmt::print(stderr, "the disk was too slow: {} flips and {} samples were not recorded\n", lost.flips,
                    lost.samples);
-    fmt::print("{} of {} trials completed, {} refreshes missed\nsession: {}\n", result.completed_trials,
-               schedule.trials.size(), result.missed_refreshes, folder.string());
+    const int planned = static_cast<int>(schedule.trials.size());
+    const bool is_short = !result.aborted && result.completed_trials < planned;
+    fmt::print("{} of {} trials completed{}, {} refreshes missed\nsession: {}\n", result.completed_trials,
+               planned, is_short ? fmt::format(", {} given up", planned - result.completed_trials) : "",
+               result.missed_refreshes, folder.string());
     if (!options.print_session_to.empty()) {
         std::ofstream file(options.print_session_to);
         file << folder.string() << "\n";

@@ -40,6 +40,8 @@ nlohmann::ordered_json session_json(const SessionRecord& record) {
                           {"attempt", trial.attempt},
                           {"status", name_of(trial.status)},
                           {"counts", trial.counts},
+                          {"failure", trial.outcome.failure},
+                          {"sitting", trial.sitting},
                           {"shown_refreshes", trial.outcome.shown_refreshes},
                           {"missed_refreshes", trial.outcome.missed_refreshes},
                           {"answer", trial.outcome.answer}});
@@ -69,6 +71,15 @@ nlohmann::ordered_json session_json(const SessionRecord& record) {
     return json;
 }
 
+/// An attempt's status, and of one that does not count why.
+std::string fate_of(const TrialRecord& trial) {
+    if (trial.status == TrialRecord::Status::completed)
+        return trial.counts ? "completed" : "superseded";
+    return trial.status == TrialRecord::Status::aborted && !trial.outcome.failure.empty()
+               ? trial.outcome.failure
+               : std::string(name_of(trial.status));
+}
+
 void print_session(const SessionRecord& record) {
     const nlohmann::ordered_json json = session_json(record);
     const SessionHeader& header = record.header();
@@ -77,12 +88,13 @@ void print_session(const SessionRecord& record) {
                header.graphics.context, header.graphics.renderer);
     for (const auto& [sitting, box] : record.display_boxes())
         fmt::print("display box in sitting {}: {}\n", sitting, describe(box));
-    fmt::print("\n{:>5}  {:<12} {:<12} {:<12} {:<10} {:>9} {:>7}  {}\n", "trial", "task", "sculpture",
+    fmt::print("\n{:>5}  {:<12} {:<12} {:<12} {:<16} {:>9} {:>7}  {}\n", "trial", "task", "sculpture",
                "material", "status", "refreshes", "missed", "answer");
-    for (const auto& trial : json["trials"]) {
-        fmt::print("{:>5}  {:<12} {:<12} {:<12} {:<10} {:>9} {:>7}  {}\n", trial["trial"].get<int>(),
+    for (std::size_t i = 0; i < record.trials().size(); ++i) {
+        const auto& trial = json["trials"][i];
+        fmt::print("{:>5}  {:<12} {:<12} {:<12} {:<16} {:>9} {:>7}  {}\n", trial["trial"].get<int>(),
                    trial["task"].get<std::string>(), trial["sculpture"].get<std::string>(),
-                   trial["material"].get<std::string>(), trial["status"].get<std::string>(),
+                   trial["material"].get<std::string>(), fate_of(record.trials()[i]),
                    trial["shown_refreshes"].get<int>(), trial["missed_refreshes"].get<int>(),
                    trial["answer"].get<std::string>());
     }

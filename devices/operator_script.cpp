@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "experiment/error.h"
+#include "experiment/session/operator_desk.h"
 
 namespace overt {
 
@@ -14,10 +14,7 @@ namespace {
 
 using Key = ResponsePress::Key;
 
-constexpr std::pair<std::string_view, Key> keys[] = {
-    {"pause", Key::pause},   {"recalibrate", Key::recalibrate},
-    {"repeat", Key::repeat}, {"reject", Key::reject},
-    {"skip", Key::skip},     {"abort", Key::abort}};
+constexpr Key keys[] = {Key::pause, Key::recalibrate, Key::repeat, Key::reject, Key::skip, Key::abort};
 
 [[noreturn]] void refuse(std::string_view text, std::string_view why) {
     std::string phases;
@@ -38,8 +35,9 @@ template <class Number> std::optional<Number> number_in(std::string_view text) {
 
 } // namespace
 
-ScriptedOperatorKey read_operator_key(std::string_view text) {
+ScriptedOperatorKey read_operator_key(std::string_view text, int reasons) {
     ScriptedOperatorKey scripted;
+    scripted.text = text;
     const std::size_t equals = text.find('='), plus = text.substr(0, equals).rfind('+');
     if (equals == std::string_view::npos || plus == std::string_view::npos)
         refuse(text, "there is no + or no =");
@@ -66,15 +64,20 @@ ScriptedOperatorKey read_operator_key(std::string_view text) {
     scripted.after_s = *seconds;
     const std::string_view rest = text.substr(equals + 1), key = rest.substr(0, rest.find(','));
     const auto known =
-        std::find_if(std::begin(keys), std::end(keys), [&](const auto& one) { return one.first == key; });
+        std::find_if(std::begin(keys), std::end(keys), [&](Key one) { return name_of(one) == key; });
     if (known == std::end(keys))
         refuse(text, fmt::format("there is no key «{}»", key));
-    scripted.key = known->second;
+    scripted.key = *known;
     if (rest.size() > key.size()) {
         const std::string_view answer = rest.substr(key.size() + 1);
         const bool is_digit = answer.size() == 1 && answer[0] >= '1' && answer[0] <= '9';
         if (answer != "yes" && answer != "no" && !is_digit)
             refuse(text, fmt::format("«{}» is no answer", answer));
+        if (is_digit && scripted.key != Key::skip)
+            refuse(text, "only skipping has reasons");
+        if (is_digit && answer[0] - '0' > reasons)
+            refuse(text,
+                   fmt::format("there is no reason {}: [operator] skip_reasons has {}", answer, reasons));
         scripted.answer = static_cast<char32_t>(answer[0]);
     }
     return scripted;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "experiment/ports.h"
@@ -11,14 +12,16 @@ namespace overt {
 /// One key, pressed once.
 struct ScriptedOperatorKey {
     SessionPhase phase = SessionPhase::task_screen;
-    std::optional<int> trial; ///< index; nothing: whichever comes first
+    std::optional<int> trial; ///< index, practice not counted; nothing: whichever comes first
     double after_s = 0.0;     ///< the phase began
     ResponsePress::Key key = ResponsePress::Key::pause;
     char32_t answer = U'y'; ///< to the question that follows: y, n, or the digit of a reason
+    std::string text;       ///< as it was written
 };
 
 /// Reads «PHASE[@TRIAL]+SECONDS=KEY[,ANSWER]», as «stimulus@3+0.5=skip,2»: trials count from 1, the answer is
-/// yes, no or a digit, and yes if it is left out. Throws InputError that says what may stand there.
-ScriptedOperatorKey read_operator_key(std::string_view text);
+/// yes, no or, to skip, the digit of one of so many reasons, and yes if it is left out. Throws InputError
+/// that says what may stand there.
+ScriptedOperatorKey read_operator_key(std::string_view text, int reasons);
 
 } // namespace overt

@@ -55,6 +55,14 @@ void SimulatedResponsePanel::entered(SessionPhase phase, int trial) noexcept {
     }
 }
 
+std::vector<std::string> SimulatedResponsePanel::not_pressed() const {
+    std::vector<std::string> texts;
+    for (const Operator& one : operators_)
+        if (!one.is_done)
+            texts.push_back(one.scripted.text);
+    return texts;
+}
+
 std::optional<ResponsePress> SimulatedResponsePanel::operators_press() noexcept {
     const SessionTime now = clock_->now();
     if (resumes_at_ && now >= *resumes_at_) {

@@ -28,6 +28,9 @@ class SimulatedResponsePanel final : public ResponsePanel {
     std::string answer() override { return answer_; }
     void entered(SessionPhase phase, int trial) noexcept override;
 
+    /// Keys of the script for which there was no such moment, as they were written.
+    std::vector<std::string> not_pressed() const;
+
   private:
     struct Operator {
         ScriptedOperatorKey scripted;

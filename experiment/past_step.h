@@ -30,7 +30,7 @@ enum class AttemptFate : std::uint8_t {
 /// One thing that was done, in the order in which the record tells it.
 struct PastStep {
     enum class Kind : std::uint8_t {
-        practice, ///< was answered
+        practice, ///< was answered, or skipped
         pause,    ///< had begun
         trial,
         resumed
@@ -50,6 +50,7 @@ struct SessionSoFar {
 
 // Kinds of events by which the record tells of steps that have no rows of their own.
 inline constexpr std::string_view practice_answered_event = "practice answered";
+inline constexpr std::string_view practice_skipped_event = "practice skipped";
 inline constexpr std::string_view break_begins_event = "break begins";
 
 } // namespace overt

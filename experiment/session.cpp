@@ -19,6 +19,11 @@ TrialOutcome::Afterwards afterwards_of(const AttemptVerdict& verdict) {
     return of[static_cast<int>(verdict.comes_again)];
 }
 
+/// Practice has no end of a block to come again at.
+bool comes_again(const AttemptResult& practice, const RepeatSettings& repeats) {
+    return practice.is_repeated || (practice.is_rejected && repeats.rejected != RepeatWhen::never);
+}
+
 /// Of practice, events alone are kept: rows of flips and samples are of trials that count.
 class PracticeLog final : public SessionLog {
   public:
@@ -79,6 +84,7 @@ void Session::farewell() {
     if (screen.text.empty())
         return;
     const SessionTime onset = stage_.show(screen);
+    stage_.note(text_shown_event, "farewell");
     ports_.panel.await_key(onset);
     const SessionTime latest = onset + from_seconds(stage_.protocol.screens.response_max_s);
     // Any key will do, the operator's as well: there is nothing left to lead.
@@ -134,27 +140,34 @@ void Session::judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& at
 
 void Session::run_instructions(const SessionStep& step) {
     stage_.enter(SessionPhase::block);
-    read_text(stage_, desk_, stage_.protocol.blocks[static_cast<std::size_t>(step.block)].instructions,
-              stage_.protocol.screens.response_max_s);
+    const BlockSettings& block = stage_.protocol.blocks[static_cast<std::size_t>(step.block)];
+    read_text(stage_, desk_, block.instructions, "instructions of block " + block.id);
 }
 
 void Session::run_practice(const SessionStep& step, const std::optional<Condition>& next) {
     const Trial& trial = step.trial;
     const PracticeSettings& practice = stage_.protocol.practice[static_cast<std::size_t>(trial.index)];
-    ports_.log.event({stage_.now(), -1, "practice",
-                      fmt::format("{}: {}, {}, {}", trial.index + 1, practice.task, practice.sculpture,
-                                  practice.material)});
     PracticeLog log(ports_.log);
-    stage_.log_to(log);
-    const TrialRun::Attempt attempt = trials_.run(trial, next, true);
-    stage_.log_to(ports_.log);
-    if (stage_.is_over())
+    TrialRun::Attempt attempt;
+    do {
+        ports_.log.event({stage_.now(), -1, "practice",
+                          fmt::format("{}: {}, {}, {}", trial.index + 1, practice.task, practice.sculpture,
+                                      practice.material)});
+        stage_.log_to(log);
+        attempt = trials_.run(trial, next, true);
+        stage_.log_to(ports_.log);
+        if (stage_.is_over())
+            return;
+    } while (comes_again(attempt.result, stage_.protocol.repeat));
+    if (attempt.result.is_skipped || attempt.result.is_rejected) {
+        ports_.log.event({stage_.now(), -1, practice_skipped_event, desk_.decision().why});
         return;
+    }
     ports_.log.event({stage_.now(), -1, practice_answered_event, attempt.outcome.answer});
     if (practice.feedback.empty() || stage_.phase() != SessionPhase::response_screen)
         return;
     stage_.enter(SessionPhase::feedback);
-    read_text(stage_, desk_, practice.feedback, stage_.protocol.screens.response_max_s);
+    read_text(stage_, desk_, practice.feedback, "feedback");
 }
 
 void Session::run_break() {

@@ -20,9 +20,11 @@ bool is_one_of(SessionPhase phase, std::initializer_list<SessionPhase> phases) {
     return false;
 }
 
-/// A text stands on the screen there, or the stimulus is over: the operator may pause or calibrate.
+/// A text or the drift target stands on the screen there, or the stimulus is over: the operator may pause or
+/// calibrate.
 bool can_be_interrupted(SessionPhase phase) {
-    return is_one_of(phase, {set_up, block, task_screen, stimulus, response_screen, feedback, rest, pause});
+    return is_one_of(
+        phase, {set_up, block, task_screen, drift_check, stimulus, response_screen, feedback, rest, pause});
 }
 
 } // namespace
@@ -47,7 +49,7 @@ bool may_follow(SessionPhase from, SessionPhase to) {
     case task_screen:
         return to == drift_check || is_one_of(to, between);
     case drift_check:
-        return to == stimulus;
+        return to == stimulus || is_one_of(to, between);
     case stimulus:
         return to == response_screen || is_one_of(to, between);
     case response_screen:

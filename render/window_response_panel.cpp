@@ -59,6 +59,7 @@ std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPres
         switch (press.key) {
         case WindowKey::space:
         case WindowKey::enter:
+        case WindowKey::character: // response boxes type digits and letters
             return meant(Key::next);
         case WindowKey::backspace:
             return meant(Key::back);

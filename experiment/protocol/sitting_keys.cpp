@@ -38,8 +38,8 @@ Section<InstructionSettings> instructions() {
     using I = InstructionSettings;
     return {.name = "instructions",
             .explanation =
-                "What the observer reads after the welcome, page by page: the space bar, enter or the "
-                "right arrow go on, backspace or the left arrow go back.",
+                "What the observer reads after the welcome, page by page: backspace or the left arrow "
+                "go back, any other key that writes, enter or the right arrow go on.",
             .keys =
                 {
                     {{.name = "pages", .if_left_out = "none", .explanation = "The texts."}, &I::pages},

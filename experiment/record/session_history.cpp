@@ -51,7 +51,7 @@ SessionSoFar SessionRecord::so_far() const {
         dated.push_back(
             {trial.sitting, trial.started, {PastStep::Kind::trial, trial.trial.index, fate_of(trial), {}}});
     for (const RecordedEvent& event : events()) {
-        if (event.kind == practice_answered_event)
+        if (event.kind == practice_answered_event || event.kind == practice_skipped_event)
             dated.push_back({event.sitting, event.at, {PastStep::Kind::practice, -1, {}, {}}});
         if (event.kind == break_begins_event)
             dated.push_back({event.sitting, event.at, {PastStep::Kind::pause, -1, {}, {}}});

@@ -17,6 +17,7 @@
 #include "experiment/record/session_record.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
+#include "experiment/record/utf8_text.h"
 
 namespace fs = std::filesystem;
 
@@ -47,6 +48,7 @@ class SessionVerification {
             throw InputError(*newer_format_);
         if (cannot_open_)
             damage(session_file_name, fmt::format("cannot be opened: {}", *cannot_open_));
+        make_printable();
         return std::move(result_);
     }
 
@@ -54,6 +56,19 @@ class SessionVerification {
     void damage(std::string file, std::string what) {
         Damage damage{std::move(file), {}, {}, {}, {}, {}, std::move(what)};
         result_.damages.push_back(std::move(damage));
+    }
+
+    /// Damaged bytes are quoted in what is said of them, and need not be text.
+    void make_printable() {
+        const auto make_text = [](std::string& said) {
+            if (!is_utf8(said))
+                said = utf8_of_latin1(said);
+        };
+        for (Damage& damage : result_.damages)
+            for (std::string* said : {&damage.file, &damage.table, &damage.row, &damage.what})
+                make_text(*said);
+        for (std::string& note : result_.notes)
+            make_text(note);
     }
 
     std::optional<SessionManifest> look_at_manifest() {
@@ -81,6 +96,9 @@ class SessionVerification {
 
     void look_at_session_file() {
         try {
+            std::error_code error;
+            const auto log_bytes = fs::file_size(folder_ / log_name_, error);
+            has_log_ = !error && log_bytes > 0; // now: opening the file may make an empty one
             const SQLite::Database database =
                 open_session_file(folder_ / session_file_name, SessionFileUse::read);
             SQLite::Statement(database, "BEGIN").exec(); // one state of it, also while it is written
@@ -107,9 +125,17 @@ class SessionVerification {
             is_closed = closed.integer() == 1;
         if (is_closed && result_.state != Verification::State::running)
             result_.state = Verification::State::closed;
-        look_for_missing_log(database);
         if (result_.state == Verification::State::interrupted)
             file_hash_ = noted_file_hash(database);
+        if (file_hash_ && !has_log_) {
+            // The hash is only ever noted in the log: it can have come into the file with the log alone.
+            file_hash_.reset();
+            result_.notes.push_back(
+                "session.sqlite: another program has folded its log into it, as sqlite3 does "
+                "without -readonly; the rows are looked at, bytes between them are not");
+        } else {
+            look_for_missing_log(database);
+        }
         learn_files(database);
         if (!has_seals) {
             result_.notes.push_back(
@@ -222,7 +248,7 @@ class SessionVerification {
 
     fs::path folder_;
     std::string log_name_ = std::string(session_file_name) + "-wal";
-    bool is_without_manifest_ = false;
+    bool is_without_manifest_ = false, has_log_ = false;
     std::optional<std::string> cannot_open_, newer_format_; ///< why the session file cannot be looked into
     std::map<std::string, std::string> recorded_files_;     ///< hash by file
     std::optional<ContentHash> file_hash_; ///< of an interrupted session's file, if it was noted

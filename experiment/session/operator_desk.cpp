@@ -1,5 +1,7 @@
 #include "experiment/session/operator_desk.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace overt {
@@ -19,9 +21,28 @@ std::string upper(std::string key) {
 
 } // namespace
 
-void OperatorDesk::rest_a_little() {
+std::string_view name_of(ResponsePress::Key key) noexcept {
+    switch (key) {
+    case Key::pause:
+        return "pause";
+    case Key::recalibrate:
+        return "recalibrate";
+    case Key::repeat:
+        return "repeat";
+    case Key::reject:
+        return "reject";
+    case Key::skip:
+        return "skip";
+    case Key::abort:
+        return "abort";
+    default:
+        return {};
+    }
+}
+
+void OperatorDesk::rest_a_little(SessionTime latest) {
     stage_.ports.presenter.use_spare_time();
-    stage_.ports.clock.wait_until(stage_.now() + key_interval);
+    stage_.ports.clock.wait_until(std::min(latest, stage_.now() + key_interval));
 }
 
 OperatorDesk::Press OperatorDesk::wait(const Waiting& waiting) {
@@ -38,11 +59,12 @@ OperatorDesk::Press OperatorDesk::wait(const Waiting& waiting) {
         while (const std::optional<ResponsePress> press = stage_.ports.panel.poll()) {
             if (is_operators(press->key)) {
                 const SessionTime began = stage_.now();
-                if (!act_on(press->key))
+                if (!act_on(*press))
                     return {stage_.is_over() ? How::session_over : How::trial_over, press->pressed_at};
                 const SessionTime shown_again = stage_.show(waiting.screen);
                 earliest += shown_again - began;
-                latest += shown_again - began;
+                latest = waiting.starts_over ? shown_again + from_seconds(waiting.max_s)
+                                             : latest + (shown_again - began);
                 await(shown_again);
                 continue;
             }
@@ -72,12 +94,14 @@ OperatorDesk::Press OperatorDesk::wait(const Waiting& waiting) {
             return {How::session_over, stage_.now()};
         if (waiting.meanwhile)
             waiting.meanwhile();
-        rest_a_little();
+        rest_a_little(latest);
     }
     return {How::timed_out, latest};
 }
 
-bool OperatorDesk::act_on(Key key) {
+bool OperatorDesk::act_on(const ResponsePress& press) {
+    const Key key = press.key;
+    stage_.log().event({press.pressed_at, stage_.trial(), "operator pressed", std::string(name_of(key))});
     const SessionPhase phase = stage_.phase();
     const int trial = stage_.trial();
     switch (key) {
@@ -131,18 +155,17 @@ bool OperatorDesk::end_trial(Key key) {
     for (std::size_t i = 0; i < settings.skip_reasons.size(); ++i)
         question +=
             fmt::format("{}{}: {}, {}", i == 0 ? "\n\n" : "\n", i + 1, words.yes, settings.skip_reasons[i]);
-    const std::optional<int> answer = confirm(question);
+    const std::optional<int> answer = confirm(question, static_cast<int>(settings.skip_reasons.size()));
     if (!answer)
         return false;
-    const auto reason = static_cast<std::size_t>(*answer);
-    decision_ = {TrialDecision::Word::skipped, reason >= 1 && reason <= settings.skip_reasons.size()
-                                                   ? settings.skip_reasons[reason - 1]
-                                                   : "no reason given"};
+    decision_ = {TrialDecision::Word::skipped,
+                 *answer == 0 ? "no reason given"
+                              : settings.skip_reasons[static_cast<std::size_t>(*answer - 1)]};
     stage_.note("operator", "skips the trial: " + decision_.why);
     return true;
 }
 
-std::optional<int> OperatorDesk::confirm(const std::string& question) {
+std::optional<int> OperatorDesk::confirm(const std::string& question, int reasons) {
     const OperatorSettings& keys = stage_.protocol.operators;
     stage_.note("operator asked", question);
     const WordSettings& words = stage_.protocol.words;
@@ -153,19 +176,22 @@ std::optional<int> OperatorDesk::confirm(const std::string& question) {
     std::optional<int> answer;
     for (bool is_decided = false; !is_decided && !stage_.ends_by_itself();) {
         while (const std::optional<ResponsePress> press = stage_.ports.panel.poll()) {
-            const bool is_digit =
-                press->key == Key::character && press->character >= U'1' && press->character <= U'9';
+            // A digit that stands for no reason is no yes, to whatever question.
+            const int digit =
+                press->key == Key::character && press->character >= U'1' && press->character <= U'9'
+                    ? static_cast<int>(press->character - U'0')
+                    : 0;
             if (press->key == Key::yes)
                 answer = 0;
-            else if (is_digit)
-                answer = static_cast<int>(press->character - U'0');
+            else if (digit >= 1 && digit <= reasons)
+                answer = digit;
             else if (press->key != Key::no && press->key != Key::abort)
                 continue;
             is_decided = true;
             break;
         }
         if (!is_decided)
-            rest_a_little();
+            rest_a_little(SessionTime::max());
     }
     stage_.note("operator answered", answer ? "yes" : "no");
     return stage_.is_over() ? std::nullopt : answer;
@@ -180,18 +206,19 @@ void OperatorDesk::pause() {
         while (const std::optional<ResponsePress> press = stage_.ports.panel.poll()) {
             // The observer's key does not end the operator's pause.
             if (press->key == Key::pause) {
+                stage_.log().event({press->pressed_at, stage_.trial(), "operator pressed", "pause"});
                 goes_on = true;
                 break;
             }
             if (press->key == Key::abort || press->key == Key::recalibrate) {
-                if (!act_on(press->key))
+                if (!act_on(*press))
                     return;
                 stage_.ports.panel.await_key(
                     stage_.show({Screen::Kind::text, stage_.protocol.operators.pause_text}));
             }
         }
         if (!goes_on)
-            rest_a_little();
+            rest_a_little(SessionTime::max());
     }
     stage_.note("operator", fmt::format("goes on after {:.1f} s", to_seconds(stage_.now() - onset)));
 }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "experiment/session/session_stage.h"
 
@@ -32,8 +33,15 @@ struct Waiting {
     /// Called a few hundred times a second; may be empty.
     std::function<void()> meanwhile = {};
     bool turns_pages = false; ///< left and back go back, right goes on
-    bool takes_keys = true; ///< of the observer; else only time ends it
+    bool takes_keys = true;   ///< of the observer; else only time ends it
+    bool starts_over = false; ///< after what came between: max_s counts from then
 };
+
+/// An operator's key as [operator] and the record call it; empty for the observer's.
+std::string_view name_of(ResponsePress::Key key) noexcept;
+
+/// Of a screen that stands until a key is pressed.
+inline constexpr double without_end_s = 1e9;
 
 class OperatorDesk {
   public:
@@ -49,12 +57,13 @@ class OperatorDesk {
     /// session. Pauses and calibrations in between are done here; pauses do not count as waiting.
     Press wait(const Waiting& waiting);
 
-    /// Acts on an operator's key, with a question before it where there is one. Whether things go on: if not,
-    /// the trial or the session is over.
-    bool act_on(ResponsePress::Key key);
+    /// Acts on an operator's key, with a question before it where there is one, and notes when it was
+    /// pressed. Whether things go on: if not, the trial or the session is over.
+    bool act_on(const ResponsePress& press);
 
-    /// Shows a question and waits for yes or no. Gives what yes was said with: a digit's number, or 0.
-    std::optional<int> confirm(const std::string& question);
+    /// Shows a question and waits for yes or no. A digit up to `reasons` says yes, too. Gives that digit's
+    /// number, or 0 for a plain yes.
+    std::optional<int> confirm(const std::string& question, int reasons = 0);
 
     /// Of the trial that is running. begin_trial() forgets the one before.
     const TrialDecision& decision() const { return decision_; }
@@ -65,7 +74,7 @@ class OperatorDesk {
   private:
     void pause();
     bool end_trial(ResponsePress::Key key);
-    void rest_a_little();
+    void rest_a_little(SessionTime latest);
 
     SessionStage& stage_;
     TrialDecision decision_;

@@ -11,28 +11,28 @@ namespace overt {
 
 namespace {
 
-/// Who reads for longer than this has left.
+/// Who has not agreed after so long has left.
 constexpr double longest_reading_s = 3600.0;
 
 constexpr SessionDuration key_interval = std::chrono::milliseconds(4);
 
 } // namespace
 
-bool read_text(SessionStage& stage, OperatorDesk& desk, const std::string& text, double max_s) {
+bool read_text(SessionStage& stage, OperatorDesk& desk, const std::string& text, std::string what) {
     if (text.empty())
         return true;
     const Screen screen{Screen::Kind::text, text};
-    const auto how = desk.wait({.screen = screen, .onset = stage.show(screen), .max_s = max_s}).how;
+    const SessionTime onset = stage.show(screen);
+    stage.note(text_shown_event, std::move(what));
+    const auto how = desk.wait({.screen = screen, .onset = onset, .max_s = without_end_s}).how;
     return how != OperatorDesk::How::session_over && how != OperatorDesk::How::trial_over;
 }
 
 void SessionOpening::run(bool is_known) {
     if (!is_known && (!ask_for_consent() || !fill_in_form()))
         return;
-    if (!read_text(stage_, desk_, stage_.protocol.screens.welcome_text,
-                   stage_.protocol.screens.response_max_s))
-        return;
-    read_instructions();
+    if (read_text(stage_, desk_, stage_.protocol.screens.welcome_text, "welcome"))
+        read_instructions();
 }
 
 bool SessionOpening::ask_for_consent() {
@@ -74,7 +74,7 @@ bool SessionOpening::fill_in_form() {
             bool is_changed = false;
             while (const std::optional<ResponsePress> press = stage_.ports.panel.poll()) {
                 if (is_operators(press->key)) {
-                    if (!desk_.act_on(press->key))
+                    if (!desk_.act_on(*press))
                         return false;
                     show();
                 } else if (form.take(*press)) {
@@ -104,10 +104,10 @@ void SessionOpening::read_instructions() {
                                      ? pages[page]
                                      : fmt::format("{}\n\n{} / {}", pages[page], page + 1, pages.size());
         const Screen screen{Screen::Kind::text, text};
-        const OperatorDesk::Press press = desk_.wait({.screen = screen,
-                                                      .onset = stage_.show(screen),
-                                                      .max_s = longest_reading_s,
-                                                      .turns_pages = true});
+        const SessionTime onset = stage_.show(screen);
+        stage_.note(text_shown_event, fmt::format("instructions, page {} of {}", page + 1, pages.size()));
+        const OperatorDesk::Press press =
+            desk_.wait({.screen = screen, .onset = onset, .max_s = without_end_s, .turns_pages = true});
         if (press.how == OperatorDesk::How::session_over)
             return;
         if (press.how != OperatorDesk::How::back)

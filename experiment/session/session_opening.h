@@ -25,7 +25,8 @@ class SessionOpening {
     FieldValues fields_;
 };
 
-/// Shows a text until a key is pressed; whether things go on.
-bool read_text(SessionStage& stage, OperatorDesk& desk, const std::string& text, double max_s);
+/// Shows a text until a key is pressed, however long that takes, and notes `what` it was; nothing where the
+/// text is empty. Whether things go on.
+bool read_text(SessionStage& stage, OperatorDesk& desk, const std::string& text, std::string what);
 
 } // namespace overt

@@ -40,13 +40,14 @@ TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Conditio
     Attempt attempt;
     attempt.outcome.status = TrialOutcome::Status::aborted;
     desk_.begin_trial();
-    stage_.enter(SessionPhase::trial, trial.index);
+    stage_.enter(SessionPhase::trial, is_practice ? -1 : trial.index);
     stage_.ports.presenter.load_frames(trial.condition);
     stage_.log().trial_started(trial, stage_.now());
     const Clock::Disturbance before = stage_.ports.clock.disturbance();
     ask(trial, attempt);
-    if (goes_on(attempt)) {
+    if (goes_on(attempt))
         check_drift(attempt.outcome);
+    if (goes_on(attempt)) {
         present(trial, attempt);
         act_on_pressed_keys(attempt);
     }
@@ -67,20 +68,29 @@ bool TrialRun::goes_on(const Attempt& attempt) const {
 
 void TrialRun::ask(const Trial& trial, Attempt& attempt) {
     const ScreenSettings& screens = stage_.protocol.screens;
-    stage_.enter(SessionPhase::task_screen, trial.index);
+    stage_.enter(SessionPhase::task_screen, stage_.trial());
     const Screen screen{Screen::Kind::text,
                         stage_.protocol.tasks[static_cast<std::size_t>(trial.task)].question};
     attempt.outcome.task_screen_onset = stage_.show(screen);
     desk_.wait({.screen = screen,
                 .onset = attempt.outcome.task_screen_onset,
                 .min_s = screens.task_min_s,
-                .max_s = screens.response_max_s});
+                .max_s = without_end_s});
 }
 
 void TrialRun::check_drift(TrialOutcome& outcome) {
     stage_.enter(SessionPhase::drift_check, stage_.trial());
-    const SessionTime onset = stage_.show({Screen::Kind::drift_target, ""});
-    stage_.ports.clock.wait_until(onset + from_seconds(stage_.protocol.screens.drift_target_s));
+    const Screen target{Screen::Kind::drift_target, ""};
+    const How how = desk_
+                        .wait({.screen = target,
+                               .onset = stage_.show(target),
+                               .max_s = stage_.protocol.screens.drift_target_s,
+                               .await = [](SessionTime) {}, // of the observer nothing is
+                               .takes_keys = false,
+                               .starts_over = true})
+                        .how;
+    if (how != How::timed_out)
+        return;
     outcome.drift = stage_.ports.tracker.drift_check(screen_centre_);
     const double limit_deg = stage_.protocol.tracker.drift_limit_deg;
     if (!outcome.drift)
@@ -95,7 +105,7 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
     SessionLog& log = stage_.log();
     const SessionPorts& ports = stage_.ports;
     const SessionDuration lead = from_seconds(stage_.protocol.screens.recording_lead_s);
-    stage_.enter(SessionPhase::stimulus, trial.index);
+    stage_.enter(SessionPhase::stimulus, stage_.trial());
     read_clocks();
     ports.tracker.start_recording();
     stage_.show({});
@@ -154,7 +164,7 @@ void TrialRun::act_on_pressed_keys(Attempt& attempt) {
     if (was_broken_off)
         stage_.log().event({pressed_->pressed_at, stage_.trial(), "presentation broken off",
                             fmt::format("by a key, after {} refreshes", attempt.outcome.shown_refreshes)});
-    desk_.act_on(pressed_->key);
+    desk_.act_on(*pressed_);
     // Half an animation is no stimulus: taken back or not, this attempt does not count.
     attempt.result.is_rejected = was_broken_off;
 }
@@ -164,7 +174,7 @@ void TrialRun::take_answer(const Trial& trial, const std::optional<Condition>& n
     const ScreenSettings& screens = stage_.protocol.screens;
     TrialOutcome& outcome = attempt.outcome;
     SessionPorts& ports = stage_.ports;
-    stage_.enter(SessionPhase::response_screen, trial.index);
+    stage_.enter(SessionPhase::response_screen, stage_.trial());
     std::unique_ptr<AnswerRecording> recording;
     if (ports.recorder && !is_practice)
         recording = ports.recorder->begin(trial);

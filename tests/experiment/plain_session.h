@@ -138,6 +138,7 @@ class NotingLog final : public SessionLog {
     void event(const SessionEvent& event) override {
         kinds.emplace_back(event.kind);
         details.push_back(event.detail);
+        times.push_back(event.at);
     }
     void consent(const RecordedConsent& consent) override { consents.push_back(consent); }
     void observer_fields(const std::vector<RecordedObserverField>& filled) override { fields = filled; }
@@ -158,6 +159,7 @@ class NotingLog final : public SessionLog {
 
     int flips = 0, samples = 0;
     std::vector<std::string> kinds, details;
+    std::vector<SessionTime> times;
     std::vector<int> started;
     std::vector<bool> completed;
     std::vector<TrialOutcome> outcomes;

@@ -54,9 +54,10 @@ TEST_CASE("a session goes from phase to phase by its table, and nowhere from its
         if (phase != end)
             CHECK_FALSE(may_follow(end, phase));
         // Nothing is shown that was not made ready and checked before.
+        if (phase == calibration || phase == pause)
+            continue; // they lead back
         CHECK(may_follow(phase, drift_check) == (phase == task_screen));
-        if (phase != calibration && phase != pause)
-            CHECK(may_follow(phase, stimulus) == (phase == drift_check));
+        CHECK(may_follow(phase, stimulus) == (phase == drift_check));
     }
     CHECK_FALSE(may_follow(drift_check, response_screen));
     CHECK(may_follow(stimulus, pause));
@@ -171,4 +172,105 @@ TEST_CASE("keys for trials have no effect where none is running, and the log say
     CHECK(sitting.run().completed_trials == 2);
     CHECK_THAT(sitting.log.details_of("operator").at(0), Contains("no effect"));
     CHECK(sitting.log.count("operator asked") == 0);
+}
+
+TEST_CASE("a digit that stands for no reason answers no question", "[unit]") {
+    for (const Key key : {Key::abort, Key::recalibrate, Key::reject, Key::skip}) {
+        CAPTURE(name_of(key));
+        Sitting sitting(short_protocol("[operator]\nskip_reasons = [\"eye lost\", \"other\"]\n"));
+        bool is_pressed = false;
+        int digits = 0;
+        sitting.panel.tell = [&](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+            if (!is_pressed && panel.phase() == SessionPhase::task_screen) {
+                is_pressed = true;
+                return ResponsePress{key, {}};
+            }
+            if (!panel.is_deciding())
+                return std::nullopt;
+            return digits++ < 50 ? ResponsePress{Key::character, {}, U'3'} : ResponsePress{Key::no, {}};
+        };
+        CHECK(sitting.run().completed_trials == 2);
+        CHECK(digits == 51);
+        CHECK(sitting.log.details_of("operator answered") == std::vector<std::string>{"no"});
+    }
+}
+
+TEST_CASE("a key at the drift check is acted on before anything is presented", "[unit]") {
+    using enum SessionPhase;
+    Sitting skipped(short_protocol(""));
+    skipped.panel.tell = press_once(drift_check, 0, Key::skip);
+    CHECK(skipped.run().completed_trials == 1);
+    CHECK(skipped.log.flips == 12); // of the second trial alone
+    for (const Key key : {Key::pause, Key::recalibrate}) {
+        CAPTURE(name_of(key));
+        Sitting sitting(short_protocol("[screens]\ndrift_target_s = 1\n"));
+        const SessionPhase between = key == Key::pause ? pause : calibration;
+        SessionTime back, presented;
+        sitting.panel.tell = [&, is_pressed =
+                                     false](ScriptedPanel& panel) mutable -> std::optional<ResponsePress> {
+            if (panel.phase() == drift_check && !is_pressed && panel.looks == 200) {
+                is_pressed = true;
+                return ResponsePress{key, {}};
+            }
+            if (panel.phase() == drift_check && is_pressed && panel.looks == 1 && panel.trial == 0)
+                back = sitting.clock.now();
+            if (panel.phase() == stimulus && panel.looks == 1 && panel.trial == 0)
+                presented = sitting.clock.now();
+            return panel.phase() == pause ? std::optional(ResponsePress{Key::pause, {}}) : std::nullopt;
+        };
+        CHECK(sitting.run().completed_trials == 2);
+        const Phases begin(sitting.panel.phases.begin() + 3, sitting.panel.phases.begin() + 8);
+        CHECK(begin == Phases{task_screen, drift_check, between, drift_check, stimulus});
+        // The target stands its full time again.
+        CHECK(to_seconds(presented - back) > 0.9);
+    }
+}
+
+TEST_CASE("each key of the operator is in the log with the time at which it was pressed", "[unit]") {
+    Sitting sitting(short_protocol(""));
+    SessionTime pressed_at;
+    sitting.panel.tell = [&, skip = press_once(SessionPhase::stimulus, 0, Key::skip)](
+                             ScriptedPanel& panel) mutable -> std::optional<ResponsePress> {
+        const auto press = skip(panel);
+        if (press && press->key == Key::skip)
+            pressed_at = sitting.clock.now();
+        return press;
+    };
+    sitting.run();
+    const auto& kinds = sitting.log.kinds;
+    const auto at = std::find(kinds.begin(), kinds.end(), "operator pressed") - kinds.begin();
+    REQUIRE(sitting.log.details_of("operator pressed") == std::vector<std::string>{"skip"});
+    CHECK(sitting.log.times[static_cast<std::size_t>(at)] == pressed_at);
+    // The question came after the last refresh.
+    CHECK(kinds[static_cast<std::size_t>(at) + 1] == "operator asked");
+    CHECK(sitting.log.times[static_cast<std::size_t>(at) + 1] > pressed_at);
+}
+
+TEST_CASE("a text stands until a key is pressed, however little time there is to answer", "[unit]") {
+    Sitting sitting(short_protocol("[screens]\nresponse_min_s = 0\nresponse_max_s = 0.5\n"
+                                   "[instructions]\npages = [\"Page.\"]\n"
+                                   "[[block]]\nid = \"one\"\ninstructions = \"Block.\"\n"
+                                   "[[practice]]\ntask = \"free\"\nsculpture = \"a\"\n"
+                                   "material = \"clay\"\nfeedback = \"Good.\"\n"));
+    using enum SessionPhase;
+    constexpr int patience = 1000; // looks, 4 ms apart
+    std::vector<std::string> stood;
+    sitting.panel.tell =
+        [&, looks = 0, texts = std::size_t{0}](ScriptedPanel& panel) mutable -> std::optional<ResponsePress> {
+        const std::vector<std::string>& shown = sitting.presenter.texts;
+        looks = shown.size() == texts ? looks + 1 : 0;
+        texts = shown.size();
+        if (panel.phase() == response_screen || panel.phase() == end || looks == patience) {
+            if (looks == patience)
+                stood.push_back(shown.back());
+            return std::nullopt; // «next»
+        }
+        return ResponsePress{Key::character, {}};
+    };
+    CHECK(sitting.run().completed_trials == 2);
+    CHECK(stood == std::vector<std::string>{sitting.protocol.screens.welcome_text, "Page.", "Block.", "Look.",
+                                            "Good.", "Look.", "Look."});
+    CHECK(sitting.log.details_of(text_shown_event) ==
+          std::vector<std::string>{"welcome", "instructions, page 1 of 1", "instructions of block one",
+                                   "feedback", "farewell"});
 }

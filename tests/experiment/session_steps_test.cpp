@@ -68,3 +68,32 @@ TEST_CASE("a trial that the operator rejects comes again, or is left out, and th
         CHECK(sitting.log.kinds.back() == "session completed");
     }
 }
+
+TEST_CASE("practice that the operator repeats comes again at once; skipped, it was not answered", "[unit]") {
+    using Key = ResponsePress::Key;
+    for (const Key key : {Key::repeat, Key::reject, Key::skip}) {
+        for (const std::string rejected : {"end-of-block", "never"}) {
+            CAPTURE(name_of(key), rejected);
+            Sitting sitting(short_protocol("[repeat]\nrejected = \"" + rejected +
+                                           "\"\n[[practice]]\ntask = \"free\"\nsculpture = \"a\"\n"
+                                           "material = \"clay\"\nfeedback = \"Good.\"\n"));
+            int presses = 0;
+            sitting.panel.tell = [&](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+                if (panel.phase() != SessionPhase::response_screen || panel.trial != -1 ||
+                    panel.is_deciding() || presses > 0)
+                    return std::nullopt;
+                ++presses;
+                return ResponsePress{key, {}};
+            };
+            CHECK(sitting.run().completed_trials == 2);
+            CHECK(presses == 1);
+            const bool again = key == Key::repeat || (key == Key::reject && rejected != "never");
+            CHECK(sitting.log.count("practice") == (again ? 2 : 1));
+            CHECK(sitting.log.count("practice answered") == (again ? 1 : 0));
+            CHECK(sitting.log.count("practice skipped") == (again ? 0 : 1));
+            const auto& texts = sitting.presenter.texts;
+            CHECK(std::count(texts.begin(), texts.end(), "Good.") == (again ? 1 : 0));
+            CHECK(sitting.log.started == std::vector<int>{0, 1});
+        }
+    }
+}

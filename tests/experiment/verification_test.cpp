@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "experiment/error.h"
+#include "experiment/record/utf8_text.h"
 #include "experiment/sealed_session.h"
 
 using namespace overt;
@@ -216,4 +217,37 @@ TEST_CASE("rows that are changed, added or taken away through SQL are found", "[
         CHECK(found.damages[0].trial == 1);
         CHECK(found.damages[0].row == "trial_id = 2, n = 123");
     }
+}
+
+TEST_CASE("a log that another program folded is no damage, and rows are looked at all the same", "[unit]") {
+    const TemporaryFolder root;
+    const fs::path session = make_whole_session(root.path());
+    write_killed_session(session);
+    const auto open_as_anybody = [&](const std::string& what) {
+        SQLite::Database(session / session_file_name, SQLite::OPEN_READWRITE).exec(what);
+    };
+    open_as_anybody("SELECT 1 FROM trial"); // the last to close it folds it
+    REQUIRE_FALSE(fs::exists(session / (std::string(session_file_name) + "-wal")));
+    for (int round = 0; round < 2; ++round) { // looking makes an empty log, which changes nothing
+        const Verification found = verify_session(session);
+        INFO(words(found));
+        CHECK(found.is_sound());
+        CHECK(found.state == Verification::State::interrupted);
+        REQUIRE_FALSE(found.notes.empty());
+        CHECK_THAT(found.notes[0], Contains("another program has folded its log"));
+    }
+    open_as_anybody("UPDATE sample SET pupil_area = pupil_area + 1 WHERE trial_id = 1 AND n = 0");
+    CHECK_FALSE(verify_session(session).is_sound());
+}
+
+TEST_CASE("what is said of damage is text, whatever the damaged bytes are", "[unit]") {
+    const TemporaryFolder root;
+    const fs::path session = make_whole_session(root.path());
+    write_whole_session(session);
+    SQLite::Database(session / session_file_name, SQLite::OPEN_READWRITE)
+        .exec("UPDATE sealed_table SET columns = columns || CAST(x'e4' AS TEXT) WHERE name = 'flip'");
+    const Verification found = verify_session(session);
+    CHECK_FALSE(found.is_sound());
+    CHECK_THAT(words(found), Contains("cannot be read"));
+    CHECK(is_utf8(words(found)));
 }
