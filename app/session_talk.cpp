@@ -92,7 +92,9 @@ void say_after(const RunOptions& options, const SessionResult& result, const Los
     }
     if (result.aborted)
         fmt::print(stderr, "the session ended early: {}{}\n", result.reason,
-                   result.completed_trials > 0 ? "; overt run with --resume goes on with it" : "");
+                   result.is_opened || result.completed_trials > 0
+                       ? "; overt run with --resume goes on with it"
+                       : "");
 }
 
 } // namespace overt

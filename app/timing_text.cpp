@@ -56,6 +56,11 @@ void print_timing(const TimingReport& report) {
         fmt::print("\ntiming: nothing was presented\n");
         return;
     }
+    if (report.planned_refreshes == 0) {
+        fmt::print("\ntiming: no trial was completed\n");
+        print_trials_to_look_at(report);
+        return;
+    }
     fmt::print("\ntiming of the completed trials\n");
     if (report.has_simulated_faults)
         fmt::print("  THE DISPLAY'S FAULTS WERE SIMULATED: a rehearsal, no measurement\n");

@@ -59,6 +59,7 @@ SessionResult Session::run(const TrialDone& trial_done, const SessionSoFar& so_f
     ports_.panel.entered(SessionPhase::set_up, -1);
     SessionOpening(stage_, desk_, fields_).run(so_far.is_opened);
     if (!stage_.is_over()) {
+        result.is_opened = true;
         desk_.calibrate();
         TrialQueue queue(stage_.protocol, schedule_);
         queue.go_through(so_far.steps);

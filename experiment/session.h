@@ -15,8 +15,9 @@ namespace overt {
 
 struct SessionResult {
     int completed_trials = 0;
-    bool aborted = false; ///< by observer or operator, or because the display or the tracker went away
-    std::string reason;   ///< why, if aborted
+    bool aborted = false;   ///< by observer or operator, or because the display or the tracker went away
+    std::string reason;     ///< why, if aborted
+    bool is_opened = false; ///< the observer takes part: there is something to go on with
     int missed_refreshes = 0;
 };
 
@@ -32,8 +33,8 @@ class Session {
 
     /// Runs all trials in their order, with what comes before, between and after them. An attempt that does
     /// not count is recorded as aborted. Throws DeviceError, GraphicsError or RecordError for what breaks
-    /// between trials; what happens within one is in its outcome. `so_far`: of an interrupted session, that is
-    /// taken up where it stood; its last step is that of being resumed.
+    /// between trials; what happens within one is in its outcome. `so_far`: of an interrupted session, that
+    /// is taken up where it stood; its last step is that of being resumed.
     SessionResult run(const TrialDone& trial_done, const SessionSoFar& so_far = {});
 
   private:

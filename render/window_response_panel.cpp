@@ -59,8 +59,9 @@ std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPres
         switch (press.key) {
         case WindowKey::space:
         case WindowKey::enter:
-        case WindowKey::character: // response boxes type digits and letters
             return meant(Key::next);
+        case WindowKey::character: // response boxes type digits; the space bar was a key already
+            return press.character == U' ' ? std::nullopt : meant(Key::next);
         case WindowKey::backspace:
             return meant(Key::back);
         case WindowKey::left:

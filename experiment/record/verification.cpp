@@ -42,8 +42,10 @@ class SessionVerification {
         if (cannot_open_ && manifest && manifest->is_closed && result_.state != Verification::State::running)
             result_.state = Verification::State::closed; // then its hash is known
         look_between_rows();
-        if (manifest)
+        if (manifest) {
+            look_whose_it_is(*manifest);
             look_at_files(*manifest);
+        }
         if (newer_format_ && result_.is_sound() && result_.state == Verification::State::closed)
             throw InputError(*newer_format_);
         if (cannot_open_)
@@ -119,6 +121,11 @@ class SessionVerification {
         if (is_without_manifest_ && has_seals)
             damage(manifest_file_name, "is missing");
         look_at_structure(database);
+        if (Query own(database, "SELECT protocol_name, observer_label, session_number FROM session");
+            own.step()) {
+            const std::string protocol = own.text(), observer = own.text();
+            whose_ = name_of_session(protocol, observer, own.small());
+        }
         bool is_closed = false;
         Query closed(database, "SELECT closed FROM sitting ORDER BY sitting DESC LIMIT 1");
         if (closed.step())
@@ -150,6 +157,20 @@ class SessionVerification {
                                                 "running, and what came after the last seal",
                                                 findings.unsealed_rows));
         std::move(findings.damages.begin(), findings.damages.end(), std::back_inserter(result_.damages));
+    }
+
+    /// The file of another session is sealed as well as this one's.
+    void look_whose_it_is(const SessionManifest& manifest) {
+        const std::string meant =
+            name_of_session(manifest.protocol, manifest.observer, manifest.session_number);
+        if (!whose_ || is_damaged(session_file_name) || *whose_ == meant)
+            return;
+        damage(session_file_name,
+               fmt::format("is that of another session: of {}, and the manifest is of {}", *whose_, meant));
+    }
+
+    static std::string name_of_session(const std::string& protocol, const std::string& observer, int number) {
+        return fmt::format("{}, observer {}, session {}", protocol, observer, number);
     }
 
     /// Bytes of an interrupted session's file that no row is in.
@@ -250,6 +271,7 @@ class SessionVerification {
     std::string log_name_ = std::string(session_file_name) + "-wal";
     bool is_without_manifest_ = false, has_log_ = false;
     std::optional<std::string> cannot_open_, newer_format_; ///< why the session file cannot be looked into
+    std::optional<std::string> whose_;                      ///< what the session file says of itself
     std::map<std::string, std::string> recorded_files_;     ///< hash by file
     std::optional<ContentHash> file_hash_; ///< of an interrupted session's file, if it was noted
     Verification result_;

@@ -251,3 +251,22 @@ TEST_CASE("what is said of damage is text, whatever the damaged bytes are", "[un
     CHECK_THAT(words(found), Contains("cannot be read"));
     CHECK(is_utf8(words(found)));
 }
+
+TEST_CASE("the file of another session in a folder is found, though all its rows are sealed", "[unit]") {
+    for (const bool is_closed : {false, true}) {
+        const TemporaryFolder root;
+        const fs::path session = make_whole_session(root.path());
+        SessionHeader other = example_header();
+        ++other.session_number;
+        begin_manifest(session, other, test_program);
+        if (is_closed)
+            write_whole_session(session);
+        else
+            write_killed_session(session);
+        const Verification found = verify_session(session);
+        INFO(words(found));
+        CHECK(found.damages.size() == 1);
+        CHECK_THAT(words(found), Contains("session.sqlite: is that of another session: of") &&
+                                     Contains("session 3, and the manifest is of") && Contains("session 4"));
+    }
+}
