@@ -13,7 +13,7 @@ namespace overt {
 
 std::string free_answer_name(const std::filesystem::path& folder, int trial) {
     std::error_code error;
-    std::filesystem::create_directories(folder / "answers", error);
+    std::filesystem::create_directory(folder / "answers", error); // in the session's folder, or nowhere
     if (error)
         throw RecordError(
             fmt::format("{}: cannot be made: {}.", (folder / "answers").string(), error.message()));

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include <sqlite3.h>
+
 #include "experiment/error.h"
 #include "experiment/record/sql.h"
 
@@ -121,6 +123,12 @@ void SessionStore::Writer::write_message(const TrialStart& start) {
 void SessionStore::Writer::write_message(const TrialFinish& finish) {
     rows_.finish_trial(finish.trial, finish.outcome, finish.lost.flips, finish.lost.samples);
     uncommitted_ = {};
+    // What is written goes on into a file that has no name any more, or another one; inode numbers would tell
+    // more, but not on every file system.
+    std::error_code error;
+    if (!std::filesystem::exists(file_, error) && !error)
+        throw SQLite::Exception("the file was moved or deleted while the session ran",
+                                SQLITE_READONLY_DBMOVED);
 }
 
 void SessionStore::Writer::fail(const SQLite::Exception& reason) {

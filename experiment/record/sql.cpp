@@ -9,6 +9,9 @@ namespace overt {
 namespace {
 
 std::string_view remedy_for(int error_code) {
+    if (error_code == SQLITE_READONLY_DBMOVED)
+        return "What was recorded is in the moved file: put the folder back where it was, and go on with "
+               "--resume";
     switch (error_code & 0xff) {
     case SQLITE_FULL:
         return "The disk is full: make room; a session that was running can go on with --resume";

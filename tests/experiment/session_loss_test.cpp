@@ -129,3 +129,31 @@ TEST_CASE("a full disk is reported, again and again, and leaves the earlier tria
     CHECK(samples + lost.samples == 101'000);
     CHECK(flips + lost.flips == 5050);
 }
+
+TEST_CASE("a session whose folder is moved away ends with the trial, and goes on when it is put back",
+          "[unit]") {
+    const TemporaryFolder root;
+    const SessionHeader header = example_header();
+    const fs::path session = make_session(root.path(), header), away = root.path() / "away";
+    {
+        SessionStore store(session / session_file_name, patient());
+        write_trial(store, header.schedule.trials[0]);
+        fs::rename(session, away);
+        CHECK_THROWS_WITH(write_trial(store, header.schedule.trials[1]),
+                          Catch::Contains("was moved or deleted") && Catch::Contains("put the folder back") &&
+                              Catch::Contains("--resume"));
+        CHECK_THROWS_AS(store.close(), RecordError);
+    }
+    CHECK_FALSE(fs::exists(session));
+    fs::rename(away, session);
+    {
+        const SessionRecord record(session);
+        REQUIRE(record.trials().size() == 2);
+        CHECK(record.trials()[1].status == TrialRecord::Status::completed);
+        CHECK_FALSE(record.closed_in_order());
+    }
+    SessionStore store(session / session_file_name, patient());
+    write_trial(store, header.schedule.trials[2]);
+    store.close();
+    CHECK(SessionRecord(session).trials().size() == 3);
+}
