@@ -132,6 +132,8 @@ TEST_CASE("the block of an interrupted trial can begin again, and earlier attemp
     CHECK_THAT(run.out, Contains("4 of 4 trials completed"));
     const SessionRecord record(experiment.session());
     CHECK(story(record) == "1c+ 2c+ 3c- 4i- 3c+ 4c+ ");
+    CHECK_THAT(experiment.overt({"show", experiment.session().string()}).out,
+               Contains(" superseded ") && Contains(" interrupted "));
     CHECK(is_the_plan(record));
     CHECK(record.is_complete());
 

@@ -34,15 +34,20 @@ TEST_CASE("a session is led by an operator's keys, and every trial that is not s
           "[session]") {
     const SmallExperiment experiment(
         with(small_protocol, "[screens]", "[repeat]\nrejected = \"end-of-block\"\n\n[screens]"));
-    const ProgramRun run =
-        experiment.run({"--simulate-operator", "task screen@1+0.1=pause", "--simulate-operator",
-                        "stimulus@2+0.5=skip,2", "--simulate-operator", "stimulus@3+0.5=abort,no",
-                        "--simulate-operator", "response screen@4+0.2=repeat", "--simulate-operator",
-                        "task screen@5+0.1=recalibrate", "--simulate-operator",
-                        "response screen@6+0.1=reject", "--simulate-operator", "task screen@7+0.1=skip,no"});
+    const ProgramRun run = experiment.run(
+        {"--simulate-operator", "task screen@1+0.1=pause", "--simulate-operator", "stimulus@2+0.5=skip,2",
+         "--simulate-operator", "stimulus@3+0.5=abort,no", "--simulate-operator",
+         "response screen@4+0.2=repeat", "--simulate-operator", "task screen@5+0.1=recalibrate",
+         "--simulate-operator", "response screen@6+0.1=reject", "--simulate-operator",
+         "task screen@7+0.1=skip,no", "--simulate-operator", "task screen@77+0=pause"});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    CHECK_THAT(run.out, Contains("9 of 10 trials completed"));
+    CHECK_THAT(run.out, Contains("9 of 10 trials completed, 1 given up"));
+    CHECK_THAT(run.err, Contains("skipped: does not come again") &&
+                            Contains("rejected: comes again at the end of the block") &&
+                            Contains("task screen@77+0=pause: was not pressed"));
+    const std::string shown = experiment.overt({"show", experiment.session().string()}).out;
+    CHECK_THAT(shown, Contains(" skipped ") && Contains(" rejected ") && Contains(" repeated "));
     const SessionRecord record(experiment.session());
     CHECK(record.damages().empty());
     std::vector<int> attempts(small_trials), completed(small_trials);
