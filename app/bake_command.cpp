@@ -13,6 +13,7 @@
 #include "app/interruption.h"
 #include "app/progress_bar.h"
 #include "app/protocol_file.h"
+#include "experiment/counted.h"
 #include "experiment/error.h"
 #include "experiment/parallel.h"
 #include "experiment/protocol/protocol_keys.h"
@@ -181,8 +182,9 @@ void remove_remnants(const BakeJob& job, const StimulusLibrary& library, const F
 }
 
 void say_plan(const BakeJob& job, const Experiment& experiment, const std::vector<BakeUnit>& missing) {
-    fmt::print("{}: {} stimuli, {} quality, {} frames, {} of them there already\n", experiment.protocol.name,
-               job.stimuli.size(), describe(job.grade), job.units.size(), job.units.size() - missing.size());
+    fmt::print("{}: {}, {} quality, {}, {} of them there already\n", experiment.protocol.name,
+               counted(job.stimuli.size(), "stimulus", "stimuli"), describe(job.grade),
+               counted(job.units.size(), "frame"), job.units.size() - missing.size());
     if (missing.empty())
         return;
     const PathProbe probe(experiment.protocol, experiment.sculptures);
@@ -219,8 +221,8 @@ void say_outcome(const BakeOptions& options, const BakeJob& job, const BakeOutco
         fmt::print("{}\n", json.dump(2));
         return;
     }
-    fmt::print("{} of {} frames are there, {} rendered now\n", outcome.kept + outcome.rendered, outcome.units,
-               outcome.rendered);
+    fmt::print("{} of {} are there, {} rendered now\n", outcome.kept + outcome.rendered,
+               counted(outcome.units, "frame"), outcome.rendered);
     if (outcome.interrupted) {
         fmt::print("interrupted; the same command goes on where it ended\n");
         return;

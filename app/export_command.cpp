@@ -6,6 +6,7 @@
 #include "app/interruption.h"
 #include "app/progress_bar.h"
 #include "app/recorded_surface.h"
+#include "experiment/counted.h"
 #include "experiment/record/asc_export.h"
 #include "experiment/record/bids_export.h"
 #include "experiment/record/session_schema.h"
@@ -65,9 +66,10 @@ void export_as_tables(const ExportOptions& options, const SessionRecord& record)
         return counts.samples > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(counts.samples)
                                   : 0.0;
     };
-    fmt::print("{} trials, {} refreshes, {} samples: {:.1f} % on the sculpture, {:.1f} % without gaze, "
+    fmt::print("{}, {}, {}: {:.1f} % on the sculpture, {:.1f} % without gaze, "
                "{} that the planned times would have put on another frame\nexport: {}\n",
-               counts.trials, counts.flips, counts.samples, share(counts.samples_on_object),
+               counted(counts.trials, "trial"), counted(counts.flips, "refresh", "refreshes"),
+               counted(counts.samples, "sample"), share(counts.samples_on_object),
                share(counts.samples_without_gaze), counts.samples_off_plan, out.string());
 }
 
@@ -78,9 +80,10 @@ void export_as_asc(const ExportOptions& options, const SessionRecord& record) {
         export_asc(record, out, {options.overwrite, options.fractional_times, progress_on(bar, record)});
     bar.finish();
     if (counts.sittings_without_samples > 0)
-        fmt::print("{} sittings have no samples, and no file\n", counts.sittings_without_samples);
-    fmt::print("{} attempts at trials, {} samples, {} files\nexport: {}\n", counts.trials, counts.samples,
-               counts.files, out.string());
+        fmt::print("{} without samples, and without a file\n",
+                   counted(counts.sittings_without_samples, "sitting"));
+    fmt::print("{} at trials, {}, {}\nexport: {}\n", counted(counts.trials, "attempt"),
+               counted(counts.samples, "sample"), counted(counts.files, "file"), out.string());
 }
 
 void export_as_bids(const ExportOptions& options, const SessionRecord& record) {

@@ -10,6 +10,7 @@
 #include "app/progress_bar.h"
 #include "app/session_recording.h"
 #include "build_info.h"
+#include "experiment/counted.h"
 #include "experiment/error.h"
 #include "experiment/record/asc_import.h"
 
@@ -48,16 +49,16 @@ nlohmann::ordered_json to_json(const AscImportSummary& summary) {
 void print(const AscImportSummary& summary) {
     const AscSurvey& survey = summary.survey;
     if (survey.skipped_lines > shown_lines)
-        fmt::print(stderr,
-                   "… and {} lines more: all are events («line left out») in the session and its tables\n",
-                   survey.skipped_lines - shown_lines);
+        fmt::print(stderr, "… and {} more: all are events («line left out») in the session and its tables\n",
+                   counted(survey.skipped_lines - shown_lines, "line"));
     for (const std::string& remark : summary.remarks)
         fmt::print("{}\n", remark);
-    fmt::print(
-        "{} lines: {} samples at {:g} Hz, {} of them without gaze; {} events and messages; {} trials; {} "
-        "lines that could not be read and are left out\nsession: {}\n",
-        survey.lines, survey.samples, survey.rate_hz, survey.samples_without_gaze, survey.events,
-        summary.trials, survey.skipped_lines, summary.session.string());
+    fmt::print("{}: {} at {:g} Hz, {} of them without gaze; {}; {}; {} that could not be read and left out\n"
+               "session: {}\n",
+               counted(survey.lines, "line"), counted(survey.samples, "sample"), survey.rate_hz,
+               survey.samples_without_gaze, counted(survey.events, "event or message", "events and messages"),
+               counted(summary.trials, "trial"), counted(survey.skipped_lines, "line"),
+               summary.session.string());
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 #include "app/progress_bar.h"
 #include "app/protocol_file.h"
 #include "experiment/analysis/coordinate_image_file.h"
+#include "experiment/counted.h"
 #include "render/stimulus_library.h"
 
 namespace overt {
@@ -128,7 +129,7 @@ void print_outcome(const LutOptions& options, const std::vector<std::string>& fi
     }
     print_table(figures);
     if (!files.empty())
-        fmt::print("{} files: {}\n", files.size(), folder.string());
+        fmt::print("{}: {}\n", counted(files.size(), "file"), folder.string());
 }
 
 } // namespace

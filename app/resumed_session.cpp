@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiment/counted.h"
 #include "experiment/design/trial_queue.h"
 #include "experiment/error.h"
 #include "experiment/record/folder_lock.h"
@@ -124,7 +125,7 @@ void say_where_it_stands(const ResumedSession& session, const SessionSoFar& befo
     const SessionHeader& header = session.header;
     fmt::print("resuming session {} of observer {}: {}\n", header.session_number,
                header.schedule.observer.label, session.folder.string());
-    fmt::print("{} of {} trials are done", before.counted_trials, header.schedule.trials.size());
+    fmt::print("{} of {} are done", before.counted_trials, counted(header.schedule.trials.size(), "trial"));
     const Resumption& resumption = session.resumption;
     const auto last = std::find_if(before.steps.rbegin(), before.steps.rend(), [](const PastStep& step) {
         return step.kind == PastStep::Kind::trial || step.kind == PastStep::Kind::resumed;
@@ -132,7 +133,8 @@ void say_where_it_stands(const ResumedSession& session, const SessionSoFar& befo
     const bool was_interrupted = last != before.steps.rend() && last->kind == PastStep::Kind::trial &&
                                  last->fate == AttemptFate::interrupted;
     if (!resumption.restarted.empty())
-        fmt::print("; a block of {} trials begins again with its first\n", resumption.restarted.size());
+        fmt::print("; a block of {} begins again with its first\n",
+                   counted(resumption.restarted.size(), "trial"));
     else if (resumption.given_up)
         fmt::print("; trial {} was interrupted, and is given up\n", *resumption.given_up + 1);
     else if (was_interrupted)

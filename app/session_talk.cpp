@@ -5,15 +5,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiment/counted.h"
 #include "experiment/error.h"
 
 namespace overt {
 
 void say_before(const Protocol& protocol, const Schedule& schedule, const GlDescription& graphics,
                 const RunOptions& options) {
-    fmt::print("{}: observer {} (number {}), {} trials, seed {}\n",
+    fmt::print("{}: observer {} (number {}), {}, seed {}\n",
                protocol.title.empty() ? protocol.name : protocol.title, schedule.observer.label,
-               schedule.observer.number, schedule.trials.size(), schedule.seed);
+               schedule.observer.number, counted(schedule.trials.size(), "trial"), schedule.seed);
     fmt::print("display: {} ({}), {}\n", name_of(graphics.kind), graphics.renderer,
                options.virtual_time ? "in virtual time" : "in real time");
     if (!options.simulate_observer)
@@ -77,13 +78,14 @@ void TrialProgress::operator()(const Trial& trial, const TrialOutcome& outcome, 
 void say_after(const RunOptions& options, const SessionResult& result, const LostRows& lost,
                const Schedule& schedule, const std::filesystem::path& folder) {
     if (lost.flips + lost.samples > 0)
-        fmt::print(stderr, "the disk was too slow: {} flips and {} samples were not recorded\n", lost.flips,
-                   lost.samples);
+        fmt::print(stderr, "the disk was too slow: {} and {} were not recorded\n",
+                   counted(lost.flips, "flip"), counted(lost.samples, "sample"));
     const int planned = static_cast<int>(schedule.trials.size());
     const bool is_short = !result.aborted && result.completed_trials < planned;
-    fmt::print("{} of {} trials completed{}, {} refreshes missed\nsession: {}\n", result.completed_trials,
-               planned, is_short ? fmt::format(", {} given up", planned - result.completed_trials) : "",
-               result.missed_refreshes, folder.string());
+    fmt::print("{} of {} completed{}, {} missed\nsession: {}\n", result.completed_trials,
+               counted(planned, "trial"),
+               is_short ? fmt::format(", {} given up", planned - result.completed_trials) : "",
+               counted(result.missed_refreshes, "refresh", "refreshes"), folder.string());
     if (!options.print_session_to.empty()) {
         std::ofstream file(options.print_session_to);
         file << folder.string() << "\n";

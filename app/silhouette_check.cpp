@@ -42,8 +42,31 @@ Silhouette silhouette_of_map(const StimulusLibrary& library, int sculpture, bool
     return silhouette;
 }
 
+/// As match_silhouettes, with each pixel of the frame taken to where `place_of` has it.
+double iou_with(std::span<const std::uint8_t> frame, std::span<const std::uint8_t> map,
+                const auto& place_of) {
+    std::size_t both = 0, either = 0;
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const bool is_object = frame[place_of(i)] != 0, is_covered = map[i] != 0;
+        both += is_object && is_covered;
+        either += is_object || is_covered;
+    }
+    return either > 0 ? static_cast<double>(both) / static_cast<double>(either) : 1.0;
+}
+
 /// In words, the likeliest cause.
 std::string hint_of(const SilhouetteMatch& match) {
+    if (match.frame_share == 0.0)
+        return "there is nothing but background in that frame: it is empty, or alpha, background_colour or "
+               "background_tolerance leave nothing of it";
+    if (match.frame_share == 1.0)
+        return "there is no background in that frame: render with a transparent one, or give "
+               "background_colour";
+    if (match.mirrored_iou >= least_silhouette_iou)
+        return "mirrored from left to right that frame would agree: an axis of the camera or mesh is turned "
+               "round";
+    if (match.upside_down_iou >= least_silhouette_iou)
+        return "turned upside down that frame would agree: its rows are written from the bottom";
     std::string text = fmt::format(
         "there the frame's silhouette lies {:.1f} px {} and {:.1f} px {} of the map's and is {:.3f} times as "
         "large",
@@ -117,6 +140,13 @@ SilhouetteMatch match_silhouettes(std::span<const std::uint8_t> frame, std::span
     }
     if (match.either > 0)
         match.iou = static_cast<double>(match.both) / static_cast<double>(match.either);
+    match.frame_share = frame.empty() ? 0.0 : of_frame.pixels / static_cast<double>(frame.size());
+    const auto width = static_cast<std::size_t>(width_px);
+    const std::size_t height = frame.size() / width;
+    match.mirrored_iou =
+        iou_with(frame, map, [&](std::size_t i) { return i - i % width + (width - 1 - i % width); });
+    match.upside_down_iou =
+        iou_with(frame, map, [&](std::size_t i) { return (height - 1 - i / width) * width + i % width; });
     if (of_frame.pixels > 0.0 && of_map.pixels > 0.0) {
         match.offset_px = of_frame.sum / of_frame.pixels - of_map.sum / of_map.pixels;
         match.size_ratio = std::sqrt(of_frame.pixels / of_map.pixels);
@@ -156,10 +186,10 @@ std::vector<SequenceSilhouette> check_silhouettes(const Experiment& experiment, 
         if (matched.result.worst.iou < least_silhouette_iou) {
             diagnostics.warning(
                 protocol.file.string(), protocol.places.of(key),
-                fmt::format("frame {} shows the sculpture elsewhere than its hidden map: their silhouettes "
+                fmt::format("{} shows the sculpture elsewhere than its hidden map: their silhouettes "
                             "have {:.1f} % of their pixels in common, {:.1f} % over all frames",
-                            matched.result.worst_frame, 100.0 * matched.result.worst.iou,
-                            100.0 * matched.result.iou),
+                            frame_file(sequence, {matched.result.worst_frame}).filename().string(),
+                            100.0 * matched.result.worst.iou, 100.0 * matched.result.iou),
                 hint_of(matched.result.worst));
         }
         sequences.push_back(matched.result);

@@ -20,6 +20,9 @@ struct SilhouetteMatch {
     glm::dvec2 offset_px{0.0}; ///< from the map's middle of area to the frame's; y down
     double size_ratio = 1.0;   ///< of the square roots of areas, frame over map
     std::size_t both = 0, either = 0;
+    double frame_share = 0.0; ///< of the picture that the frame's object covers
+    /// What the first would be with the frame mirrored left to right, and turned upside down.
+    double mirrored_iou = 1.0, upside_down_iou = 1.0;
 };
 SilhouetteMatch match_silhouettes(std::span<const std::uint8_t> frame, std::span<const std::uint8_t> map,
                                   int width_px);

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "experiment/counted.h"
+
 namespace overt {
 
 namespace {
@@ -40,8 +42,8 @@ void print_trials_to_look_at(const TimingReport& report) {
             fmt::print("  trial {}: {} time stamps contradict the others\n", number,
                        trial.wrong_stamps.size());
         if (trial.unaccounted > 0)
-            fmt::print("  trial {} ({}): {} refreshes have no row\n", number, name_of(trial.status),
-                       trial.unaccounted);
+            fmt::print("  trial {} ({}): {} without a row\n", number, name_of(trial.status),
+                       counted(trial.unaccounted, "refresh", "refreshes"));
         for (const std::string& disturbance : trial.disturbances)
             fmt::print("  trial {}: {}\n", number, disturbance);
     }

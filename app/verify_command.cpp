@@ -3,6 +3,7 @@
 
 #include "app/commands.h"
 #include "app/figures.h"
+#include "experiment/counted.h"
 #include "experiment/error.h"
 #include "experiment/record/verification.h"
 
@@ -20,11 +21,10 @@ void print(const std::filesystem::path& session, const Verification& found) {
                                   ? ", and running"
                                   : ", and open: it was interrupted";
     if (found.is_sound())
-        fmt::print("{}: sound{}; {} seals, {} files, {:.1f} MB\n", session.string(), state, found.seals,
-                   found.files, 1e-6 * static_cast<double>(found.bytes));
+        fmt::print("{}: sound{}; {}, {}, {:.1f} MB\n", session.string(), state, counted(found.seals, "seal"),
+                   counted(found.files, "file"), 1e-6 * static_cast<double>(found.bytes));
     else
-        fmt::print("{}: damaged in {} place{}{}\n", session.string(), found.damages.size(),
-                   found.damages.size() == 1 ? "" : "s", state);
+        fmt::print("{}: damaged in {}{}\n", session.string(), counted(found.damages.size(), "place"), state);
 }
 
 nlohmann::ordered_json to_json(const std::filesystem::path& session, const Verification& found) {

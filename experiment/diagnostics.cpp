@@ -7,6 +7,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "experiment/counted.h"
+
 namespace overt {
 
 namespace {
@@ -57,7 +59,10 @@ std::string printable(std::string_view line) {
         const std::size_t length = character_length(line, i);
         const auto lead = static_cast<unsigned char>(line[i]);
         const bool stray = length == 1 && (lead >= 0x80 || (lead < 0x20 && lead != '\t') || lead == 0x7F);
-        text += stray ? std::string("?") : std::string(line.substr(i, length));
+        if (lead == '\n')
+            text += ' '; // of a message that a library gave in several lines
+        else
+            text += stray ? std::string("?") : std::string(line.substr(i, length));
         i += length;
     }
     return text;
@@ -83,10 +88,6 @@ std::string indent_to(std::string_view line, int column) {
 }
 
 std::string_view name_of(Severity severity) { return severity == Severity::error ? "error" : "warning"; }
-
-std::string counted(int count, std::string_view noun) {
-    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
 
 std::string lower_case(std::string_view text) {
     std::string lower(text);

@@ -57,7 +57,7 @@ ScreenTextFit fit_screen_text(const std::string& text, bool is_form, const Scree
         style.line_height_px = std::max(smallest_line_px, style.line_height_px * 9 / 10);
         measure = measure_text(text, style);
     }
-    return {measure, style.line_height_px, style.line_height_px < wanted};
+    return {measure, style.line_height_px, style.line_height_px < wanted, measure.size_px.y <= highest};
 }
 
 LinearImage draw_screen_text(const std::string& text, bool is_form, const ScreenGeometry& geometry,

@@ -16,6 +16,7 @@ struct ScreenTextFit {
     TextMeasure measure;
     int line_height_px = 0;
     bool is_shrunk = false; ///< it is set smaller than the protocol says, so that all of it is seen
+    bool fits = true;       ///< else not even the smallest letters are small enough, and its end is cut off
 };
 
 /// The texts stand in the middle eight tenths of the screen's width (a form: six tenths, wherever its lines

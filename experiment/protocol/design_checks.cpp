@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/counted.h"
 #include "experiment/design/block_plan.h"
 #include "experiment/design/latin_square.h"
 #include "experiment/design/observer_groups.h"
@@ -141,10 +142,6 @@ std::vector<AlikeObservers> planned_observers(const Protocol& protocol) {
     return groups;
 }
 
-std::string observers_in_words(int count) {
-    return fmt::format("{} observer{}", count, count == 1 ? "" : "s");
-}
-
 /// Squares and rotations that a number of observers does not fill.
 void check_fill(ProtocolExamination& examination, const AlikeObservers& observers, std::string_view what,
                 int rows) {
@@ -153,7 +150,7 @@ void check_fill(ProtocolExamination& examination, const AlikeObservers& observer
     const int below = observers.count / rows * rows;
     examination.warning(
         {"schedule.observers"},
-        fmt::format("{}{} {} not fill {}, which takes {}", observers_in_words(observers.count),
+        fmt::format("{}{} {} not fill {}, which takes {}", counted(observers.count, "observer"),
                     observers.of_group, observers.count == 1 ? "does" : "do", what, rows),
         below > 0 ? fmt::format("{} or {} observers{} would", below, below + rows, observers.of_group)
                   : fmt::format("{} observers{} would", rows, observers.of_group));
@@ -211,7 +208,7 @@ void check_rotation(ProtocolExamination& examination) {
             {"schedule.observers"},
             fmt::format(
                 "{} cannot see {} materials equally often under the tasks that are asked once per sculpture",
-                observers_in_words(observers), protocol.materials.size()),
+                counted(observers, "observer"), protocol.materials.size()),
             below > 0 ? fmt::format("{} or {} observers would", below, below + rotation)
                       : fmt::format("{} observers would", rotation));
     }

@@ -4,19 +4,13 @@
 #include <fmt/format.h>
 
 #include "experiment/colour/characterisation_text.h"
+#include "experiment/counted.h"
 #include "experiment/protocol/design_report.h"
 #include "experiment/protocol/protocol_keys.h"
 
 namespace overt {
 
 namespace {
-
-/// «1 task», «2 tasks»; `several` where the plural is no mere s.
-std::string counted(int count, std::string_view one, std::string_view several = {}) {
-    if (count == 1)
-        return fmt::format("1 {}", one);
-    return several.empty() ? fmt::format("{} {}s", count, one) : fmt::format("{} {}", count, several);
-}
 
 std::string in_bytes(double bytes) {
     return bytes < 9.5e6 ? fmt::format("{:.2g} MB", bytes / 1e6)

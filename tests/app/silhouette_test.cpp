@@ -107,7 +107,7 @@ TEST_CASE("a camera that moves in one frame is found, and by how much", "[sessio
     CHECK(silhouette.at("worst_offset_px")[0] == Approx(3.0));
     CHECK(silhouette.at("worst_offset_px")[1] == Approx(-2.0));
     CHECK(silhouette.at("worst_size_ratio") == Approx(1.0));
-    CHECK(message_with(report, "frame 17 shows the sculpture elsewhere") != "");
+    CHECK(message_with(report, " shows the sculpture elsewhere") != "");
     // It stands at the sequence's key.
     CHECK(report.at("findings").back().at("line") == 78);
 }
@@ -135,4 +135,21 @@ TEST_CASE("silhouettes have what they have in common over what they have", "[uni
     CHECK(match_silhouettes(a, a, 4).iou == 1.0);
     CHECK(match_silhouettes(a, none, 4).iou == 0.0);
     CHECK(match_silhouettes(none, none, 4).iou == 1.0);
+    CHECK(match_silhouettes(none, a, 4).frame_share == 0.0);
+    CHECK(match_silhouettes(a, none, 4).frame_share == 0.5);
+}
+
+TEST_CASE("a silhouette that is mirrored or upside down is known by what turning it back would give",
+          "[unit]") {
+    const std::vector<std::uint8_t> map{1, 1, 0, 0, //
+                                        1, 0, 0, 0};
+    const std::vector<std::uint8_t> mirrored{0, 0, 1, 1, //
+                                             0, 0, 0, 1};
+    const std::vector<std::uint8_t> turned{1, 0, 0, 0, //
+                                           1, 1, 0, 0};
+    CHECK(match_silhouettes(mirrored, map, 4).iou == 0.0);
+    CHECK(match_silhouettes(mirrored, map, 4).mirrored_iou == 1.0);
+    CHECK(match_silhouettes(mirrored, map, 4).upside_down_iou < 1.0);
+    CHECK(match_silhouettes(turned, map, 4).upside_down_iou == 1.0);
+    CHECK(match_silhouettes(turned, map, 4).mirrored_iou < 1.0);
 }

@@ -158,6 +158,8 @@ TEST_CASE("a text that is too high for the screen is set smaller until all of it
     CHECK(fit.is_shrunk);
     CHECK(fit.measure.size_px.y <= 540);
     CHECK(fit.line_height_px >= 8);
+    CHECK(fit.fits);
+    CHECK_FALSE(fit_screen_text(std::string(5000, '\n'), false, geometry, 0.6).fits);
     CHECK_THROWS_AS(fit_screen_text("\xff\xfe", false, geometry, 0.6), InputError);
 }
 
