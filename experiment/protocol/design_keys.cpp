@@ -108,6 +108,7 @@ Section<ScheduleSettings> schedule() {
                  &S::block_order},
                 {{.name = "rotation_seed",
                   .low = 0,
+                  .high = 2147483647,
                   .explanation = "Start of the random squares. All observers of an experiment share them, so "
                                  "they do not depend on `seed`."},
                  &S::rotation_seed},

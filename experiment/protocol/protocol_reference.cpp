@@ -29,8 +29,11 @@ is the experiment of the 2019 paper with every choice explained;
 [protocols/quick_look.toml](../protocols/quick_look.toml) is the smallest that runs. How to use laser scans
 and other meshes of your own is in [laser_scans.md](laser_scans.md); blocks, limits, squares, groups, breaks and repeated
 trials are shown by examples in [design.md](design.md); the form, the operator's keys and spoken answers in
-[sitting.md](sitting.md). `overt new FILE` writes a protocol to begin with, and
-`overt schema` a JSON Schema by which editors complete and check protocols as they are written.
+[sitting.md](sitting.md). `overt new FILE` writes a protocol to begin with.
+
+Editors that know TOML (Visual Studio Code with Even Better TOML, say) complete keys, explain them and mark mistakes as you write,
+by a JSON Schema: write it once with `overt schema > protocol.schema.json`, and begin each protocol with the line
+`#:schema ./protocol.schema.json`. What one key has to do with another, and with files, only `overt check` knows.
 
 - A key that is left out has its default.
 - `include = "rig.toml"`, or a list of files, before the first section completes a protocol by other files, say that of

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/protocol/protocol_keys.h"
+#include "experiment/scene/sculptures/sculptures.h"
 
 namespace overt {
 
@@ -108,22 +109,51 @@ template <class Struct> Json section_schema(const Section<Struct>& section) {
             },
             key.member);
         value["description"] =
-            rule.if_left_out.empty()
-                ? std::string(rule.explanation)
-                : std::string(rule.explanation) + " Left out: " + std::string(rule.if_left_out) + ".";
+            without_links(rule.explanation) +
+            (rule.if_left_out.empty() ? "" : " Left out: " + std::string(rule.if_left_out) + ".");
         schema["properties"][std::string(rule.name)] = std::move(value);
         if (rule.is_required)
             required.push_back(rule.name);
     }
     for (const Section<Struct>& table : section.tables)
         schema["properties"][std::string(table.name)] = section_schema(table);
-    schema["description"] = section.explanation;
+    schema["description"] = without_links(section.explanation);
     if (!required.empty())
         schema["required"] = std::move(required);
     return schema;
 }
 
+/// What the reader asks for beyond a type and a range.
+void narrow(Json& properties) {
+    properties["answers"]["properties"]["bits"]["enum"] = {16, 24};
+    Json shipped = Json::array();
+    for (const SculptureDescription& sculpture : shipped_sculptures())
+        shipped.push_back(sculpture.name);
+    properties["sculpture"]["items"]["properties"]["shipped"]["enum"] = std::move(shipped);
+    properties["frames"]["items"]["properties"]["files"]["pattern"] = "^[^#]*#+[^#]*$";
+}
+
+/// What may stand in an included file is asked for only where there is none.
+Json required_without_includes(Json& properties) {
+    Json name{{"properties", {{"protocol", {{"required", properties["protocol"]["required"]}}}}}};
+    properties["protocol"].erase("required");
+    return {Json{{"required", {"include"}}}, std::move(name)};
+}
+
 } // namespace
+
+std::string without_links(std::string_view text) {
+    std::string plain;
+    while (true) {
+        const std::size_t middle = text.find("]("), begin = text.substr(0, middle).rfind('[');
+        const std::size_t end = middle == text.npos ? text.npos : text.find(')', middle);
+        if (begin == text.npos || end == text.npos)
+            return plain + std::string(text);
+        plain += std::string(text.substr(0, begin)) + "docs/" +
+                 std::string(text.substr(middle + 2, end - middle - 2));
+        text.remove_prefix(end + 1);
+    }
+}
 
 Json protocol_schema() {
     Json properties = Json::object();
@@ -132,14 +162,20 @@ Json protocol_schema() {
                              {"anyOf", {path, list_of(path, 1, 0)}}};
     for_each_section([&]<class Struct>(const Section<Struct>& section) {
         Json schema = section_schema(section);
-        if (section.many)
+        if (section.many) {
+            const std::string description = schema["description"];
             schema = list_of(std::move(schema), 1, 0);
+            schema["description"] = description;
+        }
         properties[std::string(section.name)] = std::move(schema);
     });
+    narrow(properties);
+    Json required = required_without_includes(properties);
     return {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
             {"title", "overt protocol"},
             {"description", "An eye-tracking experiment on animated 3D objects."},
             {"type", "object"},
+            {"anyOf", std::move(required)},
             {"additionalProperties", false},
             {"properties", std::move(properties)}};
 }

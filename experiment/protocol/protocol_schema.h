@@ -1,6 +1,9 @@
 /// The form of protocol files for editors and other programs.
 #pragma once
 
+#include <string>
+#include <string_view>
+
 #include <nlohmann/json_fwd.hpp>
 
 namespace overt {
@@ -9,5 +12,9 @@ namespace overt {
 /// fits it; what has to hold between keys, and that sections are there which an included file may have, only
 /// `overt check` says.
 nlohmann::ordered_json protocol_schema();
+
+/// A text of the table of keys for where no page of docs/ is a click away: «[bake.md](bake.md)» becomes
+/// «docs/bake.md».
+std::string without_links(std::string_view text);
 
 } // namespace overt

@@ -109,7 +109,7 @@ void add_keys(std::string& text, const Section<Struct>& section, const Values& v
         if (value == values.end() && !with_comments)
             continue;
         if (with_comments)
-            text += "\n" + comment(described(key.rule, expected_kind(key)));
+            text += "\n" + comment(without_links(described(key.rule, expected_kind(key))));
         if (value != values.end() && !is_idle)
             text += fmt::format("{} = {}\n", key.rule.name, value->second);
         else
@@ -138,7 +138,7 @@ void add_section(std::string& text, const Section<Struct>& section, std::string_
     const std::string quoted = fmt::format("\"{}\"", name);
     if (section.name == "protocol")
         entries.front()["name"] = quoted;
-    text += "\n# " + std::string(76, '-') + "\n" + comment(section.explanation) + "\n";
+    text += "\n# " + std::string(76, '-') + "\n" + comment(without_links(section.explanation)) + "\n";
     for (std::size_t entry = 0; entry < entries.size(); ++entry) {
         if (entry > 0)
             text += "\n";

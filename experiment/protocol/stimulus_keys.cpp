@@ -189,7 +189,9 @@ Section<SculptureSettings> sculpture() {
                  &S::title},
                 {{.name = "shipped",
                   .if_left_out = "see `mesh` and `lut`",
-                  .explanation = "Name of a sculpture that overt makes itself; its head is known."},
+                  .explanation =
+                      "A sculpture that overt makes itself, its head being known: \"muse\", \"runner\" or "
+                      "\"scholar\"."},
                  &S::shipped},
                 {{.name = "mesh",
                   .if_left_out = "see `shipped` and `lut`",

@@ -62,6 +62,35 @@ TEST_CASE("the protocols that overt brings fit the schema", "[unit]") {
     CHECK(faults_of(minimal_protocol) == std::vector<std::string>{});
 }
 
+TEST_CASE("the schema knows which depths, sculptures and numbered files there are", "[unit]") {
+    const std::string sculpture = "[[sculpture]]\nid = \"b\"\nshipped = ";
+    const std::string frames = "[[frames]]\nsculpture = \"a\"\nmaterial = \"gold\"\nfiles = ";
+    for (const std::string& sound :
+         {std::string("[answers]\nbits = 24\n"), sculpture + "\"scholar\"\n", frames + "\"a/f_###.png\"\n",
+          std::string("[schedule]\nrotation_seed = 2147483647\n")})
+        CHECK(faults_of(minimal_protocol, sound) == std::vector<std::string>{});
+    for (const std::string& faulty :
+         {std::string("[answers]\nbits = 20\n"), sculpture + "\"hermes\"\n", frames + "\"a/f.png\"\n",
+          frames + "\"a_##/f_##.png\"\n", std::string("[schedule]\nrotation_seed = 2147483648\n")}) {
+        CAPTURE(faulty);
+        CHECK(faults_of(minimal_protocol, faulty).size() == 1);
+        CHECK_FALSE(ReadText(minimal_protocol, faulty).protocol);
+    }
+}
+
+TEST_CASE("what an included file may say is not missed by the schema", "[unit]") {
+    const std::string nameless = "[protocol]\ntitle = \"Rest\"\n";
+    CHECK(faults_of(nameless).size() == 1);
+    CHECK(faults_of("include = \"names.toml\"\n" + nameless).empty());
+}
+
+TEST_CASE("what is shown beside a key in an editor has no links of a page in it", "[unit]") {
+    CHECK(without_links("One; see [bake.md](bake.md). A list [x, y], two: [a.md](a.md)") ==
+          "One; see docs/bake.md. A list [x, y], two: docs/a.md");
+    CHECK(protocol_schema().dump().find("](") == std::string::npos);
+    CHECK(protocol_starter("x").find("](") == std::string::npos);
+}
+
 TEST_CASE("what the reader refuses of a single key, the schema refuses, and the reverse", "[unit]") {
     // Values right and wrong for keys of every type.
     for (const std::string line : {"[display]\nrefresh_hz = 60",
@@ -108,7 +137,7 @@ TEST_CASE("the schema has every key, with its explanation and a default that fit
             CAPTURE(section.name, key.rule.name);
             const SchemaJson value = found["properties"].at(std::string(key.rule.name));
             CHECK_THAT(value["description"].template get<std::string>(),
-                       Contains(std::string(key.rule.explanation)));
+                       Contains(without_links(key.rule.explanation)));
             if (value.contains("default"))
                 CHECK(schema_faults(value["default"], value) == std::vector<std::string>{});
         }
