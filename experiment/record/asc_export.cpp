@@ -116,16 +116,16 @@ void SittingExport::write_screen(std::int64_t ms) {
         }
     });
     const ScreenGeometry& screen = record_.header().display.screen;
-    if (words.count("DISPLAY_COORDS") == 0)
+    if (!words.contains("DISPLAY_COORDS"))
         writer_.message(
             ms, fmt::format("DISPLAY_COORDS 0 0 {} {}", screen.screen_px.x - 1, screen.screen_px.y - 1));
     if (screen.viewing_distance_mm <= 0.0 || screen.screen_mm.x <= 0.0)
         return;
-    if (words.count("SCREEN_PHYS_COORDS") == 0)
+    if (!words.contains("SCREEN_PHYS_COORDS"))
         writer_.message(ms, fmt::format("SCREEN_PHYS_COORDS {} {} {} {}", -0.5 * screen.screen_mm.x,
                                         0.5 * screen.screen_mm.y, 0.5 * screen.screen_mm.x,
                                         -0.5 * screen.screen_mm.y));
-    if (words.count("SCREEN_DISTANCE") == 0)
+    if (!words.contains("SCREEN_DISTANCE"))
         writer_.message(ms, fmt::format("SCREEN_DISTANCE {0} {0}", screen.viewing_distance_mm));
 }
 

@@ -147,7 +147,7 @@ void add_remarks(AscImportSummary& summary, const SessionRecord& record, const M
     for (const auto& [trial, attempt] : match.attempt_of)
         matched.insert(attempt);
     for (const TrialRecord& trial : record.trials())
-        if (trial.sitting == match.sitting && matched.count(&trial) == 0)
+        if (trial.sitting == match.sitting && !matched.contains(&trial))
             add(fmt::format("Trial {}, attempt {}, is not in the file: it has no gaze now.",
                             trial.trial.index + 1, trial.attempt));
     add_asc_remarks(summary);

@@ -44,9 +44,9 @@ class AscWriter {
     /// A line without a time, such as of a calibration's table.
     void note(std::string_view text);
     void message(std::int64_t ms, std::string_view text);
-    /// START with what is recorded, at the rate that the last message RECCFG named. `eyes`: of this
-    /// recording, LEFT, RIGHT or both; empty: as before.
-    void start(std::int64_t ms, std::string_view eyes = {});
+    /// START with what is recorded, at the rate that the last message RECCFG named. `recorded`: the eyes
+    /// of this recording, LEFT, RIGHT or both; empty: as before.
+    void start(std::int64_t ms, std::string_view recorded = {});
     /// END; `resolution` as in GazeEvent::Kind::ended, or empty: the layout's.
     void end(std::int64_t ms, std::string_view resolution);
     /// Samples of one instant: one of each recorded eye, at most; an eye without one has no gaze.

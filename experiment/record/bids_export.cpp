@@ -26,9 +26,8 @@ namespace {
 /// Puts pictures of stimuli into the staged dataset when they are first named.
 class Stimuli {
   public:
-    Stimuli(const SessionRecord& record, const fs::path& staged, const fs::path& dataset,
-            const BidsNames& names)
-        : record_(record), staged_(staged), dataset_(dataset), task_(names.task) {}
+    Stimuli(const SessionRecord& record, fs::path staged, fs::path dataset, const BidsNames& names)
+        : record_(record), staged_(std::move(staged)), dataset_(std::move(dataset)), task_(names.task) {}
 
     /// Its path under «stimuli», or empty.
     const std::string& file_of(const Condition& condition) {
