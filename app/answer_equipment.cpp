@@ -127,10 +127,10 @@ std::vector<std::string> sound_overview() {
         for (const SoundInputInfo& input : sound_inputs())
             lines.push_back(words_for(input));
     } catch (const DeviceError& error) {
-        lines.push_back(error.what());
+        lines.emplace_back(error.what());
     }
     if (lines.empty())
-        lines.push_back("none that records: spoken answers cannot be recorded here");
+        lines.emplace_back("none that records: spoken answers cannot be recorded here");
     return lines;
 }
 

@@ -36,7 +36,7 @@ std::filesystem::path session_to_take_up(const SessionPlace& place, std::optiona
         return session_path(place, *number);
     }
     for (auto last = numbers.rbegin(); last != numbers.rend(); ++last) {
-        const std::filesystem::path folder = session_path(place, *last);
+        std::filesystem::path folder = session_path(place, *last);
         if (!SessionRecord(folder).is_complete())
             return folder;
     }
@@ -218,7 +218,7 @@ void require_same_stimuli(const ResumedSession& session, const SessionHeader& no
         return header.characterisation ? header.characterisation->sha256 : ContentHash();
     };
     if (light_of(then) != light_of(now))
-        changed.push_back("the display's characterisation");
+        changed.emplace_back("the display's characterisation");
     if (!changed.empty())
         throw InputError(fmt::format("{}: what would be shown is not what this session was begun with: {} "
                                      "changed. Put back the files (and give the same --quality), or begin "

@@ -113,8 +113,7 @@ std::vector<ScreenFinding> Rig::check_timing(double seconds,
                                              const std::function<void(int done, int total)>& progress) {
     OVERT_EXPECTS(is_on_a_real_screen() && window_display_);
     const TimingFacts facts = measure_timing(*window_, *window_display_, *clock_, seconds, progress);
-    const std::vector<ScreenFinding> findings =
-        judge_timing(facts, protocol_->display.refresh_hz, "the protocol");
+    std::vector<ScreenFinding> findings = judge_timing(facts, protocol_->display.refresh_hz, "the protocol");
     refuse_spoilt_screen(findings);
     screen_findings_.insert(screen_findings_.end(), findings.begin(), findings.end());
     return findings;

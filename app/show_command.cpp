@@ -31,8 +31,8 @@ nlohmann::ordered_json session_json(const SessionRecord& record) {
     const SessionHeader& header = record.header();
     auto trials = nlohmann::ordered_json::array();
     for (const TrialRecord& trial : record.trials()) {
-        const std::size_t sculpture = static_cast<std::size_t>(trial.trial.condition.sculpture);
-        const std::size_t material = static_cast<std::size_t>(trial.trial.condition.material);
+        const auto sculpture = static_cast<std::size_t>(trial.trial.condition.sculpture);
+        const auto material = static_cast<std::size_t>(trial.trial.condition.material);
         trials.push_back({{"trial", trial.trial.index + 1},
                           {"task", header.tasks[static_cast<std::size_t>(trial.trial.task)].id},
                           {"sculpture", header.sculptures[sculpture].id},

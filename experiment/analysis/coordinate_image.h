@@ -20,8 +20,7 @@ struct CoordinateImage {
     CoordinateImage() = default;
     explicit CoordinateImage(glm::ivec2 size)
         : size_px(size),
-          pixels(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), glm::vec4(0.0f)),
-          parts() {}
+          pixels(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), glm::vec4(0.0f)) {}
 
     glm::vec4& at(int x, int y) {
         return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_px.x) +
