@@ -20,9 +20,11 @@ void add_check(CLI::App& app, ChosenCommand& chosen) {
     CLI::App& command = add_command(app, "check", "Everything that can be known before an observer sits down",
                                     "overt check protocols/overt_2019.toml --observer 07");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
-    command.add_option("--observer", options.observer, "Show this observer's order of trials")
-        ->type_name("ID");
-    command.add_flag("--all-observers", options.all_observers, "Show the order of each planned observer");
+    CLI::Option* const one =
+        command.add_option("--observer", options.observer, "Show this observer's order of trials")
+            ->type_name("ID");
+    command.add_flag("--all-observers", options.all_observers, "Show the order of each planned observer")
+        ->excludes(one);
     command
         .add_option("--answer-time", options.answer_time_s,
                     "Seconds an answer is taken to last, for the session's length")

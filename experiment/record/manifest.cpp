@@ -150,7 +150,8 @@ std::vector<std::string> files_of_session(const fs::path& folder, bool with_sess
     for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator();
          ++entry) {
         const std::string name = entry->path().filename().string();
-        if (name.starts_with('.') || (entry.depth() == 0 && name.starts_with("export"))) {
+        const bool is_export = entry.depth() == 0 && entry->is_directory() && name.starts_with("export_");
+        if (name.starts_with('.') || is_export) {
             entry.disable_recursion_pending();
             continue;
         }

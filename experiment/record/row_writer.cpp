@@ -12,6 +12,7 @@
 #include "experiment/record/session_file.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
+#include "experiment/record/trial_rows.h"
 
 namespace overt {
 namespace {
@@ -34,20 +35,6 @@ std::int64_t number(const SQLite::Database& database, const char* sql, std::int6
     Query query(database, sql);
     query.bind(1, parameter);
     return query.step() ? query.integer() : 0;
-}
-
-std::optional<std::string> word_for(TrialOutcome::Afterwards afterwards) {
-    switch (afterwards) {
-    case TrialOutcome::Afterwards::never:
-        return "never";
-    case TrialOutcome::Afterwards::now:
-        return "now";
-    case TrialOutcome::Afterwards::end_of_block:
-        return "end-of-block";
-    case TrialOutcome::Afterwards::undecided:
-        break;
-    }
-    return std::nullopt;
 }
 
 } // namespace
@@ -284,14 +271,15 @@ void RowWriter::finish_trial(const Trial& trial, const TrialOutcome& outcome, st
     commit();
     database_.exec("PRAGMA synchronous = FULL"); // makes the next commit flush the whole log
     begin();
-    run_statement(finish_trial_, outcome.status == TrialOutcome::Status::completed ? "completed" : "aborted",
-                  outcome.task_screen_onset, outcome.presentation_onset, outcome.presentation_end,
-                  outcome.response_screen_onset, outcome.responded_at, outcome.shown_refreshes,
-                  outcome.missed_refreshes,
-                  outcome.drift ? std::optional(outcome.drift->value) : std::nullopt, outcome.answer,
-                  lost_flips, lost_samples,
-                  outcome.failure.empty() ? std::nullopt : std::optional(outcome.failure),
-                  word_for(outcome.afterwards), trial_counts_.trial_id);
+    const std::string_view afterwards = name_of(outcome.afterwards);
+    run_statement(
+        finish_trial_, outcome.status == TrialOutcome::Status::completed ? "completed" : "aborted",
+        outcome.task_screen_onset, outcome.presentation_onset, outcome.presentation_end,
+        outcome.response_screen_onset, outcome.responded_at, outcome.shown_refreshes,
+        outcome.missed_refreshes, outcome.drift ? std::optional(outcome.drift->value) : std::nullopt,
+        outcome.answer, lost_flips, lost_samples,
+        outcome.failure.empty() ? std::nullopt : std::optional(outcome.failure),
+        afterwards.empty() ? std::nullopt : std::optional(std::string(afterwards)), trial_counts_.trial_id);
     seals_.seal_trial(sitting_, trial_counts_.trial_id);
     forget_file_hash(database_);
     commit_to_disk();

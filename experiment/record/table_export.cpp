@@ -11,6 +11,7 @@
 #include "experiment/record/gaze_event_rows.h"
 #include "experiment/record/ledger_rows.h"
 #include "experiment/record/sample_rows.h"
+#include "experiment/record/trial_rows.h"
 
 namespace fs = std::filesystem;
 
@@ -43,7 +44,8 @@ class TableExport {
           sample_rows_(samples_, record, tables_, options.cone_accuracy) {}
 
     void write_trial(const TrialRecord& trial, const SurfaceLookup* lookup);
-    void write_attempt_without_rows(const TrialRecord& trial);
+    /// One that has no rows in the other tables.
+    void write_other_attempt(const TrialRecord& trial);
     void write_what_belongs_to_no_trial();
     void write_display_boxes();
     void close();
@@ -52,6 +54,7 @@ class TableExport {
   private:
     PreparedCells condition_cells(const Trial& trial) const;
     void begin_trial_row(const TrialRecord& trial);
+    void write_outcome(const TrialRecord& trial);
     void write_response(const TrialRecord& trial);
 
     const SessionRecord& record_;
@@ -77,12 +80,32 @@ void TableExport::begin_trial_row(const TrialRecord& trial) {
     const std::string* const block = item(header_.blocks, trial.trial.block);
     block ? trials_.text(*block) : trials_.missing();
     trials_.prepared(condition_cells(trial.trial)).word(name_of(trial.status));
-    trials_.word(trial.counts ? "yes" : "no").seconds(trial.started);
+    trials_.word(trial.counts ? "yes" : "no");
+    const TrialOutcome& outcome = trial.outcome;
+    const bool has_failed = trial.has_outcome() && !outcome.failure.empty();
+    has_failed ? trials_.text(outcome.failure) : trials_.missing();
+    const std::string_view afterwards = trial.has_outcome() ? name_of(outcome.afterwards) : "";
+    afterwards.empty() ? trials_.missing() : trials_.word(afterwards);
+    trials_.seconds(trial.started);
 }
 
-void TableExport::write_attempt_without_rows(const TrialRecord& trial) {
+/// Its times as far as it came, refreshes, drift check and what was lost.
+void TableExport::write_outcome(const TrialRecord& trial) {
+    const TrialOutcome& outcome = trial.outcome;
+    for (const SessionTime at :
+         {outcome.task_screen_onset, outcome.presentation_onset, outcome.presentation_end,
+          outcome.response_screen_onset, outcome.responded_at})
+        at >= trial.started ? trials_.seconds(at) : trials_.missing();
+    trials_.integer(outcome.shown_refreshes).integer(outcome.missed_refreshes);
+    outcome.drift ? trials_.fixed(outcome.drift->value, angle_decimals) : trials_.missing();
+    trials_.integer(trial.lost_flips).integer(trial.lost_samples);
+}
+
+void TableExport::write_other_attempt(const TrialRecord& trial) {
+    constexpr int of_outcome = 10, of_samples = 4;
     begin_trial_row(trial);
-    trials_.missing(static_cast<int>(tables_.trials.columns.size()) - 10).end_row();
+    trial.has_outcome() ? write_outcome(trial) : static_cast<void>(trials_.missing(of_outcome));
+    trials_.missing(of_samples).end_row();
 }
 
 void TableExport::write_trial(const TrialRecord& trial, const SurfaceLookup* lookup) {
@@ -91,16 +114,8 @@ void TableExport::write_trial(const TrialRecord& trial, const SurfaceLookup* loo
     write_gaze_events(gaze_events_, record_, trial);
     write_response(trial);
 
-    const TrialOutcome& outcome = trial.outcome;
     begin_trial_row(trial);
-    trials_.seconds(outcome.task_screen_onset)
-        .seconds(outcome.presentation_onset)
-        .seconds(outcome.presentation_end)
-        .seconds(outcome.response_screen_onset)
-        .seconds(outcome.responded_at);
-    trials_.integer(outcome.shown_refreshes).integer(outcome.missed_refreshes);
-    outcome.drift ? trials_.fixed(outcome.drift->value, angle_decimals) : trials_.missing();
-    trials_.integer(trial.lost_flips).integer(trial.lost_samples);
+    write_outcome(trial);
     trials_.integer(of_trial.samples)
         .integer(of_trial.without_gaze)
         .integer(of_trial.on_object)
@@ -196,7 +211,7 @@ TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lo
         if (trial.counts)
             tables.write_trial(trial, lookup_for(trial.trial.condition.sculpture));
         else
-            tables.write_attempt_without_rows(trial);
+            tables.write_other_attempt(trial);
         if (options.progress)
             options.progress(++done, all);
     }

@@ -16,11 +16,11 @@ TrialRecord::Status status_from(const std::string& word) {
 }
 
 TrialOutcome::Afterwards afterwards_from(const std::string& word) {
-    if (word == "now")
-        return TrialOutcome::Afterwards::now;
-    if (word == "end-of-block")
-        return TrialOutcome::Afterwards::end_of_block;
-    return word == "never" ? TrialOutcome::Afterwards::never : TrialOutcome::Afterwards::undecided;
+    using enum TrialOutcome::Afterwards;
+    for (const auto afterwards : {never, now, end_of_block})
+        if (word == name_of(afterwards))
+            return afterwards;
+    return undecided;
 }
 
 TrialRecord read_trial(Query& row) {
@@ -57,6 +57,11 @@ TrialRecord read_trial(Query& row) {
 }
 
 } // namespace
+
+std::string_view name_of(TrialOutcome::Afterwards afterwards) {
+    constexpr std::string_view names[] = {"", "never", "now", "end-of-block"};
+    return names[static_cast<int>(afterwards)];
+}
 
 std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
     // Sessions of earlier programs know of nothing that was completed and does not count.

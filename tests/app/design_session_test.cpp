@@ -140,6 +140,15 @@ TEST_CASE(
     const TsvFile trials(tables / "trials.tsv");
     REQUIRE(trials.size() == small_trials + 2);
     CHECK(trials.text(1, "status") == "aborted");
+    CHECK(trials.text(1, "failure") == "missed refreshes");
+    CHECK(trials.text(1, "comes_again") == "end-of-block");
+    CHECK(trials.integer(1, "missed_refreshes") == 2);
+    CHECK(trials.text(1, "responded_s") != "n/a");
+    CHECK(trials.text(1, "samples") == "n/a");
+    CHECK(trials.text(0, "failure") == "n/a");
+    CHECK(trials.text(0, "comes_again") == "never");
+    CHECK(trials.text(9, "counts") == "yes");
+    CHECK(trials.text(9, "failure") == "missed refreshes");
     CHECK(trials.text(1, "block") == "asked");
     CHECK(trials.text(11, "block") == "free");
 }
