@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "experiment/error.h"
-#include "experiment/session/operator_desk.h"
+#include "experiment/operator_key.h"
 
 namespace overt {
 

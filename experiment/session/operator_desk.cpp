@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "experiment/operator_key.h"
+
 namespace overt {
 
 namespace {
@@ -20,25 +22,6 @@ std::string upper(std::string key) {
 }
 
 } // namespace
-
-std::string_view name_of(ResponsePress::Key key) noexcept {
-    switch (key) {
-    case Key::pause:
-        return "pause";
-    case Key::recalibrate:
-        return "recalibrate";
-    case Key::repeat:
-        return "repeat";
-    case Key::reject:
-        return "reject";
-    case Key::skip:
-        return "skip";
-    case Key::abort:
-        return "abort";
-    default:
-        return {};
-    }
-}
 
 void OperatorDesk::rest_a_little(SessionTime latest) {
     stage_.ports.presenter.use_spare_time();

@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "experiment/session/session_stage.h"
 
@@ -36,9 +35,6 @@ struct Waiting {
     bool takes_keys = true;   ///< of the observer; else only time ends it
     bool starts_over = false; ///< after what came between: max_s counts from then
 };
-
-/// An operator's key as [operator] and the record call it; empty for the observer's.
-std::string_view name_of(ResponsePress::Key key) noexcept;
 
 /// Of a screen that stands until a key is pressed.
 inline constexpr double without_end_s = 1e9;

@@ -33,7 +33,9 @@ const std::vector<Layer> layers{
     {"experiment/timing/", "^experiment/([^/]+|timing/.*)$", all_of_these},
     // The checks and the report of a protocol reckon with its design, and a design is one of a protocol.
     {"experiment/design/", "^experiment/([^/]+|(protocol|design)/.*)$", all_of_these},
-    {"experiment/protocol/", "^experiment/([^/]+|(colour|timing|protocol|design)/.*|scene/metal_table\\.h)$",
+    // A protocol names metals and the sculptures that are shipped.
+    {"experiment/protocol/",
+     "^experiment/([^/]+|(colour|timing|protocol|design)/.*|scene/(metal_table|sculptures/sculptures)\\.h)$",
      all_of_these},
     {"experiment/analysis/", "^experiment/([^/]+|(scene|timing|analysis)/.*)$",
      opengl + "|" + usb + "|" + database},

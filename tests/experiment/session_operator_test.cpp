@@ -1,4 +1,5 @@
 /// What the operator's keys do in each phase, on ports that do what they are told.
+#include "experiment/operator_key.h"
 #include "experiment/plain_session.h"
 
 using namespace overt;

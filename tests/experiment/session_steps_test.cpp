@@ -1,4 +1,5 @@
 /// Practice, breaks and repeated trials, on ports that do what they are told.
+#include "experiment/operator_key.h"
 #include "experiment/plain_session.h"
 
 using namespace overt;
