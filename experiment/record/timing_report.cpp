@@ -146,10 +146,13 @@ std::vector<IntervalBin> interval_histogram(const TimingReport& report, int long
     constexpr int per_interval = 8;
     const double width = report.nominal_interval_ms / per_interval;
     std::map<int, int> counts;
-    for (const TrialTiming& trial : report.trials)
+    for (const TrialTiming& trial : report.trials) {
+        if (!trial.counts)
+            continue;
         for (const double interval : trial.intervals_ms)
             ++counts[static_cast<int>(
                 std::lround(std::clamp(interval / width, 0.0, static_cast<double>(per_interval * longest))))];
+    }
     std::vector<IntervalBin> bins;
     if (counts.empty())
         return bins;

@@ -61,8 +61,9 @@ struct IntervalBin {
     double from_ms = 0.0, to_ms = 0.0;
     int count = 0;
 };
-/// Bins of an eighth of the nominal interval, the whole multiples in the middle of theirs, from the first to
-/// the last that holds any. Longer than `longest` intervals: together in the last.
+/// Over the trials that count. Bins of an eighth of the nominal interval, the whole multiples in the middle
+/// of theirs, from the first to the last that holds any. Longer than `longest` intervals: together in the
+/// last.
 std::vector<IntervalBin> interval_histogram(const TimingReport& report, int longest = 32);
 
 } // namespace overt
