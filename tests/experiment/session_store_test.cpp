@@ -1,6 +1,6 @@
 #include "experiment/record/session_store.h"
 
-#include <atomic>
+#include <memory>
 #include <thread>
 
 #include <catch2/catch.hpp>
@@ -101,24 +101,17 @@ TEST_CASE("a closed session is one file, and a read-only folder does not hinder 
     fs::permissions(session, fs::perms::owner_all);
 }
 
-TEST_CASE("a session that is read again and again while it ends is one file all the same", "[unit]") {
+TEST_CASE("a session that is read while it ends is one file as soon as nobody reads", "[unit]") {
     const TemporaryFolder root;
     const fs::path session = make_session(root.path(), example_header());
-    std::atomic<bool> is_over = false;
     SessionStore store(session / session_file_name, patient());
     write_trial(store, example_header().schedule.trials[0]);
+    auto record = std::make_unique<const SessionRecord>(session);
     std::thread reader([&] {
-        while (!is_over) {
-            {
-                const SessionRecord record(session);
-                std::this_thread::sleep_for(std::chrono::milliseconds(40));
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        record.reset();
     });
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
     store.close();
-    is_over = true;
     reader.join();
     CHECK_FALSE(fs::exists(session / (std::string(session_file_name) + "-wal")));
     CHECK(SessionRecord(session).trials().size() == 1);
