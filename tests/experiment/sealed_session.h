@@ -78,23 +78,26 @@ inline void write_whole_session(const std::filesystem::path& session) {
 inline void write_killed_session(const std::filesystem::path& session) {
     const pid_t child = ::fork();
     if (child == 0) {
-        SessionStore store(session / session_file_name, patient());
+        const std::filesystem::path file = session / session_file_name, log = file.string() + "-wal";
+        const auto wait_until = [](const auto& condition) {
+            while (!condition())
+                std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        };
+        SessionStore store(file, patient());
         const SessionHeader header = example_header();
         for (std::size_t trial = 0; trial < 2; ++trial) {
             write_rows(store, header.schedule.trials[trial], 400);
             store.trial_finished(header.schedule.trials[trial], outcome_at(static_cast<int>(trial) * 10000));
         }
+        // A reader before that would keep what the log has of earlier trials in it.
+        wait_until([&] { return std::filesystem::file_size(log) == 0; });
         write_rows(store, header.schedule.trials[2], 300);
-        for (;;)
-            ::pause();
+        wait_until([&] {
+            const SessionRecord record(session);
+            return record.trials().size() == 3 && record.missed_refreshes(record.trials()[2]).size() == 1;
+        });
+        ::raise(SIGKILL);
     }
-    const auto is_all_there = [&] {
-        const SessionRecord record(session);
-        return record.trials().size() == 3 && record.missed_refreshes(record.trials()[2]).size() == 1;
-    };
-    while (::waitpid(child, nullptr, WNOHANG) == 0 && !is_all_there())
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
 }
 
