@@ -7,9 +7,15 @@
 
 #include <fmt/format.h>
 
-#include "app/command_line_groups.h"
-#include "build_info.h"
-#include "experiment/diagnostics.h"
+#include "app/bench/bench_commands.h"
+#include "app/check/check_commands.h"
+#include "app/cli/command_options.h"
+#include "app/cli/this_program.h"
+#include "app/display/display_commands.h"
+#include "app/record/record_commands.h"
+#include "app/session/session_commands.h"
+#include "app/stimuli/stimulus_commands.h"
+#include "experiment/base/diagnostics.h"
 
 namespace overt {
 
@@ -51,16 +57,14 @@ std::optional<int> answer_to_no_command(const CLI::App& app, int argc, char** ar
 
 int run_command_line(int argc, char** argv) {
     CLI::App app(synopsis, "overt");
-    app.set_version_flag("--version", std::string("overt ") + build::version);
+    app.set_version_flag("--version", "overt " + this_build().version);
     app.require_subcommand(1);
     app.footer(exit_codes);
     app.get_formatter()->column_width(34);
     ChosenCommand chosen;
-    add_session_commands(app, chosen);
-    add_record_commands(app, chosen);
-    add_stimulus_commands(app, chosen);
-    add_display_commands(app, chosen);
-    add_machine_commands(app, chosen);
+    for (const auto add_commands : {add_check_commands, add_session_commands, add_record_commands,
+                                    add_stimulus_commands, add_display_commands, add_bench_commands})
+        add_commands(app, chosen);
 
     if (const std::optional<int> answer = answer_to_no_command(app, argc, argv))
         return *answer;

@@ -6,8 +6,8 @@
 #include <malloc.h>
 
 #include "app/command_line.h"
-#include "app/protocol_file.h"
-#include "experiment/error.h"
+#include "app/inputs/protocol_file.h"
+#include "experiment/base/error.h"
 
 int main(int argc, char** argv) {
     // A file that may not grow any more is then an error like a full disk, which is told and leaves what is

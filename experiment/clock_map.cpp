@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 namespace overt {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 namespace overt {
 

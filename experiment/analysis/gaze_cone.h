@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "experiment/analysis/surface_point.h"
+#include "experiment/maps/surface_point.h"
 #include "experiment/screen_geometry.h"
 
 namespace overt {

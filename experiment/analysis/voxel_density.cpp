@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 namespace overt {
 

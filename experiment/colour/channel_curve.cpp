@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 namespace overt {
 

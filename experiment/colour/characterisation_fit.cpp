@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 namespace overt {
 

@@ -6,8 +6,8 @@
 #include <glm/vec2.hpp>
 
 #include "colour_tables.h"
-#include "experiment/error.h"
-#include "experiment/number_table.h"
+#include "experiment/base/error.h"
+#include "experiment/base/number_table.h"
 
 namespace overt {
 

@@ -12,9 +12,9 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include "experiment/base/content_hash.h"
 #include "experiment/colour/channel_curve.h"
 #include "experiment/colour/colour_matching.h"
-#include "experiment/content_hash.h"
 
 namespace overt {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <glm/matrix.hpp>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 namespace overt {
 

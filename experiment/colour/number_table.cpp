@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 namespace overt {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiment/diagnostics.h"
+#include "experiment/base/diagnostics.h"
 
 namespace overt {
 

@@ -1,7 +1,7 @@
 #include "experiment/colour/patch_plan.h"
 
-#include "experiment/error.h"
-#include "experiment/random.h"
+#include "experiment/base/error.h"
+#include "experiment/base/random.h"
 
 namespace overt {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 namespace overt {
 

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "experiment/base/random.h"
 #include "experiment/design/block_plan.h"
 #include "experiment/design/latin_square.h"
 #include "experiment/design/observer_groups.h"
-#include "experiment/random.h"
-#include "experiment/schedule.h"
+#include "experiment/design/schedule.h"
 
 namespace overt {
 

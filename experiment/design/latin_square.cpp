@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "experiment/error.h"
-#include "experiment/random.h"
+#include "experiment/base/error.h"
+#include "experiment/base/random.h"
 
 namespace overt {
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 namespace overt {
 

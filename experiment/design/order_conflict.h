@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "experiment/design/block_plan.h"
-#include "experiment/schedule.h"
+#include "experiment/design/schedule.h"
 
 namespace overt {
 

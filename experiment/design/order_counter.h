@@ -7,9 +7,9 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "experiment/base/random.h"
 #include "experiment/design/order_state.h"
 #include "experiment/design/scaled_number.h"
-#include "experiment/random.h"
 
 namespace overt {
 

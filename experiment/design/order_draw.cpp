@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "experiment/base/error.h"
 #include "experiment/design/order_counter.h"
 #include "experiment/design/order_exchanges.h"
 #include "experiment/design/order_guide.h"
-#include "experiment/error.h"
 
 namespace overt {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "experiment/base/random.h"
 #include "experiment/design/order_problem.h"
-#include "experiment/random.h"
 
 namespace overt {
 

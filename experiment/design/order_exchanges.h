@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "experiment/base/random.h"
 #include "experiment/design/order_counter.h"
 #include "experiment/design/order_state.h"
-#include "experiment/random.h"
 
 namespace overt {
 

@@ -4,9 +4,9 @@
 
 #include <optional>
 
+#include "experiment/base/random.h"
 #include "experiment/design/order_counter.h"
 #include "experiment/design/order_state.h"
-#include "experiment/random.h"
 
 namespace overt {
 

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "experiment/base/error.h"
 #include "experiment/design/block_plan.h"
-#include "experiment/error.h"
 
 namespace overt {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "experiment/past_step.h"
+#include "experiment/ports/past_step.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/trial.h"
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "experiment/base/diagnostics.h"
 #include "experiment/colour/display_characterisation.h"
-#include "experiment/diagnostics.h"
 
 namespace overt {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "experiment/diagnostics.h"
+#include "experiment/base/diagnostics.h"
 #include "experiment/timing/display_faults.h"
 
 namespace overt {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiment/diagnostics.h"
+#include "experiment/base/diagnostics.h"
 #include "experiment/protocol/protocol_keys.h"
 
 namespace overt {

@@ -1,6 +1,6 @@
 #include "experiment/protocol/key_places.h"
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 namespace overt {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "experiment/diagnostics.h"
+#include "experiment/base/diagnostics.h"
 
 namespace overt {
 

@@ -1,6 +1,6 @@
 /// An experiment as its file states it: plain values, with the defaults that a key left out has. Which keys
 /// there are, with their units, ranges and explanations, is in protocol_keys.cpp; how a file becomes this is
-/// in protocol_reader.h.
+/// in experiment/checks/checked_protocol.h.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 #include "experiment/animation.h"
 #include "experiment/colour/display_characterisation.h"
-#include "experiment/observer_field.h"
+#include "experiment/ports/observer_field.h"
 #include "experiment/protocol/design_settings.h"
 #include "experiment/protocol/key_places.h"
 #include "experiment/protocol/protocol_sources.h"

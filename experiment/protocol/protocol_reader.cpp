@@ -1,15 +1,10 @@
 #include "experiment/protocol/protocol_reader.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "experiment/protocol/key_hints.h"
-#include "experiment/protocol/protocol_checks.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/protocol/protocol_sources.h"
 #include "experiment/protocol/toml_tree.h"
@@ -175,17 +170,6 @@ class ProtocolWalk {
     std::vector<std::string_view> section_names_;
 };
 
-void require_lists(ProtocolExamination& examination) {
-    const Protocol& protocol = examination.protocol;
-    if (protocol.tasks.empty())
-        examination.error({"task"}, "there is no [[task]]", "add [[task]] with id and question");
-    if (protocol.sculptures.empty())
-        examination.error({"sculpture"}, "there is no [[sculpture]]",
-                          "add [[sculpture]] with id and shipped or mesh");
-    if (protocol.materials.empty())
-        examination.error({"material"}, "there is no [[material]]", "add [[material]] with id and kind");
-}
-
 /// The folder that a path counts from: that of the file in which it stands.
 std::filesystem::path folder_of(const Protocol& protocol, std::string_view key_path) {
     if (protocol.places.is_written(key_path)) {
@@ -236,99 +220,18 @@ void complete(Protocol& protocol) {
         protocol.light.probe = (folder_of(protocol, "light.probe") / protocol.light.probe).string();
 }
 
-std::optional<Protocol> read_text(std::string_view text, const std::filesystem::path& file,
-                                  std::span<const std::string_view> shipped_sculptures, bool look_at_files,
-                                  const IncludeReader& reader, Diagnostics& diagnostics) {
-    const int errors_before = diagnostics.error_count();
-    Protocol protocol;
-    protocol.file = file;
-    protocol.text = text;
-    diagnostics.quote_from(file.string(), text);
-    JoinedToml joined = read_joined_toml(text, file, reader, diagnostics);
-    const TomlFile& toml = joined.toml;
-    protocol.included = std::move(joined.included);
-    ProtocolExamination examination(protocol, diagnostics);
-    ProtocolWalk(examination, toml, diagnostics).read();
-    complete(protocol);
-    // With lines missing from the tree, comparing keys would raise false alarms.
-    if (toml.is_whole) {
-        require_lists(examination);
-        take_characterisation(examination, look_at_files);
-        check_image_fits(examination);
-        check_output(examination);
-        check_animation(examination);
-        check_screens(examination);
-        check_ids(examination);
-        check_blocks(examination);
-        check_groups(examination);
-        check_practice(examination);
-        check_breaks(examination);
-        check_sitting(examination);
-        check_sculptures(examination, shipped_sculptures);
-        check_materials(examination);
-        check_frames(examination);
-        check_bake(examination);
-        if (look_at_files)
-            check_files(examination);
-        if (diagnostics.error_count() == errors_before)
-            check_schedule(examination);
-    }
-    if (diagnostics.error_count() > errors_before)
-        return std::nullopt;
-    return protocol;
-}
-
-/// The whole of a file, or nothing with the reason.
-std::optional<std::string> text_of(const std::filesystem::path& file, std::string& why_not) {
-    // Far more than anyone writes by hand: someone gave a mesh or a picture for the protocol.
-    constexpr std::size_t largest_bytes = 1 << 20;
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored)) {
-        why_not = "this is a folder, not a protocol file";
-        return std::nullopt;
-    }
-    errno = 0;
-    std::ifstream stream(file, std::ios::binary);
-    std::string text(largest_bytes + 1, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (!stream.eof() && stream.gcount() == 0) {
-        why_not = fmt::format("cannot be read: {}", std::strerror(errno));
-        return std::nullopt;
-    }
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > largest_bytes) {
-        why_not = "larger than 1 MiB: this is no protocol file";
-        return std::nullopt;
-    }
-    return text;
-}
-
 } // namespace
 
-std::optional<Protocol> read_protocol(const std::filesystem::path& file,
-                                      std::span<const std::string_view> shipped_sculptures,
-                                      Diagnostics& diagnostics) {
-    std::string why_not;
-    const std::optional<std::string> text = text_of(file, why_not);
-    if (!text) {
-        diagnostics.error(file.string(), {}, why_not);
-        return std::nullopt;
-    }
-    return read_text(*text, file, shipped_sculptures, true, text_of, diagnostics);
-}
-
-std::optional<Protocol> read_protocol_text(std::string_view text, const std::filesystem::path& file,
-                                           std::span<const std::string_view> shipped_sculptures,
-                                           Diagnostics& diagnostics, const IncludedTexts& included) {
-    const IncludeReader from_record = [&](const std::filesystem::path& wanted,
-                                          std::string& why_not) -> std::optional<std::string> {
-        const auto known = included.find(wanted.lexically_proximate(file.parent_path()).string());
-        if (known != included.end())
-            return known->second;
-        why_not = "it is not among the texts that are kept";
-        return std::nullopt;
-    };
-    return read_text(text, file, shipped_sculptures, false, from_record, diagnostics);
+bool read_written_keys(ProtocolExamination& examination, std::string_view text, const IncludeReader& reader) {
+    Protocol& protocol = examination.protocol;
+    Diagnostics& diagnostics = examination.diagnostics();
+    protocol.text = text;
+    diagnostics.quote_from(protocol.file.string(), text);
+    JoinedToml joined = read_joined_toml(text, protocol.file, reader, diagnostics);
+    protocol.included = std::move(joined.included);
+    ProtocolWalk(examination, joined.toml, diagnostics).read();
+    complete(protocol);
+    return joined.toml.is_whole;
 }
 
 } // namespace overt

@@ -1,31 +1,17 @@
-/// From a protocol file to a Protocol, with everything that is wrong with the file found in one go.
+/// From the text of a protocol to the values of its keys, each judged by itself.
 #pragma once
 
-#include <filesystem>
-#include <map>
-#include <optional>
-#include <span>
 #include <string_view>
 
-#include "experiment/diagnostics.h"
-#include "experiment/protocol/protocol.h"
+#include "experiment/protocol/protocol_examination.h"
+#include "experiment/protocol/protocol_sources.h"
 
 namespace overt {
 
-/// Reads and checks a protocol. All findings go to `diagnostics`; the protocol is returned if none of them is
-/// an error. Relative paths in it are resolved against the file's folder, and looked up: meshes, probe,
-/// frames. `shipped_sculptures` are the names that `shipped = "…"` may have. Throws nothing for bad input.
-std::optional<Protocol> read_protocol(const std::filesystem::path& file,
-                                      std::span<const std::string_view> shipped_sculptures,
-                                      Diagnostics& diagnostics);
-
-/// Texts of included files, by IncludedText::name.
-using IncludedTexts = std::map<std::string, std::string>;
-
-/// The same from a text, as a recorded session holds it: `file` says where it was, and nothing there is
-/// looked at; what it includes is taken from `included`.
-std::optional<Protocol> read_protocol_text(std::string_view text, const std::filesystem::path& file,
-                                           std::span<const std::string_view> shipped_sculptures,
-                                           Diagnostics& diagnostics, const IncludedTexts& included = {});
+/// Reads all keys of a text, and of what it includes, into the protocol under examination, whose `file` says
+/// where the text was: relative paths in it are resolved against that file's folder. What is wrong with a key
+/// is found at its place. Gives whether the text could be read to its end; if not, comparing keys with each
+/// other would raise false alarms. Throws nothing for bad input.
+bool read_written_keys(ProtocolExamination& examination, std::string_view text, const IncludeReader& reader);
 
 } // namespace overt

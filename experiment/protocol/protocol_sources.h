@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiment/diagnostics.h"
+#include "experiment/base/diagnostics.h"
 #include "experiment/protocol/toml_tree.h"
 
 namespace overt {

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "experiment/diagnostics.h"
+#include "experiment/base/diagnostics.h"
 
 namespace overt {
 

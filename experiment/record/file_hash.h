@@ -8,7 +8,7 @@
 
 #include <optional>
 
-#include "experiment/content_hash.h"
+#include "experiment/base/content_hash.h"
 
 namespace SQLite {
 class Database;

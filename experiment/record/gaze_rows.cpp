@@ -1,6 +1,6 @@
 #include "experiment/record/gaze_rows.h"
 
-#include "experiment/record/number_text.h"
+#include "experiment/base/number_text.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
 

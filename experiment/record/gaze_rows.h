@@ -7,7 +7,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include "experiment/record/gaze_event.h"
+#include "experiment/gaze_event.h"
 
 namespace overt {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 #include "experiment/record/header_rows.h"
 #include "experiment/record/sql.h"
 

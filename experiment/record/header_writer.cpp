@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 #include "experiment/record/header_rows.h"
 #include "experiment/record/seal_chain.h"
 #include "experiment/record/session_schema.h"

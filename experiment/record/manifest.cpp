@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 #include "experiment/record/session_schema.h"
 
 namespace fs = std::filesystem;

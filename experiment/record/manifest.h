@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/content_hash.h"
+#include "experiment/base/content_hash.h"
 #include "experiment/record/session_header.h"
 
 namespace overt {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "experiment/clock_map.h"
 
 namespace overt {
@@ -40,6 +42,22 @@ BoxClockFit fit_box_clock(const std::vector<BoxClockReading>& readings) {
         fit.uncertainty =
             std::max(fit.uncertainty, map.to_session(in_trackers_place(reading.box_us)).uncertainty);
     return fit;
+}
+
+std::string describe(const RecordedBox& box) {
+    switch (box.use) {
+    case RecordedBox::Use::box:
+        return fmt::format("{}, serial number {}, firmware {}, at {}: {} after {:.2f} s, {:.2f} Hz",
+                           box.product, box.serial_number, box.firmware_date, box.port, box.mode,
+                           to_seconds(box.settled_after), box.video_rate_hz);
+    case RecordedBox::Use::declined:
+        return "none, as the protocol says";
+    case RecordedBox::Use::simulated:
+        return "none: nothing is shown on a real screen in real time";
+    case RecordedBox::Use::no_mode:
+        break;
+    }
+    return "none: the output needs none";
 }
 
 } // namespace overt

@@ -28,6 +28,9 @@ struct RecordedBox {
 };
 std::string_view name_of(RecordedBox::Use use);
 
+/// What a session's log says of a box, for a line in a terminal and the record.
+std::string describe(const RecordedBox& box);
+
 /// One reading of both clocks: the box's time was taken at some instant between the two of the session clock.
 struct BoxClockReading {
     SessionTime before;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/past_step.h"
+#include "experiment/ports/past_step.h"
 
 namespace overt {
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 #include "experiment/record/session_file.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"

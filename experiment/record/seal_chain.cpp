@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 #include "experiment/record/sql.h"
 
 namespace overt {

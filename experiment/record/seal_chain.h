@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiment/content_hash.h"
+#include "experiment/base/content_hash.h"
 #include "experiment/record/row_digest.h"
 
 namespace SQLite {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "experiment/record/folder_lock.h"
-#include "experiment/record/partial_directory.h"
+#include "experiment/base/folder_lock.h"
+#include "experiment/base/partial_directory.h"
 
 namespace overt {
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
 

@@ -6,7 +6,7 @@
 
 #include <SQLiteCpp/Database.h>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 namespace overt {
 

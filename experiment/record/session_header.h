@@ -11,8 +11,8 @@
 #include <glm/glm.hpp>
 
 #include "experiment/animation.h"
-#include "experiment/content_hash.h"
-#include "experiment/ports.h"
+#include "experiment/base/content_hash.h"
+#include "experiment/ports/ports.h"
 #include "experiment/scene/mesh.h"
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"

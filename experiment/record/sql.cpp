@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 namespace overt {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 #include "experiment/scene/mesh_topology.h"
 #include "experiment/scene/vertex_welder.h"
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 #include "experiment/scene/mesh_source.h"
 #include "experiment/scene/obj_reader.h"
 #include "experiment/scene/ply_reader.h"

@@ -41,9 +41,9 @@ glm::dmat3 z_up_from_file(UpAxis up);
 /// How the coordinates of a mesh file become those of the object.
 struct MeshImport {
     UpAxis up = UpAxis::z;
-    double scale = 1.0;          ///< object unit per file unit, above 0
+    double scale = 1.0;           ///< object unit per file unit, above 0
     std::filesystem::path labels; ///< an id map, see label_by_file(); empty: the labels of the mesh file
-    double weld_tolerance = 0.0; ///< in the object unit; 0: only vertices at equal coordinates are welded
+    double weld_tolerance = 0.0;  ///< in the object unit; 0: only vertices at equal coordinates are welded
     /// Regions of parts in the file's coordinates, applied as label_parts does. Empty: the parts are those
     /// that the file labels.
     std::vector<PartRegion> regions;

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 namespace overt {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 #include "experiment/scene/raw_mesh.h"
 
 namespace overt {

@@ -7,8 +7,8 @@
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
-#include "experiment/error.h"
-#include "experiment/parallel.h"
+#include "experiment/base/error.h"
+#include "experiment/base/parallel.h"
 
 namespace overt {
 

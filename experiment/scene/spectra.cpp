@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "experiment/error.h"
-#include "experiment/number_table.h"
+#include "experiment/base/error.h"
+#include "experiment/base/number_table.h"
 #include "spectra_tables.h"
 
 namespace overt {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 namespace overt {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/sitting_rows.h"
+#include "experiment/ports/sitting_rows.h"
 
 namespace overt {
 

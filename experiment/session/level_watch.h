@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "experiment/ports.h"
+#include "experiment/ports/ports.h"
 #include "experiment/protocol/sitting_settings.h"
 
 namespace overt {

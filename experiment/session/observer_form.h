@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "experiment/observer_field.h"
-#include "experiment/ports.h"
+#include "experiment/ports/observer_field.h"
+#include "experiment/ports/ports.h"
 #include "experiment/protocol/sitting_settings.h"
 
 namespace overt {

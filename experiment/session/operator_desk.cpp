@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/operator_key.h"
+#include "experiment/ports/operator_key.h"
 
 namespace overt {
 

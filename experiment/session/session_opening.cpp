@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/content_hash.h"
+#include "experiment/base/content_hash.h"
 #include "experiment/session/observer_form.h"
 
 namespace overt {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/ports.h"
+#include "experiment/ports/ports.h"
 
 namespace overt {
 

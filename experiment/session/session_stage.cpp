@@ -1,6 +1,6 @@
 #include "experiment/session/session_stage.h"
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 namespace overt {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
+#include "experiment/ports/session_phase.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/session/session_ports.h"
-#include "experiment/session_phase.h"
 
 namespace overt {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "experiment/random.h"
+#include "experiment/base/random.h"
 
 namespace overt {
 

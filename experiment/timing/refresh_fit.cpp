@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 #include "experiment/timing/refresh_count.h"
 
 namespace overt {

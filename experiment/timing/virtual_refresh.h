@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "experiment/ports.h"
-#include "experiment/random.h"
+#include "experiment/base/random.h"
+#include "experiment/ports/ports.h"
 #include "experiment/timing/display_faults.h"
 #include "experiment/timing/refresh_count.h"
 

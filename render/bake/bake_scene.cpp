@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 #include "experiment/scene/mesh_topology.h"
 #include "experiment/scene/metal_table.h"
 #include "render/bake/coat_surface.h"

@@ -1,6 +1,6 @@
 #include "render/bake/bake_settings.h"
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 namespace overt {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "experiment/parallel.h"
+#include "experiment/base/parallel.h"
 
 namespace overt {
 

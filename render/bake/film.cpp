@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiment/parallel.h"
+#include "experiment/base/parallel.h"
 #include "render/bake/light_colour.h"
 
 namespace overt {

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "experiment/error.h"
-#include "experiment/parallel.h"
+#include "experiment/base/error.h"
+#include "experiment/base/parallel.h"
 #include "render/bake/eye_rays.h"
 #include "render/bake/film.h"
 #include "render/bake/path_tracer.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "experiment/parallel.h"
+#include "experiment/base/parallel.h"
 #include "experiment/units.h"
 
 namespace overt {

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "render/processor_clones.h"
+#include "render/image/processor_clones.h"
 
 namespace overt {
 

@@ -6,7 +6,7 @@
 
 #include <glm/glm.hpp>
 
-#include "render/linear_image.h"
+#include "render/image/linear_image.h"
 
 namespace overt {
 

@@ -7,7 +7,7 @@
 
 #include "experiment/protocol/protocol.h"
 #include "render/bake/spectral_bins.h"
-#include "render/light_probe.h"
+#include "render/image/light_probe.h"
 
 namespace overt {
 

@@ -6,7 +6,7 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
-#include "app/small_experiment.h"
+#include "tests/app/small_experiment.h"
 
 using namespace overt;
 using namespace overt::test;

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "experiment/scene/ply_writer.h"
-#include "support/figures.h"
-#include "support/program.h"
-#include "support/temporary_folder.h"
+#include "tests/support/figures.h"
+#include "tests/support/program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace overt::test {
 

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "experiment/error.h"
+#include "experiment/base/error.h"
 
 using namespace overt;
 

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "experiment/random.h"
+#include "experiment/base/random.h"
 
 using namespace overt;
 

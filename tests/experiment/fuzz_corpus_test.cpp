@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "fuzz/inputs.h"
+#include "tests/fuzz/inputs.h"
 
 namespace {
 

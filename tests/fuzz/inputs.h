@@ -11,17 +11,17 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiment/error.h"
-#include "experiment/protocol/protocol_reader.h"
-#include "experiment/record/asc_export.h"
-#include "experiment/record/asc_import.h"
-#include "experiment/record/bids_export.h"
-#include "experiment/record/session_record.h"
+#include "experiment/base/error.h"
+#include "experiment/base/scratch_folder.h"
+#include "experiment/checks/checked_protocol.h"
+#include "experiment/record/asc/asc_export.h"
+#include "experiment/record/asc/asc_import.h"
+#include "experiment/record/bids/bids_export.h"
+#include "experiment/record/read/session_record.h"
+#include "experiment/record/read/timing_report.h"
 #include "experiment/record/session_schema.h"
-#include "experiment/record/table_export.h"
-#include "experiment/record/timing_report.h"
-#include "experiment/record/verification.h"
-#include "experiment/scratch_folder.h"
+#include "experiment/record/tables/table_export.h"
+#include "experiment/record/verify/verification.h"
 
 namespace overt::fuzz {
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <iterator>
 
-#include "devices/clocks.h"
-#include "devices/simulated_response_panel.h"
-#include "devices/sitting.h"
-#include "experiment/session.h"
+#include "devices/host/clocks.h"
+#include "devices/simulated/simulated_response_panel.h"
+#include "experiment/session/session.h"
 #include "experiment/timing/virtual_refresh.h"
+#include "tests/devices/simulated/sitting.h"
 
 using namespace overt;
 

@@ -7,14 +7,14 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "devices/simulated_response_panel.h"
-#include "devices/sitting.h"
-#include "experiment/record/session_record.h"
+#include "devices/simulated/simulated_response_panel.h"
+#include "experiment/record/read/session_record.h"
 #include "experiment/record/session_schema.h"
-#include "experiment/session.h"
-#include "experiment/session_fixture.h"
+#include "experiment/session/session.h"
 #include "experiment/timing/virtual_refresh.h"
-#include "support/counted_calls.h"
+#include "tests/devices/simulated/sitting.h"
+#include "tests/experiment/record/session_fixture.h"
+#include "tests/support/counted_calls.h"
 
 using namespace overt;
 

@@ -5,8 +5,8 @@
 #include <dlfcn.h>
 #include <openssl/evp.h>
 
-#include "experiment/record/verification.h"
-#include "experiment/sealed_session.h"
+#include "experiment/record/verify/verification.h"
+#include "tests/experiment/record/sealed_session.h"
 
 namespace {
 

@@ -15,7 +15,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "support/gzip_file.h"
+#include "tests/support/gzip_file.h"
 
 namespace overt::testing {
 

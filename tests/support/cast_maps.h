@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "experiment/analysis/coordinate_maps.h"
+#include "experiment/maps/coordinate_maps.h"
 #include "experiment/scene/ray_caster.h"
-#include "support/figures.h"
+#include "tests/support/figures.h"
 
 namespace overt::test {
 

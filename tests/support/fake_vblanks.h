@@ -1,7 +1,7 @@
 /// A source of vertical blanks that does as it is told, on a clock that stands still until it is waited on.
 #pragma once
 
-#include "render/vblank_clock.h"
+#include "render/vblank/vblank_clock.h"
 
 namespace overt::test {
 

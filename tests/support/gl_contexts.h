@@ -4,7 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "render/gl_context.h"
+#include "render/gl/headless_context.h"
+#include "render/gl/gl_context.h"
 
 namespace overt::test {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/observer_field.h"
+#include "experiment/ports/observer_field.h"
 
 namespace overt::test {
 

@@ -10,7 +10,7 @@
 
 #include <sys/wait.h>
 
-#include "support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace overt::test {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "experiment/scratch_folder.h"
+#include "experiment/base/scratch_folder.h"
 
 namespace overt::test {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <numeric>
 
-#include "experiment/error.h"
-#include "experiment/parallel.h"
+#include "experiment/base/error.h"
+#include "experiment/base/parallel.h"
 #include "experiment/scene/sculptures/stretched_grid.h"
 #include "experiment/scene/sculptures/surface_nets.h"
 

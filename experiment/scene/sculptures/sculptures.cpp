@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiment/error.h"
-#include "experiment/parallel.h"
+#include "experiment/base/error.h"
+#include "experiment/base/parallel.h"
 #include "experiment/scene/sculptures/contouring.h"
 #include "experiment/scene/sculptures/figures.h"
 

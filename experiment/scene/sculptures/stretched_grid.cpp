@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "experiment/parallel.h"
+#include "experiment/base/parallel.h"
 
 namespace overt {
 

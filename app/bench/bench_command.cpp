@@ -1,0 +1,121 @@
+#include "app/bench/bench_command.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/cache_folder.h"
+#include "app/cli/command_options.h"
+#include "experiment/base/error.h"
+#include "experiment/scene/sculptures/sculptures.h"
+
+namespace overt {
+
+namespace {
+
+/// One row a benchmark: the word on the command line, what its help says, and the function.
+struct Benchmark {
+    std::string_view name, what;
+    BenchFigures (*measure)(const BenchOptions&);
+};
+
+constexpr Benchmark benchmarks[] = {
+    {"lut", "the hidden pass, its exactness, time and memory", bench_lut},
+    {"reproject", "gaze to surface, its exactness, speed and memory", bench_reproject},
+    {"present",
+     "a flip of a page, its time, processor time, packing and memory, and the timing of presentations on "
+     "displays whose faults are known",
+     bench_present},
+    {"frames", "ready-made frames from files to the frame store", bench_frames},
+    {"bake",
+     "a frame of each material, its time beside that of its rays, its errors, and the hours of a whole bake",
+     bench_bake},
+    {"export", "exports and imports, their speed, and their memory as sessions grow", bench_export}};
+
+void add_bench(CLI::App& app, ChosenCommand& chosen) {
+    const auto given = std::make_shared<BenchOptions>();
+    BenchOptions& options = *given;
+    CLI::App& command = add_command(app, "bench", "The program's own benchmarks",
+                                    "overt bench lut --json\n"
+                                    "  overt bench lut --mesh statue.ply --up y");
+    std::vector<std::string> names, lines;
+    for (const Benchmark& one : benchmarks) {
+        names.emplace_back(one.name);
+        lines.push_back(fmt::format("{}: {}", one.name, one.what));
+    }
+    command.add_option("WHICH", options.what, fmt::format("{}", fmt::join(lines, "; ")))
+        ->required()
+        ->check(CLI::IsMember(names));
+    command
+        .add_option("--mesh", options.mesh,
+                    "Measure on this mesh (PLY, OBJ, STL) instead of the shipped sculptures")
+        ->type_name("FILE");
+    command.add_option("--up", options.up, "Axis of the mesh file that points up")
+        ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
+        ->capture_default_str();
+    command.add_option("--size", options.size_px, "Width and height of the picture")
+        ->type_name("PX")
+        ->check(CLI::Range(16, 8192))
+        ->capture_default_str();
+    command
+        .add_option("--probe", options.probe,
+                    "bake: a latitude-longitude picture of the surroundings instead of the overcast sky")
+        ->type_name("FILE")
+        ->check(CLI::ExistingFile);
+    command
+        .add_option("--samples", options.samples, "bake: samples of a pixel, of the frames that are timed")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
+    command
+        .add_option("--reference-size", options.reference_size_px,
+                    "bake: width and height of the pictures whose errors are measured, against 1024 "
+                    "samples; from 384 on they have targets")
+        ->type_name("PX")
+        ->check(CLI::Range(16, 2048))
+        ->capture_default_str();
+    add_context_option(command, options.context);
+    command.add_flag("--json", options.json, "Print JSON");
+    run_when_chosen(command, chosen, [given] { return run_bench(*given); });
+}
+
+} // namespace
+
+BenchScene bench_scene(const BenchOptions& options) {
+    BenchScene scene;
+    scene.protocol.name = "bench";
+    scene.protocol.view.width_px = scene.protocol.view.height_px = options.size_px;
+    if (!options.mesh.empty()) {
+        SculptureSettings settings;
+        settings.id = options.mesh.stem().string();
+        settings.mesh = options.mesh;
+        settings.up = options.up;
+        scene.protocol.sculptures.push_back(std::move(settings));
+    } else {
+        for (const SculptureDescription& shipped : shipped_sculptures()) {
+            SculptureSettings settings;
+            settings.id = settings.shipped = std::string(shipped.name);
+            scene.protocol.sculptures.push_back(std::move(settings));
+        }
+    }
+    scene.sculptures = load_sculptures(scene.protocol, cache_folder());
+    return scene;
+}
+
+int run_bench(const BenchOptions& options) {
+    const auto chosen = std::find_if(std::begin(benchmarks), std::end(benchmarks),
+                                     [&](const Benchmark& one) { return one.name == options.what; });
+    if (chosen == std::end(benchmarks))
+        throw InputError(fmt::format("there is no benchmark «{}»: see overt bench --help", options.what));
+    const BenchFigures figures = chosen->measure(options);
+    if (options.json) {
+        fmt::print("{}\n", to_json(figures).dump(2));
+    } else {
+        print_table(figures);
+    }
+    return all_hold(figures) ? 0 : 1;
+}
+
+void add_bench_commands(CLI::App& app, ChosenCommand& chosen) { add_bench(app, chosen); }
+
+} // namespace overt

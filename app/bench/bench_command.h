@@ -1,0 +1,37 @@
+/// What the sub-benchmarks of `overt bench` share: the figures they give and the figures in stone they
+/// measure on.
+#pragma once
+
+#include <vector>
+
+#include "app/bench/bench_commands.h"
+#include "app/cli/figures.h"
+#include "experiment/stimulus/sculpture.h"
+
+namespace overt {
+
+/// What a benchmark measures on: a protocol with its sculptures.
+struct BenchScene {
+    Protocol protocol;
+    std::vector<Sculpture> sculptures;
+};
+
+/// The sculpture of --mesh, else the shipped ones, in the default experiment with a picture of --size. Throws
+/// InputError as load_sculpture does.
+BenchScene bench_scene(const BenchOptions& options);
+
+// The sub-benchmarks, each in a file of its name.
+BenchFigures bench_lut(const BenchOptions& options); ///< the hidden pass: its exactness, time and memory
+/// Gaze to surface: its speed, exactness and memory.
+BenchFigures bench_reproject(const BenchOptions& options);
+/// A flip of a 1920 x 1080 Color++ frame with its page: time, processor time, packing and memory.
+BenchFigures bench_present(const BenchOptions& options);
+/// Ready-made frames from files to the frame store, against OpenImageIO alone.
+BenchFigures bench_frames(const BenchOptions& options);
+/// A baked frame of each material: its time beside that of its rays, its errors against many samples, and
+/// what a whole bake takes.
+BenchFigures bench_bake(const BenchOptions& options);
+/// Exports and imports: their speed, and their memory on a session and on one four times as long.
+BenchFigures bench_export(const BenchOptions& options);
+
+} // namespace overt

@@ -1,0 +1,29 @@
+/// The command that measures accuracy and speed. Each takes its options and gives the exit code, 0 done, 1
+/// failed. Bad input is thrown as InputError, which main turns into exit code 2.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/cli/chosen_command.h"
+#include "app/cli/context_choice.h"
+
+namespace overt {
+
+/// Adds it to the command line.
+void add_bench_commands(CLI::App& app, ChosenCommand& chosen);
+
+struct BenchOptions {
+    std::string what;            ///< which benchmark
+    std::filesystem::path mesh;  ///< measure on this one instead of the shipped sculptures
+    std::string up = "z";        ///< axis of the mesh file that points up
+    int size_px = 1024;          ///< width and height of the picture
+    std::filesystem::path probe; ///< bake: surroundings other than the overcast sky
+    int samples = 16;            ///< bake: of a pixel, of the frames whose time is taken
+    int reference_size_px = 128; ///< bake: of the pictures whose errors are measured
+    ContextChoice context;
+    bool json = false;
+};
+int run_bench(const BenchOptions& options);
+
+} // namespace overt

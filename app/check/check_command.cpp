@@ -1,0 +1,108 @@
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/check/check_commands.h"
+#include "app/check/frame_cost.h"
+#include "app/check/frame_light.h"
+#include "app/check/session_outlook.h"
+#include "app/check/silhouette_check.h"
+#include "app/check/text_check.h"
+#include "app/cli/cache_folder.h"
+#include "app/inputs/protocol_file.h"
+#include "app/inputs/protocol_inputs.h"
+#include "app/rig/answer_equipment.h"
+#include "app/stimuli/bake_outlook.h"
+#include "experiment/checks/design_report.h"
+#include "experiment/design/schedule.h"
+#include "render/gl/headless_context.h"
+
+namespace overt {
+
+namespace {
+
+SurfaceFacts surface_of(const Sculpture& sculpture) {
+    SurfaceFacts facts{sculpture.id, sculpture.mesh.triangles.size(), {}};
+    const std::vector<double> areas = sculpture.mesh.part_areas();
+    const double area = sculpture.mesh.area();
+    for (std::size_t part = 0; part < areas.size(); ++part)
+        facts.part_shares.emplace_back(sculpture.mesh.part_names[part], areas[part] / area);
+    return facts;
+}
+
+/// What only a look at the stimuli themselves tells.
+struct StimulusFacts {
+    std::vector<SequenceSilhouette> silhouettes;
+    BakeOutlook rendering;
+    std::vector<OutlookLine> on_this_machine;
+    FrameCost cost;
+};
+
+StimulusFacts look_at_stimuli(const Experiment& experiment, Diagnostics& diagnostics) {
+    const auto context = make_headless_context(std::nullopt);
+    StimulusLibrary library(*context, experiment.protocol, experiment.sculptures, cache_folder());
+    StimulusFacts facts{check_silhouettes(experiment, library, diagnostics),
+                        bake_outlook(experiment, library), session_outlook(experiment.protocol),
+                        measure_frame_cost(*context, experiment.protocol, experiment.sculptures)};
+    for (OutlookLine& line : outlook_of(facts.cost, experiment.protocol, context->description()))
+        facts.on_this_machine.push_back(std::move(line));
+    return facts;
+}
+
+DesignReport report_on(const Experiment& experiment, const CheckOptions& options) {
+    std::vector<Observer> observers = planned_observers(experiment.protocol);
+    if (!options.observer.empty()) {
+        observers = {observer_labelled(options.observer)};
+    } else if (!options.all_observers) {
+        observers.resize(1);
+    }
+    DesignAssumptions assumptions;
+    assumptions.answer_s = options.answer_time_s;
+    DesignReport report = make_design_report(experiment.protocol, observers, options.seed.value_or(1),
+                                             assumptions, options.seed.has_value());
+    for (const Sculpture& sculpture : experiment.sculptures) {
+        if (sculpture.has_mesh())
+            report.surfaces.push_back(surface_of(sculpture));
+    }
+    return report;
+}
+
+} // namespace
+
+int run_check(const CheckOptions& options) {
+    Diagnostics diagnostics;
+    const std::optional<Experiment> experiment =
+        read_experiment(options.protocol, cache_folder(), InputDepth::everything, diagnostics);
+    const std::optional<StimulusFacts> stimuli =
+        experiment ? std::optional(look_at_stimuli(*experiment, diagnostics)) : std::nullopt;
+    if (experiment)
+        check_texts(experiment->protocol, diagnostics);
+    const std::string sound = experiment ? check_sound(experiment->protocol, diagnostics) : std::string();
+    std::string text;
+    if (options.json) {
+        nlohmann::ordered_json json = diagnostics.to_json();
+        if (experiment) {
+            json["design"] = to_json(report_on(*experiment, options));
+            json["rendering"] = to_json(stimuli->rendering);
+            json["silhouettes"] = to_json(stimuli->silhouettes);
+            json["on_this_machine"] = to_json(stimuli->on_this_machine);
+            json["frame_cost"] = to_json(stimuli->cost);
+            json["spoken_answers"] = sound;
+            if (options.frames)
+                json["light"] = to_json(measure_light(*experiment));
+        }
+        text = json.dump(2) + "\n";
+    } else {
+        print_findings(diagnostics);
+        if (experiment)
+            text = to_text(report_on(*experiment, options)) + to_text(stimuli->silhouettes) +
+                   to_text(stimuli->rendering) + to_text(stimuli->on_this_machine) + sound + "\n";
+        if (experiment && options.frames)
+            text += to_text(measure_light(*experiment));
+    }
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    return diagnostics.error_count() == 0 ? 0 : 2;
+}
+
+} // namespace overt

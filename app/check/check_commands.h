@@ -1,0 +1,36 @@
+/// The commands before an observer sits down: check, new, schema. Each takes its options and gives the exit
+/// code, 0 done, 1 failed. Bad input is thrown as InputError, which main turns into exit code 2.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/cli/chosen_command.h"
+
+namespace overt {
+
+/// Adds them to the command line.
+void add_check_commands(CLI::App& app, ChosenCommand& chosen);
+
+struct CheckOptions {
+    std::filesystem::path protocol;
+    std::string observer; ///< show this observer's order; empty: the first
+    bool all_observers = false;
+    double answer_time_s = 8.0;
+    std::optional<std::uint64_t> seed; ///< of the orders shown, where the protocol fixes none
+    bool frames = false;               ///< read every frame, and say what light of it the display cannot show
+    bool json = false;
+};
+int run_check(const CheckOptions& options);
+
+struct NewOptions {
+    std::filesystem::path protocol; ///< to write; never over a file that is there
+};
+int run_new(const NewOptions& options);
+
+/// Prints the JSON Schema of protocols.
+int run_schema();
+
+} // namespace overt

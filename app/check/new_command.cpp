@@ -1,0 +1,55 @@
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/check/check_commands.h"
+#include "experiment/base/error.h"
+#include "experiment/protocol/protocol_schema.h"
+#include "experiment/protocol/protocol_starter.h"
+
+namespace overt {
+
+namespace {
+
+/// A name for the protocol, from its file's: what cannot stand in file names of sessions becomes _.
+std::string name_from(const std::filesystem::path& file) {
+    std::string name = file.stem().string().substr(0, 40);
+    for (char& letter : name) {
+        const bool is_kept = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
+                             (letter >= '0' && letter <= '9') || letter == '-' || letter == '_';
+        if (!is_kept)
+            letter = '_';
+    }
+    return name;
+}
+
+} // namespace
+
+int run_new(const NewOptions& options) {
+    const std::filesystem::path& file = options.protocol;
+    if (file.extension() != ".toml")
+        throw InputError(fmt::format("{}: a protocol's name ends in .toml", file.string()));
+    std::error_code ignored;
+    if (std::filesystem::exists(std::filesystem::symlink_status(file, ignored)))
+        throw InputError(fmt::format("{}: exists already, and is not overwritten", file.string()));
+    const std::string text = protocol_starter(name_from(file));
+    std::FILE* const stream = std::fopen(file.c_str(), "wbx"); // x: not over one that came meanwhile
+    if (!stream)
+        throw InputError(fmt::format("{}: cannot be written", file.string()));
+    const bool is_written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
+    if (std::fclose(stream) != 0 || !is_written)
+        throw RecordError(fmt::format("{}: cannot be written", file.string()));
+    fmt::print("written: {}\nnext: overt check {}\n", file.string(), file.string());
+    return 0;
+}
+
+int run_schema() {
+    const std::string text = protocol_schema().dump(2) + "\n";
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    return 0;
+}
+
+} // namespace overt

@@ -1,0 +1,97 @@
+#include "app/check/session_outlook.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/rig/display_box_session.h"
+#include "experiment/base/error.h"
+#include "experiment/protocol/protocol_keys.h"
+#include "render/window/screen_check.h"
+#include "render/window/window_system.h"
+
+namespace overt {
+namespace {
+
+/// The screen that a session takes; nothing if none has the protocol's resolution.
+std::optional<MonitorInfo> monitor_for(const DisplaySettings& display,
+                                       const std::vector<MonitorInfo>& monitors) {
+    for (const MonitorInfo& monitor : monitors)
+        if (monitor.size_px == glm::ivec2(display.width_px, display.height_px))
+            return monitor;
+    return std::nullopt;
+}
+
+void add_screen(const DisplaySettings& display, std::vector<OutlookLine>& outlook) {
+    const std::vector<MonitorInfo> monitors = list_monitors();
+    const std::optional<MonitorInfo> monitor = monitor_for(display, monitors);
+    if (!monitor) {
+        std::string list;
+        for (const MonitorInfo& other : monitors)
+            list += (list.empty() ? "" : ", ") + describe(other);
+        outlook.push_back({"screen",
+                           fmt::format("none shows {} x {} px now; there is {}", display.width_px,
+                                       display.height_px, list.empty() ? "none" : list),
+                           true});
+        return;
+    }
+    const ScreenFacts facts = facts_at(*monitor, display.output == OutputMode::native_10bit ? 10 : 8);
+    outlook.push_back({"screen", "the whole of " + describe(*monitor)});
+    for (const ScreenFinding& finding : judge_screen(facts, display))
+        if (finding.weight != ScreenFinding::Weight::good)
+            outlook.push_back({"", fmt::format("{}: {}", finding.what, finding.finding),
+                               finding.weight == ScreenFinding::Weight::refusal});
+}
+
+OutlookLine box_line(const DisplaySettings& display, bool in_window) {
+    const BoxPlan plan = plan_box(display, in_window, false);
+    if (plan.use != RecordedBox::Use::box) {
+        RecordedBox none;
+        none.use = plan.use;
+        return {"display box", describe(none)};
+    }
+    try {
+        const BoxIdentity box = require_box(plan);
+        return {"display box",
+                fmt::format("{}, serial number {}, at {}: will be switched to {}", box.product,
+                            box.serial_number, box.port, name_of(box_mode_of(display.output)))};
+    } catch (const InputError&) {
+        return {"display box",
+                fmt::format("needed for {} and not found{}; see `overt display status`",
+                            name_of(display.output), plan.port ? " at " + *plan.port : ""),
+                true};
+    }
+}
+
+} // namespace
+
+std::vector<OutlookLine> session_outlook(const Protocol& protocol) {
+    std::vector<OutlookLine> outlook;
+    const bool in_window = display_is_available();
+    if (in_window) {
+        try {
+            add_screen(protocol.display, outlook);
+        } catch (const GraphicsError& error) {
+            outlook.push_back({"screen", error.what(), true});
+        }
+    } else {
+        outlook.push_back({"screen", "none here: headless, with --simulate-observer"});
+    }
+    outlook.push_back(box_line(protocol.display, in_window));
+    return outlook;
+}
+
+std::string to_text(const std::vector<OutlookLine>& outlook) {
+    std::string text = "\nA session in real time on this machine\n\n";
+    for (const OutlookLine& line : outlook)
+        text += fmt::format("  {:<12}{}{}\n", line.what, line.is_refused ? "refused: " : "", line.finding);
+    return text;
+}
+
+nlohmann::ordered_json to_json(const std::vector<OutlookLine>& outlook) {
+    auto list = nlohmann::ordered_json::array();
+    for (const OutlookLine& line : outlook)
+        list.push_back({{"what", line.what}, {"finding", line.finding}, {"refused", line.is_refused}});
+    return list;
+}
+
+} // namespace overt

@@ -1,0 +1,106 @@
+#include "app/cli/command_options.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace overt {
+
+namespace {
+
+const std::map<std::string, ContextChoice> context_names{{"auto", std::nullopt},
+                                                         {"window", ContextKind::window},
+                                                         {"egl", ContextKind::egl},
+                                                         {"osmesa", ContextKind::osmesa}};
+
+const std::map<std::string, BakeQuality> qualities{{"live", BakeQuality::live},
+                                                   {"preview", BakeQuality::preview},
+                                                   {"draft", BakeQuality::draft},
+                                                   {"standard", BakeQuality::standard},
+                                                   {"reference", BakeQuality::reference}};
+
+/// CLI11's own checks of these name the largest double there is.
+CLI::Validator number_check(const char* name, const char* wish, bool (*holds)(double)) {
+    return {[=](const std::string& given) {
+                double value = 0.0;
+                const bool is_good =
+                    CLI::detail::lexical_cast(given, value) && std::isfinite(value) && holds(value);
+                return is_good ? std::string() : fmt::format("'{}' is not a number {}", given, wish);
+            },
+            name};
+}
+
+} // namespace
+
+CLI::Validator above_zero() {
+    return number_check("POSITIVE", "above 0", [](double value) { return value > 0.0; });
+}
+
+CLI::Validator not_negative() {
+    return number_check("NONNEGATIVE", "of 0 or above", [](double value) { return value >= 0.0; });
+}
+
+CLI::Validator seed_number() {
+    return {[](const std::string& given) {
+                std::uint64_t seed = 0;
+                const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), seed);
+                return error == std::errc() && end == given.data() + given.size()
+                           ? std::string()
+                           : fmt::format("'{}' is not a whole number from 0 to {}", given, UINT64_MAX);
+            },
+            ""};
+}
+
+CLI::Validator seconds_up_to_an_hour() {
+    return number_check("", "of seconds from 0 to 3600",
+                        [](double value) { return value >= 0.0 && value <= 3600.0; });
+}
+
+CLI::Option* add_quality_option(CLI::App& command, std::optional<BakeQuality>& quality,
+                                const std::string& what, const std::vector<std::string>& names) {
+    return command
+        .add_option_function<std::string>(
+            "--quality", [&quality](const std::string& name) { quality = qualities.at(name); }, what)
+        ->check(CLI::IsMember(names))
+        ->type_name("QUALITY");
+}
+
+void add_context_option(CLI::App& command, ContextChoice& context) {
+    command
+        .add_option_function<std::string>(
+            "--context", [&context](const std::string& name) { context = context_names.at(name); },
+            "OpenGL through auto (a window where there is a display, else EGL with a graphics processor, "
+            "else OSMesa), window, egl or osmesa")
+        ->check(CLI::IsMember({"auto", "window", "egl", "osmesa"}))
+        ->type_name("KIND");
+}
+
+CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& what,
+                      const std::string& example) {
+    CLI::App& command = *app.add_subcommand(name, what);
+    command.footer("Example:\n  " + example + "\n");
+    return command;
+}
+
+void run_when_chosen(CLI::App& command, ChosenCommand& chosen, ChosenCommand run) {
+    command.callback([&chosen, run = std::move(run)] { chosen = run; });
+}
+
+void add_frame_option(CLI::App& command, std::optional<int>& frame, const std::string& what) {
+    command
+        .add_option_function<std::string>(
+            "--frame",
+            [&frame](const std::string& given) {
+                if (given != "all")
+                    frame = std::stoi(given);
+            },
+            what)
+        ->required()
+        ->check(CLI::IsMember({"all"}) | CLI::Range(0, 9999))
+        ->type_name("K|all");
+}
+
+} // namespace overt

@@ -1,0 +1,97 @@
+/// The commands for the display and the rest of the machine: display, doctor. Each takes its options and
+/// gives the exit code, 0 done, 1 failed. Bad input is thrown as InputError, which main turns into exit
+/// code 2.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/chosen_command.h"
+#include "app/cli/context_choice.h"
+
+namespace overt {
+
+/// Adds them to the command line.
+void add_display_commands(CLI::App& app, ChosenCommand& chosen);
+
+struct DoctorOptions {
+    bool json = false;
+    bool window = false; ///< show a dark screen and measure its refreshes
+    bool windowed = false;
+    std::optional<int> monitor; ///< from 1
+    double seconds = 10.0;      ///< of measuring
+    bool photodiode = false;    ///< show a square for a sensor
+    std::string sensor;         ///< serial port, «simulated», or nobody compares
+    ContextChoice context;      ///< of the square; headless: in virtual time
+};
+int run_doctor(const DoctorOptions& options);
+
+struct DisplayVerifyOptions {
+    std::filesystem::path protocol; ///< its screen and its stimuli, too; empty: a screen of 1920 x 1080
+    std::string stimulus;           ///< SCULPTURE/MATERIAL; empty: all of the protocol's
+    std::vector<std::string> modes; ///< as in a protocol; empty: all
+    ContextChoice context;          ///< nothing: all there are
+    bool json = false;
+};
+int run_display_verify(const DisplayVerifyOptions& options);
+
+struct DisplayCharacteriseOptions {
+    std::filesystem::path protocol; ///< its screen; empty: 1920 x 1080
+    std::filesystem::path out = "display.toml";
+    std::filesystem::path readings;         ///< from this table instead of a photometer
+    bool typed = false;                     ///< somebody types in what an instrument shows
+    std::optional<std::uint64_t> simulated; ///< a display and photometer that are not there, by seed
+    std::string port;                       ///< of the ColorCAL; empty: the only one there is
+    std::string name = "display";
+    std::string instrument; ///< in words, for readings that were typed or come from a table
+    std::string mode;       ///< as in a protocol; empty: the protocol's, or native-8bit
+    std::string model = "table";
+    int levels = 17, mixed = 24, repeats = 3;
+    std::uint64_t seed = 1; ///< of the order of patches
+    double settle_s = 0.5, warm_up_min = 0.0;
+    double size_deg = 0.0;  ///< of the patch; 0: the whole screen
+    double surround = 0.0;  ///< signal around the patch
+    double crosstalk = 0.0; ///< of the simulated display
+    ContextChoice context;
+    std::optional<int> monitor; ///< from 1
+    bool windowed = false;
+    bool force = false;
+    bool json = false;
+};
+int run_display_characterise(const DisplayCharacteriseOptions& options);
+
+/// From colours to a characterised display's light, and back. One of the four is given.
+struct DisplayColourOptions {
+    std::filesystem::path characterisation;
+    std::vector<double> xyz, cones, rgb; ///< three numbers each, or none
+    std::filesystem::path spectra;       ///< table of radiances
+    std::string observer = "cie1931";    ///< for whom xyz and spectra are matched
+    bool json = false;
+};
+int run_display_colour(const DisplayColourOptions& options);
+
+struct DisplayHardwareOptions {
+    std::string port;           ///< of the box; empty: look for it
+    std::optional<int> monitor; ///< that is connected to the box, from 1; nothing: the primary one
+    bool json = false;
+};
+/// Draws known lines and has the display box send back what it received.
+int run_display_hardware_check(const DisplayHardwareOptions& options);
+
+struct DisplayStatusOptions {
+    std::string port; ///< empty: all
+    bool json = false;
+};
+int run_display_status(const DisplayStatusOptions& options);
+
+struct DisplayModeOptions {
+    std::string mode; ///< bits++, mono++ or color++
+    std::string port; ///< empty: look for it
+    bool json = false;
+};
+int run_display_mode(const DisplayModeOptions& options);
+
+} // namespace overt

@@ -1,0 +1,155 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/figures.h"
+#include "app/cli/state_folder.h"
+#include "app/display/display_commands.h"
+#include "devices/display_box/display_plus_plus_search.h"
+#include "devices/host/clocks.h"
+#include "devices/link/serial_port.h"
+#include "experiment/base/error.h"
+#include "experiment/base/random.h"
+#include "render/vblank/display_surface.h"
+#include "render/window/screen_check.h"
+#include "render/window/window_system.h"
+
+namespace overt {
+namespace {
+
+constexpr int readings_per_line = 3;
+
+/// Every value of every channel, rising, falling and scattered.
+std::vector<RgbBytes> ramp(int width) {
+    std::vector<RgbBytes> pixels;
+    for (int x = 0; x < width; ++x)
+        pixels.push_back({static_cast<std::uint8_t>(x & 255), static_cast<std::uint8_t>(255 - (x & 255)),
+                          static_cast<std::uint8_t>((x * 167 + 13) & 255)});
+    return pixels;
+}
+
+/// As the bytes of a packed picture look: neighbours have nothing to do with each other.
+std::vector<RgbBytes> noise(int width, int line) {
+    RandomStream random(1, fmt::format("video line {}", line));
+    const auto byte = [&] { return static_cast<std::uint8_t>(random.uniform(0.0, 256.0)); };
+    std::vector<RgbBytes> pixels;
+    for (int x = 0; x < width; ++x) {
+        const std::uint8_t red = byte(), green = byte(), blue = byte();
+        pixels.push_back({red, green, blue});
+    }
+    return pixels;
+}
+
+/// Over the height of the screen, but not in the rows that speak to the box.
+std::vector<DrawnLine> lines_for(glm::ivec2 size_px) {
+    const int first = 4; // counted from 1; three rows are for messages
+    const int last = size_px.y;
+    std::vector<DrawnLine> lines;
+    for (const int line : {first, first + (last - first) / 3, first + 2 * (last - first) / 3, last}) {
+        lines.push_back({line, ramp(size_px.x)});
+        if (line != last)
+            lines.push_back({line + 1, noise(size_px.x, line + 1)});
+    }
+    return lines;
+}
+
+std::vector<std::byte> picture_of(const std::vector<DrawnLine>& lines, glm::ivec2 size_px) {
+    const auto width = static_cast<std::size_t>(size_px.x), height = static_cast<std::size_t>(size_px.y);
+    std::vector<std::byte> bytes(4 * width * height, std::byte{64});
+    for (std::size_t i = 3; i < bytes.size(); i += 4)
+        bytes[i] = std::byte{255};
+    for (const DrawnLine& drawn : lines) {
+        std::size_t at = 4 * width * static_cast<std::size_t>(drawn.line - 1);
+        for (const RgbBytes& pixel : drawn.pixels) {
+            for (const std::uint8_t value : pixel)
+                bytes[at++] = std::byte{value};
+            ++at;
+        }
+    }
+    return bytes;
+}
+
+/// Shows a still picture and returns when it has stood for a while: how soon the box has a new picture's
+/// lines ready is not known.
+void show_still(WindowContext& window, Clock& clock, const std::vector<std::byte>& bytes,
+                glm::ivec2 size_px) {
+    WindowDisplay display(window, clock, 60.0, false);
+    Texture2D picture(window, size_px, PixelFormat::rgba8);
+    picture.upload(bytes);
+    const Framebuffer canvas(window, {&picture}, false);
+    window.gl().Disable(GL_DITHER);
+    for (int buffer = 0; buffer < 3; ++buffer)
+        display.present(canvas);
+    clock.wait_until(clock.now() + std::chrono::milliseconds(200));
+}
+
+MonitorInfo monitor_chosen(const std::optional<int>& number) {
+    const std::vector<MonitorInfo> monitors = list_monitors();
+    const std::size_t index = static_cast<std::size_t>(number.value_or(1)) - 1;
+    if (index < monitors.size())
+        return monitors[index];
+    std::string list;
+    for (const MonitorInfo& monitor : monitors)
+        list += "\n  " + describe(monitor);
+    throw InputError(fmt::format("there is no monitor {}. There are:{}", number.value_or(1), list));
+}
+
+BenchFigures figures_of(const VideoLineReport& report) {
+    BenchFigures figures;
+    for (const LineVerdict& line : report.lines)
+        figures.push_back(at_most(fmt::format("line {}: {}", line.line, line.description()),
+                                  static_cast<double>(line.changed), "bytes", 0.0));
+    return figures;
+}
+
+} // namespace
+
+int run_display_hardware_check(const DisplayHardwareOptions& options) {
+    if (!display_is_available())
+        throw InputError("there is no display to draw on (DISPLAY and WAYLAND_DISPLAY are not set)");
+    SteadyClock clock;
+    DisplayPlusPlusSettings settings;
+    settings.record_folder = state_folder();
+    // The box first: without it no window need flash up.
+    const auto box = find_display_plus_plus(serial_ports(),
+                                            options.port.empty() ? std::nullopt : std::optional(options.port),
+                                            serial_port_opener(clock), clock, settings);
+    const MonitorInfo monitor = monitor_chosen(options.monitor);
+    WindowContext window({monitor.size_px, "overt display verify", true, true, 8, monitor.number});
+    const std::vector<DrawnLine> lines = lines_for(monitor.size_px);
+
+    DisplaySettings whole_screen;
+    whole_screen.width_px = monitor.size_px.x;
+    whole_screen.height_px = monitor.size_px.y;
+    whole_screen.refresh_hz = monitor.refresh_hz;
+    const std::vector<ScreenFinding> findings = judge_screen(facts_of(window), whole_screen);
+    const double rate_hz = box->video_rate_hz();
+    const VideoLineReport report = box->check_video(
+        [&] {
+            show_still(window, clock, picture_of(lines, monitor.size_px), monitor.size_px);
+            return lines;
+        },
+        readings_per_line);
+    box->restore_desktop();
+
+    const BenchFigures figures = figures_of(report);
+    if (options.json) {
+        nlohmann::ordered_json json = to_json(figures);
+        json["port"] = box->identity().port;
+        json["serial_number"] = box->identity().serial_number;
+        json["monitor"] = describe(monitor);
+        json["video_rate_hz"] = rate_hz;
+        json["verdict"] = report.description();
+        fmt::print("{}\n", json.dump(2));
+    } else {
+        fmt::print("{} ({}) at {} receives {:.2f} Hz; drawn on {}\n", box->identity().product,
+                   box->identity().serial_number, box->identity().port, rate_hz, describe(monitor));
+        print_table(figures);
+        fmt::print("{}\n", report.description());
+        for (const ScreenFinding& finding : findings)
+            if (finding.weight != ScreenFinding::Weight::good)
+                fmt::print("{}: {}\n", finding.what, finding.finding);
+    }
+    return report.good() ? 0 : 1;
+}
+
+} // namespace overt

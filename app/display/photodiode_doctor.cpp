@@ -1,0 +1,154 @@
+#include "app/display/photodiode_doctor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/progress_bar.h"
+#include "devices/host/clocks.h"
+#include "devices/light/light_sensor.h"
+#include "devices/link/serial_port.h"
+#include "experiment/base/error.h"
+#include "render/gl/headless_context.h"
+#include "render/vblank/display_surface.h"
+
+namespace overt {
+namespace {
+
+/// Long enough for any screen to reach its light, and for delays of some refreshes to be told apart.
+constexpr int refreshes_of_light = 6;
+
+/// Of the side of the screen that is shorter.
+constexpr int share_of_square = 6;
+
+/// What the sensor that is not there is like.
+constexpr double simulated_latency_ms = 5.0, simulated_jitter_ms = 0.2;
+
+/// Of the display that only keeps time.
+constexpr double simulated_hz = 120.0;
+
+/// Dark, with a square in its top left corner.
+void draw_square(const GlContext& context, const Framebuffer& canvas, glm::ivec2 size_px, bool is_light) {
+    const GladGLContext& gl = context.gl();
+    canvas.bind();
+    gl.ClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+    gl.Clear(GL_COLOR_BUFFER_BIT);
+    if (!is_light)
+        return;
+    const int side = std::min(size_px.x, size_px.y) / share_of_square;
+    gl.Enable(GL_SCISSOR_TEST);
+    gl.Scissor(0, 0, side, side); // a canvas has its top row first
+    gl.ClearColor(1.0f, 1.0f, 1.0f, 1.0f);
+    gl.Clear(GL_COLOR_BUFFER_BIT);
+    gl.Disable(GL_SCISSOR_TEST);
+}
+
+struct Stage {
+    std::unique_ptr<GlContext> context;
+    std::unique_ptr<Clock> clock;
+    std::unique_ptr<DisplaySurface> surface;
+    glm::ivec2 size_px{320, 180};
+};
+
+Stage open_screen(const DoctorOptions& options) {
+    Stage screen;
+    if (!options.windowed && options.context && *options.context != ContextKind::window) {
+        screen.context = make_headless_context(options.context);
+        screen.clock = std::make_unique<VirtualClock>();
+        screen.surface = std::make_unique<VirtualDisplay>(*screen.context, *screen.clock, simulated_hz);
+        return screen;
+    }
+    const std::vector<MonitorInfo> monitors = list_monitors();
+    const auto number = static_cast<std::size_t>(options.monitor.value_or(1));
+    if (number > monitors.size())
+        throw InputError(fmt::format("there is no monitor {}: there are {}", number, monitors.size()));
+    const MonitorInfo monitor = monitors[number - 1];
+    if (!options.windowed)
+        screen.size_px = monitor.size_px;
+    auto window = std::make_unique<WindowContext>(
+        WindowRequest{screen.size_px, "overt doctor", !options.windowed, true, 8, monitor.number});
+    screen.clock = std::make_unique<SteadyClock>();
+    screen.surface = std::make_unique<WindowDisplay>(
+        *window, *screen.clock, monitor.refresh_hz > 0 ? monitor.refresh_hz : 60.0, false, DisplayFaults{},
+        choose_vblank_clock(vblank_candidates(*window, *screen.clock), *screen.clock));
+    screen.context = std::move(window);
+    return screen;
+}
+
+std::unique_ptr<LightSensor> open_sensor(const DoctorOptions& options, const Clock& clock) {
+    if (options.sensor == "simulated")
+        return std::make_unique<SimulatedLightSensor>(simulated_latency_ms, simulated_jitter_ms, 1);
+    if (options.sensor.empty())
+        return nullptr;
+    return std::make_unique<SerialLightSensor>(std::make_unique<SerialPort>(options.sensor, clock), clock);
+}
+
+} // namespace
+
+int run_photodiode_doctor(const DoctorOptions& options) {
+    Stage screen = open_screen(options);
+    if (options.sensor.starts_with('/') && dynamic_cast<VirtualClock*>(screen.clock.get()))
+        throw InputError("a sensor has nothing to see of a display that is not there: give no --context");
+    const std::unique_ptr<LightSensor> sensor = open_sensor(options, *screen.clock);
+    const Texture2D picture(*screen.context, screen.size_px, PixelFormat::rgba8);
+    const Framebuffer canvas(*screen.context, {&picture}, false);
+
+    std::vector<LightEdge> changes;
+    ProgressBar bar;
+    FlipReport flip;
+    bool is_light = false;
+    const SessionTime start = screen.clock->now();
+    const auto passed_s = [&] { return to_seconds(screen.clock->now() - start); };
+    const int total = static_cast<int>(std::ceil(options.seconds));
+    for (int i = 0; passed_s() < options.seconds && !screen.surface->closed(); ++i) {
+        // The first are dark: the screen was something else before.
+        const bool change = i > 0 && i % refreshes_of_light == 0;
+        is_light = change ? !is_light : is_light;
+        draw_square(*screen.context, canvas, screen.size_px, is_light);
+        flip = screen.surface->present(canvas);
+        if (!change)
+            continue;
+        changes.push_back({flip.vertical_blank, is_light});
+        if (sensor)
+            sensor->shown(changes.back());
+        bar.update("showing the square, s", std::min(total, static_cast<int>(passed_s())), total);
+    }
+    bar.finish();
+    screen.clock->wait_until(screen.clock->now() + std::chrono::milliseconds(200));
+    const std::string source(name_of(flip.source));
+    if (!sensor) {
+        fmt::print("{} changes shown, times by {}; give --sensor PORT to compare them\n", changes.size(),
+                   source);
+        return 0;
+    }
+    const LightLatency found = compare_light(changes, sensor->edges());
+    if (options.json) {
+        const auto figure = [](std::string_view name, double value, std::string_view unit) {
+            return nlohmann::ordered_json{{"figure", name}, {"value", value}, {"unit", unit}};
+        };
+        fmt::print("{}\n",
+                   nlohmann::ordered_json{
+                       {"source", source},
+                       {"sensor", options.sensor},
+                       {"figures",
+                        {figure("changes", static_cast<double>(changes.size()), ""),
+                         figure("seen", found.matched, ""), figure("latency", found.mean_ms, "ms"),
+                         figure("standard deviation of the latency", found.sd_ms, "ms"),
+                         figure("unseen", found.unseen, ""), figure("unasked", found.unasked, "")}}}
+                       .dump(2));
+    } else {
+        fmt::print("times by {}; {} of {} changes seen, {} edges that nobody asked for\n", source,
+                   found.matched, changes.size(), found.unasked);
+        fmt::print(
+            "from vertical blank to light: {:.3f} ms, standard deviation {:.3f} ms ({:.3f} … {:.3f})\n",
+            found.mean_ms, found.sd_ms, found.lowest_ms, found.highest_ms);
+        if (found.matched > 0)
+            fmt::print("for a sensor at the top of the screen: [display] latency_ms = {:.2f}\n",
+                       found.mean_ms);
+    }
+    return found.matched > 0 && found.unseen == 0 ? 0 : 1;
+}
+
+} // namespace overt

@@ -1,0 +1,97 @@
+#include "app/display/screen_doctor.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/progress_bar.h"
+#include "devices/host/clocks.h"
+#include "experiment/base/error.h"
+#include "render/vblank/timing_check.h"
+
+namespace overt {
+namespace {
+
+/// Of a screen that does not say what its rate is.
+constexpr double assumed_hz = 60.0;
+
+/// A window that is not the whole screen is large enough to be seen, and small enough to be no bother.
+constexpr glm::ivec2 window_px{640, 360};
+
+std::string_view name_of(ScreenFinding::Weight weight) {
+    switch (weight) {
+    case ScreenFinding::Weight::good:
+        return "good";
+    case ScreenFinding::Weight::risk:
+        return "risk";
+    case ScreenFinding::Weight::refusal:
+        break;
+    }
+    return "refused";
+}
+
+MonitorInfo chosen_monitor(const DoctorOptions& options) {
+    const std::vector<MonitorInfo> monitors = list_monitors();
+    const auto number = static_cast<std::size_t>(options.monitor.value_or(1));
+    if (number > monitors.size())
+        throw InputError(fmt::format("there is no monitor {}: there are {}", number, monitors.size()));
+    return monitors[number - 1];
+}
+
+nlohmann::ordered_json json_of(const TimingFacts& facts, const std::vector<ScreenFinding>& findings) {
+    const RefreshMeasurement& measured = facts.measured;
+    auto list = nlohmann::ordered_json::array();
+    for (const ScreenFinding& finding : findings)
+        list.push_back(
+            {{"what", finding.what}, {"weight", name_of(finding.weight)}, {"finding", finding.finding}});
+    const auto figure = [](std::string_view name, double value, std::string_view unit) {
+        return nlohmann::ordered_json{{"figure", name}, {"value", value}, {"unit", unit}};
+    };
+    return {{"screen", list},
+            {"source", overt::name_of(measured.source)},
+            {"refused_sources", facts.refused_sources},
+            {"figures",
+             {figure("refresh rate", measured.mean_hz, "Hz"),
+              figure("standard error of the refresh rate", measured.mean_se_hz, "Hz"),
+              figure("standard deviation of intervals", measured.interval_sd_ms, "ms"),
+              figure("flips", measured.flips, ""), figure("stamps off the line", measured.outliers, ""),
+              figure("missed refreshes", measured.missed, ""),
+              figure("swaps that return at once", facts.swaps.at_once, "")}}};
+}
+
+} // namespace
+
+int run_screen_doctor(const DoctorOptions& options) {
+    const MonitorInfo monitor = chosen_monitor(options);
+    WindowContext window({options.windowed ? glm::min(window_px, monitor.size_px) : monitor.size_px,
+                          "overt doctor", !options.windowed, true, 8, monitor.number});
+    SteadyClock clock;
+    const double nominal_hz = monitor.refresh_hz > 0 ? monitor.refresh_hz : assumed_hz;
+    WindowDisplay display(window, clock, nominal_hz, false, {},
+                          choose_vblank_clock(vblank_candidates(window, clock), clock));
+    ProgressBar bar;
+    const TimingFacts facts =
+        measure_timing(window, display, clock, options.seconds, [&](int done, int total) {
+            bar.update("measuring the screen's refresh, s", done, total);
+        });
+    bar.finish();
+    // What the desktop calls 59 or 60 Hz may be 59.94: the mode's own rate is the better word.
+    const double own_hz = facts.output.refresh_hz        ? *facts.output.refresh_hz
+                          : monitor.refresh_hz > 0       ? nominal_hz
+                          : facts.measured.mean_hz > 0.0 ? facts.measured.mean_hz
+                                                         : assumed_hz;
+    const std::vector<ScreenFinding> findings = judge_timing(facts, own_hz, "its mode");
+    if (options.json) {
+        fmt::print("{}\n", json_of(facts, findings).dump(2));
+    } else {
+        fmt::print("{}\n{}\n", describe(monitor), window.description().renderer);
+        for (const ScreenFinding& finding : findings)
+            fmt::print("{:<8} {:<18} {}\n", name_of(finding.weight), finding.what, finding.finding);
+    }
+    return std::ranges::any_of(findings, [](const ScreenFinding& finding) {
+        return finding.weight == ScreenFinding::Weight::refusal;
+    });
+}
+
+} // namespace overt

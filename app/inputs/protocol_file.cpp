@@ -1,0 +1,82 @@
+#include "app/inputs/protocol_file.h"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "experiment/checks/checked_protocol.h"
+#include "experiment/design/schedule.h"
+#include "experiment/record/session_directory.h"
+#include "experiment/scene/sculptures/sculptures.h"
+
+namespace overt {
+
+std::vector<std::string_view> shipped_sculpture_names() {
+    std::vector<std::string_view> names;
+    for (const SculptureDescription& sculpture : shipped_sculptures())
+        names.push_back(sculpture.name);
+    return names;
+}
+
+std::optional<Protocol> read_protocol_file(const std::filesystem::path& file, Diagnostics& diagnostics) {
+    return read_protocol(file, shipped_sculpture_names(), diagnostics);
+}
+
+Protocol read_protocol_or_report(const std::filesystem::path& file) {
+    Diagnostics diagnostics;
+    std::optional<Protocol> protocol = read_protocol_file(file, diagnostics);
+    print_findings(diagnostics);
+    if (!protocol)
+        throw FindingsPrinted(fmt::format("{}: cannot be used", file.string()));
+    return *std::move(protocol);
+}
+
+void print_findings(const Diagnostics& diagnostics) {
+    const std::string findings = diagnostics.print();
+    std::fwrite(findings.data(), 1, findings.size(), stderr);
+}
+
+Observer observer_labelled(const std::string& label) {
+    check_observer_label(label);
+    const std::optional<int> number = observer_number(label);
+    if (!number) {
+        const char last = label.back();
+        if (last >= '0' && last <= '9')
+            throw InputError(
+                fmt::format("observer «{}»: the number at its end decides which materials are shown, "
+                            "and is from 1 to 999999999",
+                            label));
+        throw InputError(
+            fmt::format("observer «{}» has no number at its end, and the number decides which materials are "
+                        "shown: call the observer {}01, say",
+                        label, label));
+    }
+    return {label, *number};
+}
+
+Condition stimulus_called(const Protocol& protocol, const std::string& name) {
+    std::vector<std::string> names;
+    for (std::size_t sculpture = 0; sculpture < protocol.sculptures.size(); ++sculpture) {
+        for (std::size_t material = 0; material < protocol.materials.size(); ++material) {
+            names.push_back(protocol.sculptures[sculpture].id + "/" + protocol.materials[material].id);
+            if (names.back() == name)
+                return {static_cast<int>(sculpture), static_cast<int>(material)};
+        }
+    }
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    throw InputError(fmt::format("no stimulus is called «{}»: {}", name, suggest_name(name, known)));
+}
+
+int sculpture_called(const Protocol& protocol, const std::string& name) {
+    if (name.find('/') != std::string::npos)
+        return stimulus_called(protocol, name).sculpture;
+    std::vector<std::string_view> known;
+    for (const SculptureSettings& sculpture : protocol.sculptures) {
+        if (sculpture.id == name)
+            return static_cast<int>(known.size());
+        known.push_back(sculpture.id);
+    }
+    throw InputError(fmt::format("no sculpture is called «{}»: {}", name, suggest_name(name, known)));
+}
+
+} // namespace overt

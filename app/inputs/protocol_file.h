@@ -1,0 +1,45 @@
+/// Reading a protocol on behalf of a command.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "experiment/base/diagnostics.h"
+#include "experiment/base/error.h"
+#include "experiment/protocol/protocol.h"
+#include "experiment/trial.h"
+
+namespace overt {
+
+/// A file was refused and its findings are printed already: main only has to leave with code 2.
+class FindingsPrinted : public InputError {
+  public:
+    using InputError::InputError;
+};
+
+/// Names of the sculptures that overt makes itself.
+std::vector<std::string_view> shipped_sculpture_names();
+
+/// Reads a protocol, with the sculptures that overt makes itself as those it may name. See read_protocol().
+std::optional<Protocol> read_protocol_file(const std::filesystem::path& file, Diagnostics& diagnostics);
+
+/// The same, with all findings printed to standard error; throws FindingsPrinted if one of them is an error.
+Protocol read_protocol_or_report(const std::filesystem::path& file);
+
+/// To standard error.
+void print_findings(const Diagnostics& diagnostics);
+
+/// The observer of a label: its number is the one at the label's end. Throws InputError if it has none, or if
+/// no file can be named by the label.
+Observer observer_labelled(const std::string& label);
+
+/// The stimulus called SCULPTURE/MATERIAL. Throws InputError naming those there are.
+Condition stimulus_called(const Protocol& protocol, const std::string& name);
+
+/// The sculpture called SCULPTURE, or that of the stimulus SCULPTURE/MATERIAL. Throws InputError naming those
+/// there are.
+int sculpture_called(const Protocol& protocol, const std::string& name);
+
+} // namespace overt

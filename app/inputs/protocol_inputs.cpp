@@ -1,0 +1,142 @@
+#include "app/inputs/protocol_inputs.h"
+
+#include <fmt/format.h>
+
+#include "app/cli/progress_bar.h"
+#include "app/inputs/protocol_file.h"
+#include "experiment/base/error.h"
+#include "experiment/scene/metal_table.h"
+#include "render/image/light_probe.h"
+#include "render/stimulus/given_maps.h"
+#include "render/stimulus/ready_made_frames.h"
+
+namespace overt {
+
+namespace {
+
+/// Findings are parts of a sentence; errors and remarks are whole ones.
+std::string as_finding(std::string message) {
+    if (message.ends_with('.'))
+        message.pop_back();
+    return message;
+}
+
+/// Notes what goes wrong with one input at the key that names it.
+template <class Work>
+void examine(const Protocol& protocol, Place place, Diagnostics& diagnostics, const Work& work) {
+    try {
+        work();
+    } catch (const InputError& error) {
+        diagnostics.error(protocol.file.string(), place, as_finding(error.what()));
+    }
+}
+
+void examine_camera(const Protocol& protocol, const Sculpture& sculpture, Diagnostics& diagnostics) {
+    // A camera that overt places itself has the sculpture in its picture.
+    if (!protocol.view.camera_position)
+        return;
+    for (const Degrees angle : distinct_poses(protocol.animation).angles) {
+        if (is_in_picture(sculpture, angle))
+            continue;
+        diagnostics.error(protocol.file.string(), protocol.places.of("view.camera_position"),
+                          fmt::format("sculpture \"{}\" is nowhere in the picture at {:.3g} degrees",
+                                      sculpture.id, angle.value),
+                          "the camera looks at view.camera_target; lengths are in the unit of the mesh");
+        return;
+    }
+}
+
+std::vector<Sculpture> examine_sculptures(const Protocol& protocol, const std::filesystem::path& cache,
+                                          Diagnostics& diagnostics) {
+    std::vector<Sculpture> sculptures;
+    for (std::size_t i = 0; i < protocol.sculptures.size(); ++i) {
+        const SculptureSettings& settings = protocol.sculptures[i];
+        const Place place = protocol.places.first_written(
+            {fmt::format("sculpture[{}].mesh", i), fmt::format("sculpture[{}].shipped", i)});
+        examine(protocol, place, diagnostics, [&] {
+            const Sculpture& sculpture = sculptures.emplace_back(load_sculpture(settings, protocol, cache));
+            for (const std::string& remark : sculpture.remarks)
+                diagnostics.warning(protocol.file.string(), place, as_finding(remark));
+            if (sculpture.has_mesh())
+                examine_camera(protocol, sculpture, diagnostics);
+        });
+    }
+    return sculptures;
+}
+
+void examine_given_maps(const Protocol& protocol, Diagnostics& diagnostics) {
+    ProgressBar bar;
+    const int count = static_cast<int>(protocol.sculptures.size());
+    for (int i = 0; i < count; ++i) {
+        if (protocol.sculptures[static_cast<std::size_t>(i)].lut.empty())
+            continue;
+        bar.update("reading ready-made maps", i, count);
+        const Place place = protocol.places.of(fmt::format("sculpture[{}].lut", i));
+        examine(protocol, place, diagnostics, [&] {
+            for (const std::string& remark : check_given_maps(protocol, i))
+                diagnostics.warning(protocol.file.string(), place, as_finding(remark));
+        });
+    }
+}
+
+void examine_surroundings(const Protocol& protocol, Diagnostics& diagnostics) {
+    const Place probe = protocol.places.of("light.probe");
+    if (protocol.light.probe != "overcast") {
+        examine(protocol, probe, diagnostics, [&] {
+            if (const int negative = load_light_probe(protocol.light).negative_texels; negative > 0) {
+                diagnostics.warning(protocol.file.string(), probe,
+                                    fmt::format("{} texels of {} hold negative light, which counts as none",
+                                                negative, protocol.light.probe));
+            }
+        });
+    }
+    for (std::size_t i = 0; i < protocol.materials.size(); ++i) {
+        examine(protocol, protocol.places.of(fmt::format("material[{}].metal", i)), diagnostics,
+                [&] { load_metal(protocol.materials[i].metal); });
+    }
+}
+
+void examine_frames(const Protocol& protocol, Diagnostics& diagnostics) {
+    ProgressBar bar;
+    const int count = static_cast<int>(protocol.frames.size());
+    for (int i = 0; i < count; ++i) {
+        const FrameSequenceSettings& sequence = protocol.frames[static_cast<std::size_t>(i)];
+        bar.update("reading ready-made frames", i, count);
+        examine(protocol, protocol.places.of(fmt::format("frames[{}].files", i)), diagnostics, [&] {
+            check_frame_pixels(sequence, protocol.animation.frame_count,
+                               {protocol.view.width_px, protocol.view.height_px});
+        });
+    }
+}
+
+} // namespace
+
+std::optional<Experiment> read_experiment(const std::filesystem::path& file,
+                                          const std::filesystem::path& cache, InputDepth depth,
+                                          Diagnostics& diagnostics) {
+    std::optional<Protocol> protocol = read_protocol_file(file, diagnostics);
+    if (!protocol)
+        return std::nullopt;
+    Experiment experiment{*std::move(protocol), {}};
+    experiment.sculptures = examine_sculptures(experiment.protocol, cache, diagnostics);
+    examine_surroundings(experiment.protocol, diagnostics);
+    if (depth == InputDepth::everything) {
+        examine_frames(experiment.protocol, diagnostics);
+        examine_given_maps(experiment.protocol, diagnostics);
+    }
+    if (diagnostics.has_errors())
+        return std::nullopt;
+    return experiment;
+}
+
+Experiment read_experiment_or_report(const std::filesystem::path& file, const std::filesystem::path& cache,
+                                     InputDepth depth) {
+    Diagnostics diagnostics;
+    std::optional<Experiment> experiment = read_experiment(file, cache, depth, diagnostics);
+    print_findings(diagnostics);
+    if (!experiment)
+        throw FindingsPrinted(fmt::format("{}: cannot be used", file.string()));
+    return *std::move(experiment);
+}
+
+} // namespace overt

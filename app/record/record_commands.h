@@ -1,0 +1,59 @@
+/// The commands for recorded sessions: export, import, show, verify. Each takes its options and gives the
+/// exit code, 0 done, 1 failed. Bad input is thrown as InputError, which main turns into exit code 2.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/chosen_command.h"
+
+namespace overt {
+
+/// Adds them to the command line.
+void add_record_commands(CLI::App& app, ChosenCommand& chosen);
+
+struct ExportOptions {
+    std::vector<std::filesystem::path> sessions;
+    std::string format = "tsv"; ///< or csv, asc, bids
+    std::filesystem::path out;
+    bool overwrite = false;
+    std::optional<double> cone_deg; ///< add the probabilities of a gaze cone of this accuracy
+    bool fractional_times = false;  ///< of the samples in ASC
+    bool with_answers = false;      ///< spoken ones, in BIDS
+};
+int run_export(const ExportOptions& options);
+
+struct ImportOptions {
+    std::filesystem::path file;
+    std::filesystem::path into; ///< a session whose gaze it becomes; empty: a session of its own
+    std::filesystem::path out;
+    std::filesystem::path sessions = "sessions";
+    std::string observer; ///< empty: letters and digits of the file's name
+    std::optional<int> session_number;
+    std::string task = "imported";
+    std::vector<double> screen_mm; ///< width and height, or empty
+    std::optional<double> distance_mm;
+    std::filesystem::path print_session_to;
+    bool json = false;
+};
+int run_import(const ImportOptions& options);
+
+struct VerifyOptions {
+    std::vector<std::filesystem::path> sessions;
+    bool json = false;
+};
+int run_verify(const VerifyOptions& options);
+
+struct ShowOptions {
+    std::filesystem::path session;
+    std::optional<int> trial;
+    std::filesystem::path picture;
+    std::filesystem::path plot; ///< of the presentation's timing, SVG
+    bool order = false;         ///< the order that was planned, made again from protocol and seed
+    bool json = false;
+};
+int run_show(const ShowOptions& options);
+
+} // namespace overt

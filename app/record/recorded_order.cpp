@@ -1,0 +1,90 @@
+#include "app/record/recorded_order.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/inputs/protocol_file.h"
+#include "experiment/base/error.h"
+#include "experiment/checks/checked_protocol.h"
+#include "experiment/design/schedule.h"
+
+namespace overt {
+
+namespace {
+
+/// The names that a trial's indices stand for, block first.
+std::array<std::string, 4> names_of(const Trial& trial, const SessionHeader& header) {
+    const auto id = [](const auto& list, int index) { return list.at(static_cast<std::size_t>(index)).id; };
+    return {header.blocks.empty() ? "" : header.blocks.at(static_cast<std::size_t>(trial.block)),
+            id(header.tasks, trial.task), id(header.sculptures, trial.condition.sculpture),
+            id(header.materials, trial.condition.material)};
+}
+
+} // namespace
+
+RecordedOrder recorded_order(const SessionHeader& header) {
+    RecordedOrder order{header.schedule.trials, {}, {}};
+    IncludedTexts included;
+    for (const RecordedProtocol::Included& file : header.protocol.included)
+        included[file.name] = file.text;
+    Diagnostics diagnostics;
+    const std::optional<Protocol> protocol = read_protocol_text(
+        header.protocol.text, "protocol.toml", shipped_sculpture_names(), diagnostics, included);
+    if (!protocol) {
+        order.why_not =
+            "this version of the program cannot use the recorded protocol:\n" + diagnostics.print();
+        return order;
+    }
+    try {
+        order.again = make_schedule(*protocol, header.schedule.observer, header.schedule.seed).trials;
+    } catch (const InputError& error) {
+        order.why_not = error.what();
+        return order;
+    }
+    // A session may have been cut short on purpose: its order is the beginning.
+    if (order.again.size() > order.recorded.size())
+        order.again.resize(order.recorded.size());
+    return order;
+}
+
+std::string to_text(const RecordedOrder& order, const SessionHeader& header) {
+    std::string text;
+    for (const Trial& trial : order.recorded) {
+        const auto [block, task, sculpture, material] = names_of(trial, header);
+        std::string line = fmt::format("{:>5}  {:<12} {:<12} {:<12} {}", trial.index + 1, task, sculpture,
+                                       material, block.empty() ? "" : fmt::format("block {}", block));
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + "\n";
+    }
+    text += "\n";
+    if (order.is_same())
+        return text + fmt::format("made again from the recorded protocol and seed {}: the same\n",
+                                  header.schedule.seed);
+    if (!order.why_not.empty())
+        return text + "cannot be made again: " + order.why_not + "\n";
+    return text + fmt::format("made again from the recorded protocol and seed {}: another order\n",
+                              header.schedule.seed);
+}
+
+nlohmann::ordered_json to_json(const RecordedOrder& order, const SessionHeader& header) {
+    auto trials = nlohmann::ordered_json::array();
+    for (const Trial& trial : order.recorded) {
+        const auto [block, task, sculpture, material] = names_of(trial, header);
+        nlohmann::ordered_json item{{"trial", trial.index + 1}};
+        if (!block.empty())
+            item["block"] = block;
+        item["task"] = task;
+        item["sculpture"] = sculpture;
+        item["material"] = material;
+        trials.push_back(std::move(item));
+    }
+    nlohmann::ordered_json json{{"seed", header.schedule.seed},
+                                {"observer_number", header.schedule.observer.number},
+                                {"comes_out_the_same", order.is_same()},
+                                {"trials", std::move(trials)}};
+    if (!order.why_not.empty())
+        json["why_not"] = order.why_not;
+    return json;
+}
+
+} // namespace overt

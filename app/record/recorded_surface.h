@@ -1,0 +1,41 @@
+/// The surfaces of a recorded session: its meshes and maps, from its own folder.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "experiment/maps/coordinate_image_lookup.h"
+#include "experiment/maps/coordinate_maps.h"
+#include "experiment/record/read/session_record.h"
+
+namespace overt {
+
+/// Loads each sculpture's mesh and maps when it is first asked for. Every one of these throws InputError or
+/// RecordError for damaged or missing files.
+class RecordedSurfaces {
+  public:
+    /// `record` must outlive this.
+    explicit RecordedSurfaces(const SessionRecord& record) : record_(&record) {}
+
+    /// Where gaze on a sculpture goes, be its maps of triangles or of coordinates; null if it has none.
+    const SurfaceLookup* lookup_of(int sculpture);
+    /// The maps of a sculpture with a mesh, or null if it has none.
+    const CoordinateMaps* maps_of(int sculpture);
+    /// Only for a sculpture that maps_of() is not null for.
+    const Mesh& mesh_of(int sculpture) { return surface_of(sculpture).mesh; }
+
+  private:
+    struct Surface {
+        Mesh mesh;
+        std::unique_ptr<CoordinateMaps> maps;          ///< with a mesh
+        std::unique_ptr<CoordinateImageLookup> images; ///< without, if there are maps
+    };
+    Surface& surface_of(int sculpture);
+    void load_maps(Surface& surface, int sculpture) const;
+    void load_images(Surface& surface, int sculpture) const;
+
+    const SessionRecord* record_;
+    std::map<int, std::unique_ptr<Surface>> loaded_;
+};
+
+} // namespace overt

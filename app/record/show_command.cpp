@@ -1,0 +1,189 @@
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/record/record_commands.h"
+#include "app/record/recorded_order.h"
+#include "app/record/recorded_surface.h"
+#include "app/record/timing_plot.h"
+#include "app/record/timing_text.h"
+#include "experiment/base/error.h"
+#include "experiment/record/preview_file.h"
+#include "experiment/record/read/sample_join.h"
+#include "render/stimulus/trial_picture.h"
+
+namespace overt {
+
+namespace {
+
+const TrialRecord& trial_numbered(const SessionRecord& record, int number) {
+    for (const TrialRecord& trial : record.trials()) {
+        if (trial.trial.index + 1 == number && trial.counts)
+            return trial;
+    }
+    throw InputError(fmt::format("{}: has no completed trial {}", record.directory().string(), number));
+}
+
+nlohmann::ordered_json session_json(const SessionRecord& record) {
+    const SessionHeader& header = record.header();
+    auto trials = nlohmann::ordered_json::array();
+    for (const TrialRecord& trial : record.trials()) {
+        const auto sculpture = static_cast<std::size_t>(trial.trial.condition.sculpture);
+        const auto material = static_cast<std::size_t>(trial.trial.condition.material);
+        trials.push_back({{"trial", trial.trial.index + 1},
+                          {"task", header.tasks[static_cast<std::size_t>(trial.trial.task)].id},
+                          {"sculpture", header.sculptures[sculpture].id},
+                          {"material", header.materials[material].id},
+                          {"attempt", trial.attempt},
+                          {"status", name_of(trial.status)},
+                          {"counts", trial.counts},
+                          {"failure", trial.outcome.failure},
+                          {"sitting", trial.sitting},
+                          {"shown_refreshes", trial.outcome.shown_refreshes},
+                          {"missed_refreshes", trial.outcome.missed_refreshes},
+                          {"answer", trial.outcome.answer}});
+    }
+    nlohmann::ordered_json json{
+        {"session", record.directory().string()},      {"protocol", header.protocol.name},
+        {"observer", header.schedule.observer.label},  {"seed", header.schedule.seed},
+        {"closed_in_order", record.closed_in_order()}, {"trials", trials}};
+    if (const auto& light = header.characterisation) {
+        json["characterisation"] = {{"display", light->display},
+                                    {"date", light->date},
+                                    {"sha256", light->sha256},
+                                    {"white_cd_m2", light->white_cd_m2()},
+                                    {"black_cd_m2", light->black_xyz.y}};
+    }
+    json["display_boxes"] = nlohmann::ordered_json::array();
+    for (const auto& [sitting, box] : record.display_boxes()) {
+        nlohmann::ordered_json item{{"sitting", sitting}, {"use", name_of(box.use)}};
+        if (box.use == RecordedBox::Use::box) {
+            item["product"] = box.product;
+            item["serial_number"] = box.serial_number;
+            item["mode"] = box.mode;
+            item["video_rate_hz"] = box.video_rate_hz;
+        }
+        json["display_boxes"].push_back(std::move(item));
+    }
+    return json;
+}
+
+/// An attempt's status, and of one that does not count why.
+std::string fate_of(const TrialRecord& trial) {
+    if (trial.status == TrialRecord::Status::completed)
+        return trial.counts ? "completed" : "superseded";
+    return trial.status == TrialRecord::Status::aborted && !trial.outcome.failure.empty()
+               ? trial.outcome.failure
+               : std::string(name_of(trial.status));
+}
+
+void print_session(const SessionRecord& record) {
+    const nlohmann::ordered_json json = session_json(record);
+    const SessionHeader& header = record.header();
+    fmt::print("{}: observer {}, session {}, seed {}, {} ({})\n", header.protocol.name,
+               header.schedule.observer.label, header.session_number, header.schedule.seed,
+               header.graphics.context, header.graphics.renderer);
+    for (const auto& [sitting, box] : record.display_boxes())
+        fmt::print("display box in sitting {}: {}\n", sitting, describe(box));
+    fmt::print("\n{:>5}  {:<12} {:<12} {:<12} {:<16} {:>9} {:>7}  {}\n", "trial", "task", "sculpture",
+               "material", "status", "refreshes", "missed", "answer");
+    for (std::size_t i = 0; i < record.trials().size(); ++i) {
+        const auto& trial = json["trials"][i];
+        fmt::print("{:>5}  {:<12} {:<12} {:<12} {:<16} {:>9} {:>7}  {}\n", trial["trial"].get<int>(),
+                   trial["task"].get<std::string>(), trial["sculpture"].get<std::string>(),
+                   trial["material"].get<std::string>(), fate_of(record.trials()[i]),
+                   trial["shown_refreshes"].get<int>(), trial["missed_refreshes"].get<int>(),
+                   trial["answer"].get<std::string>());
+    }
+    if (!record.closed_in_order())
+        fmt::print("\nThe session was not closed in order: it is running, or was killed.\n");
+    print_timing(timing_report(record));
+}
+
+void write_plot(const SessionRecord& record, const std::filesystem::path& file) {
+    const SessionHeader& header = record.header();
+    std::ofstream stream(file, std::ios::binary);
+    stream << timing_plot(timing_report(record),
+                          fmt::format("Timing of {}, observer {}, session {}", header.protocol.name,
+                                      header.schedule.observer.label, header.session_number));
+    if (!stream.flush())
+        throw RecordError(fmt::format("{}: cannot be written", file.string()));
+    fmt::print("plot: {}\n", file.string());
+}
+
+/// Half a degree of visual angle, about the accuracy of a good calibration, in the unit of the mesh.
+double kernel_sigma(const SessionHeader& header, int sculpture) {
+    const RecordedSculpture& recorded = header.sculptures[static_cast<std::size_t>(sculpture)];
+    const double depth = glm::distance(recorded.camera.position, recorded.bounds.centre());
+    const double image_height = 2.0 * depth * std::tan(0.5 * to_radians(recorded.camera.vertical_fov).value);
+    return 0.5 * header.display.screen.px_per_deg_at_centre() * image_height /
+           header.display.screen.image_px.y;
+}
+
+void write_picture(const SessionRecord& record, const TrialRecord& trial, const std::filesystem::path& file) {
+    const SessionHeader& header = record.header();
+    const int sculpture = trial.trial.condition.sculpture;
+    RecordedSurfaces surfaces(record);
+    const CoordinateMaps* maps = surfaces.maps_of(sculpture);
+    if (!maps)
+        throw InputError(fmt::format("sculpture «{}» has no map: there is no surface to show gaze on",
+                                     header.sculptures[static_cast<std::size_t>(sculpture)].id));
+    const SampleJoin join(record, trial, maps);
+    std::vector<glm::dvec3> gaze;
+    for (const GazeSample& sample : record.samples(trial)) {
+        const JoinedSample joined = join.join(sample);
+        if (joined.sight.surface)
+            gaze.push_back(joined.sight.surface->position);
+    }
+    const Condition condition = trial.trial.condition;
+    TrialPictureContent content;
+    content.mesh = &surfaces.mesh_of(sculpture);
+    content.maps = maps;
+    content.pose = header.poses.pose_of({0});
+    content.frame =
+        read_linear_image(record.directory() / preview_file(header, condition), FrameEncoding::srgb);
+    content.gaze_on_surface = gaze;
+    content.kernel_sigma = kernel_sigma(header, sculpture);
+    content.frame_caption =
+        fmt::format("{}, {}", header.sculptures[static_cast<std::size_t>(sculpture)].title,
+                    header.materials[static_cast<std::size_t>(condition.material)].title);
+    content.map_caption = "Hidden map: place on the surface as colour";
+    content.gaze_caption =
+        fmt::format("Gaze of trial {}: {} samples on the surface", trial.trial.index + 1, gaze.size());
+    write_srgb_png(file, draw_trial_picture(content));
+    fmt::print("picture: {}\n", file.string());
+}
+
+} // namespace
+
+int run_show(const ShowOptions& options) {
+    const SessionRecord record(options.session);
+    if (!options.picture.empty()) {
+        write_picture(record, trial_numbered(record, options.trial.value_or(1)), options.picture);
+        return 0;
+    }
+    if (!options.plot.empty()) {
+        write_plot(record, options.plot);
+        return 0;
+    }
+    if (options.order) {
+        const RecordedOrder order = recorded_order(record.header());
+        if (options.json)
+            fmt::print("{}\n", to_json(order, record.header()).dump(2));
+        else
+            fmt::print("{}", to_text(order, record.header()));
+        return order.is_same() ? 0 : 1;
+    }
+    if (options.json) {
+        nlohmann::ordered_json json = session_json(record);
+        json["timing"] = to_json(timing_report(record));
+        fmt::print("{}\n", json.dump(2));
+    } else {
+        print_session(record);
+    }
+    return 0;
+}
+
+} // namespace overt

@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/figures.h"
+#include "app/record/record_commands.h"
+#include "experiment/base/counted.h"
+#include "experiment/base/error.h"
+#include "experiment/record/verify/verification.h"
+
+namespace overt {
+
+namespace {
+
+void print(const std::filesystem::path& session, const Verification& found) {
+    for (const Damage& damage : found.damages)
+        fmt::print("damaged: {}\n", to_text(damage));
+    for (const std::string& note : found.notes)
+        fmt::print("note: {}\n", note);
+    const std::string state = found.state == Verification::State::closed ? ""
+                              : found.state == Verification::State::running
+                                  ? ", and running"
+                                  : ", and open: it was interrupted";
+    if (found.is_sound())
+        fmt::print("{}: sound{}; {}, {}, {:.1f} MB\n", session.string(), state, counted(found.seals, "seal"),
+                   counted(found.files, "file"), 1e-6 * static_cast<double>(found.bytes));
+    else
+        fmt::print("{}: damaged in {}{}\n", session.string(), counted(found.damages.size(), "place"), state);
+}
+
+nlohmann::ordered_json to_json(const std::filesystem::path& session, const Verification& found) {
+    auto damages = nlohmann::ordered_json::array();
+    for (const Damage& damage : found.damages) {
+        nlohmann::ordered_json item{{"file", damage.file}};
+        if (!damage.table.empty())
+            item["table"] = damage.table;
+        if (damage.trial_id)
+            item["trial_id"] = *damage.trial_id;
+        if (damage.trial)
+            item["trial"] = *damage.trial + 1;
+        if (damage.attempt)
+            item["attempt"] = *damage.attempt;
+        if (!damage.row.empty())
+            item["row"] = damage.row;
+        item["what"] = damage.what;
+        damages.push_back(std::move(item));
+    }
+    return {{"session", session.string()},   {"sound", found.is_sound()}, {"state", name_of(found.state)},
+            {"seals", found.seals},          {"files", found.files},      {"bytes", found.bytes},
+            {"damages", std::move(damages)}, {"notes", found.notes}};
+}
+
+} // namespace
+
+int run_verify(const VerifyOptions& options) {
+    bool is_missing = false, is_damaged = false;
+    std::size_t places = 0;
+    auto sessions = nlohmann::ordered_json::array();
+    for (const std::filesystem::path& session : options.sessions) {
+        try {
+            const Verification found = verify_session(session);
+            is_damaged |= !found.is_sound();
+            places += found.damages.size();
+            if (options.json)
+                sessions.push_back(to_json(session, found));
+            else
+                print(session, found);
+        } catch (const InputError& error) {
+            is_missing = true;
+            fmt::print(stderr, "overt: {}\n", error.what());
+        }
+    }
+    if (options.json) {
+        nlohmann::ordered_json json =
+            to_json(BenchFigures{at_most("damaged places", static_cast<double>(places), "", 0.0)});
+        json["sessions"] = std::move(sessions);
+        fmt::print("{}\n", json.dump(2));
+    }
+    return is_missing ? 2 : is_damaged ? 1 : 0;
+}
+
+} // namespace overt

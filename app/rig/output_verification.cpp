@@ -1,0 +1,82 @@
+#include "app/rig/output_verification.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+
+namespace overt {
+
+namespace {
+
+std::vector<Condition> distinct_stimuli(const Schedule& schedule) {
+    std::vector<Condition> stimuli;
+    for (const Trial& trial : schedule.trials) {
+        if (std::find(stimuli.begin(), stimuli.end(), trial.condition) == stimuli.end())
+            stimuli.push_back(trial.condition);
+    }
+    return stimuli;
+}
+
+/// What the record says of a page.
+std::string sentence_on(const PageVerification& page, const std::string& stimulus) {
+    const WireFindings& found = page.findings;
+    std::string text = fmt::format("{} page {}: {} of {} values differ from the prediction", stimulus,
+                                   page.page, found.different, found.compared);
+    if (found.different > 0)
+        text += fmt::format(", by {} at most, the first at {}", found.largest_difference, found.first);
+    if (page.clipped.any()) {
+        text += fmt::format(
+            "; of the object's pixels {:.4g} % in red, {:.4g} % in green and {:.4g} % in blue are clipped",
+            100.0 * (page.clipped.share_below(0) + page.clipped.share_above(0)),
+            100.0 * (page.clipped.share_below(1) + page.clipped.share_above(1)),
+            100.0 * (page.clipped.share_below(2) + page.clipped.share_above(2)));
+    }
+    return text + "; wire sha256 " + page.wire_sha256;
+}
+
+} // namespace
+
+std::vector<PageVerification> verify_pages(PagePresenter& presenter, const FrameSource& pages,
+                                           const Condition& condition, const ScreenGeometry& geometry,
+                                           const DisplaySettings& display) {
+    presenter.load_frames(condition);
+    std::vector<PageVerification> verified;
+    for (int page = 0; page < presenter.pages(); ++page) {
+        const LinearImage picture = pages.page(condition, page);
+        const std::vector<std::byte> bytes = presenter.read_page(page);
+        verified.push_back(
+            {page, check_wire({geometry.screen_px, bytes}, display, {&picture, geometry.image_origin_px}),
+             ContentHasher().add_bytes(bytes).finish(), count_clipped(picture, display.background)});
+    }
+    return verified;
+}
+
+void record_verification(PagePresenter& presenter, const FrameSource& pages, const Protocol& protocol,
+                         const Schedule& schedule, const Clock& clock, SessionLog& log,
+                         const StimulusProgress& progress) {
+    const std::vector<Condition> stimuli = distinct_stimuli(schedule);
+    const ScreenGeometry geometry = screen_geometry_of(protocol);
+    std::string first_difference;
+    int done = 0;
+    for (const Condition& stimulus : stimuli) {
+        if (progress)
+            progress(done++, static_cast<int>(stimuli.size()));
+        const std::string name = protocol.sculptures[static_cast<std::size_t>(stimulus.sculpture)].id + "/" +
+                                 protocol.materials[static_cast<std::size_t>(stimulus.material)].id;
+        for (const PageVerification& page :
+             verify_pages(presenter, pages, stimulus, geometry, protocol.display)) {
+            const std::string sentence = sentence_on(page, name);
+            log.event({clock.now(), -1, "output verified", sentence});
+            if (page.findings.different > 0 && first_difference.empty())
+                first_difference = sentence;
+        }
+    }
+    if (progress)
+        progress(done, static_cast<int>(stimuli.size()));
+    if (!first_difference.empty())
+        throw GraphicsError("the display would not receive the stimuli as they are: " + first_difference);
+}
+
+} // namespace overt

@@ -1,0 +1,112 @@
+/// The rig of a session: clock, display, tracker and response panel, built from the protocol and the options,
+/// and handed to the session as the ports it declared.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "app/cli/context_choice.h"
+#include "devices/simulated/simulated_eye_tracker.h"
+#include "devices/simulated/simulated_observer.h"
+#include "devices/simulated/simulated_response_panel.h"
+#include "experiment/record/session_header.h"
+#include "render/presenter/page_presenter.h"
+#include "render/stimulus/live_maps.h"
+#include "render/stimulus/stimulus_library.h"
+#include "render/vblank/display_surface.h"
+#include "render/window/screen_check.h"
+#include "render/window/window_response_panel.h"
+
+namespace overt {
+
+/// When the hidden maps are drawn: before the session, or while their frames are shown.
+enum class MapTime { automatic, prepared, live };
+
+struct RigRequest {
+    ContextChoice context;
+    bool virtual_time = false;
+    bool windowed = false;
+    bool simulate_observer = false; ///< else somebody answers at the window's keyboard
+    std::uint64_t seed = 0;         ///< of everything simulated
+    MapTime maps = MapTime::automatic;
+    std::optional<int> monitor = {};                     ///< from 1; see WindowRequest
+    std::vector<ScriptedOperatorKey> operator_keys = {}; ///< of a simulated observer's session
+};
+
+/// Whether a session with these options opens a window on this machine.
+bool wants_window(ContextChoice context);
+
+class Rig {
+  public:
+    /// `protocol` and `sculptures` must outlive the rig. Opens the display and starts the clock. Throws
+    /// GraphicsError, also for a screen that would not show what the protocol says, or InputError for a
+    /// request that makes no sense on this machine.
+    Rig(const Protocol& protocol, std::span<const Sculpture> sculptures, const RigRequest& request,
+        const std::filesystem::path& cache);
+
+    const GlContext& context() const { return *context_; }
+    StimulusLibrary& library() { return library_; }
+    Clock& clock() { return *clock_; }
+    ClockKind clock_kind() const {
+        return request_.virtual_time ? ClockKind::virtual_time : ClockKind::steady;
+    }
+
+    /// A screen lights what is shown, for as long as it should be.
+    bool is_on_a_real_screen() const { return window_ != nullptr && !request_.virtual_time; }
+
+    /// What may spoil the signal on its way to the light; nothing unless is_on_a_real_screen().
+    const std::vector<ScreenFinding>& screen_findings() const { return screen_findings_; }
+
+    /// Whether the hidden maps are drawn while their frames are shown; else they are to be prepared.
+    bool maps_are_live() const;
+
+    /// Makes presenter, tracker and panel. To be called once, when all stimuli are prepared: the session
+    /// clock starts here, with `start`. `faults`: what goes wrong with a display that only keeps time. Throws
+    /// InputError for faults of a real screen in real time.
+    void open(DisplayFaults faults = {}, SessionTime start = {});
+
+    /// Shows a dark screen for so many seconds, watches its refreshes, and adds what it finds to
+    /// screen_findings(); gives what was added. Only on a real screen, once open. Throws GraphicsError for a
+    /// refresh that is not the protocol's.
+    std::vector<ScreenFinding> check_timing(double seconds,
+                                            const std::function<void(int done, int total)>& progress);
+
+    PagePresenter& presenter() { return *presenter_; }
+    EyeTracker& tracker() { return *tracker_; }
+    ResponsePanel& panel() { return *panel_; }
+    /// Who looks and speaks; also there where somebody real sits, who then is not asked.
+    const SimulatedObserver& simulated_observer() const { return *observer_; }
+    /// Keys of the simulated operator that the session had no moment for.
+    std::vector<std::string> operator_keys_not_pressed() const {
+        return simulated_panel_ ? simulated_panel_->not_pressed() : std::vector<std::string>();
+    }
+    /// What keeps the time of a display that is not there, or null.
+    const VirtualRefresh* virtual_refresh() const { return virtual_refresh_; }
+    /// Those who see what is shown: the simulated observer, the hidden pass if it is live, and the display's
+    /// faults.
+    std::vector<DisplayWitness*> witnesses();
+    LiveMaps* live_maps() { return live_maps_.get(); } ///< null unless maps_are_live()
+
+  private:
+    const Protocol* protocol_;
+    std::span<const Sculpture> sculptures_;
+    RigRequest request_;
+    // Objects of OpenGL go before the context they live in.
+    std::unique_ptr<GlContext> context_;
+    WindowContext* window_ = nullptr; ///< the context, if it is a window
+    std::vector<ScreenFinding> screen_findings_;
+    StimulusLibrary library_;
+    std::unique_ptr<Clock> clock_;
+    std::unique_ptr<DisplaySurface> surface_;
+    WindowDisplay* window_display_ = nullptr;   ///< the surface, if it is a window
+    VirtualRefresh* virtual_refresh_ = nullptr; ///< the surface's
+    std::unique_ptr<PagePresenter> presenter_;
+    std::unique_ptr<LiveMaps> live_maps_;
+    std::unique_ptr<SimulatedObserver> observer_;
+    std::unique_ptr<SimulatedEyeTracker> tracker_;
+    std::unique_ptr<SimulatedResponsePanel> simulated_panel_;
+    std::unique_ptr<WindowResponsePanel> window_panel_;
+    ResponsePanel* panel_ = nullptr;
+};
+
+} // namespace overt

@@ -1,0 +1,229 @@
+#include "app/session/resumed_session.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiment/base/counted.h"
+#include "experiment/base/error.h"
+#include "experiment/base/folder_lock.h"
+#include "experiment/design/trial_queue.h"
+#include "experiment/record/manifest.h"
+#include "experiment/record/read/session_record.h"
+#include "experiment/record/session_file.h"
+#include "experiment/record/session_schema.h"
+#include "experiment/record/write/row_writer.h"
+
+namespace overt {
+
+namespace {
+
+/// What may have been lost when the program was killed, and more.
+constexpr SessionDuration clock_leap = std::chrono::seconds(1);
+
+std::filesystem::path session_to_take_up(const SessionPlace& place, std::optional<int> number) {
+    const std::vector<int> numbers = session_numbers(place);
+    const std::string whose =
+        fmt::format("observer {} in {}", place.observer_label, (place.root / place.protocol_name).string());
+    if (numbers.empty())
+        throw InputError(
+            fmt::format("{}: there is no session to go on with. Run one without --resume.", whose));
+    if (number) {
+        if (!std::binary_search(numbers.begin(), numbers.end(), *number))
+            throw InputError(fmt::format("{}: there is no session {}; there is {}.", whose, *number,
+                                         fmt::join(numbers, ", ")));
+        return session_path(place, *number);
+    }
+    for (auto last = numbers.rbegin(); last != numbers.rend(); ++last) {
+        std::filesystem::path folder = session_path(place, *last);
+        if (!SessionRecord(folder).is_complete())
+            return folder;
+    }
+    throw InputError(
+        fmt::format("{}: no session was interrupted: {} {} complete. The next one is run without "
+                    "--resume.",
+                    whose, fmt::join(numbers, ", "), numbers.size() == 1 ? "is" : "are"));
+}
+
+/// Only the very texts it was begun with: another order or other screens would make two halves of nothing.
+void require_same_protocol(const std::filesystem::path& folder, const RecordedProtocol& recorded,
+                           const Protocol& now) {
+    std::string changed;
+    if (recorded.sha256 != hash_of_text(now.text))
+        changed = "the protocol";
+    for (const RecordedProtocol::Included& file : recorded.included) {
+        const auto same =
+            std::find_if(now.included.begin(), now.included.end(), [&](const IncludedText& text) {
+                return text.name == file.name && hash_of_text(text.text) == file.sha256;
+            });
+        if (changed.empty() && same == now.included.end())
+            changed = fmt::format("the included file {}", file.name);
+    }
+    if (!changed.empty())
+        throw InputError(
+            fmt::format("{}: {} has changed since this session was begun, so that it cannot go on. "
+                        "The text it was begun with lies in {}: put it back, or begin another "
+                        "session without --resume.",
+                        folder.string(), changed, (folder / "protocol.toml").string()));
+}
+
+/// An imported session is complete in itself, and a copy with imported gaze is one of the session that may go
+/// on.
+void refuse_imported(const SessionRecord& record) {
+    const std::string folder = record.directory().string();
+    const int sittings = 1 + static_cast<int>(record.resumptions().size());
+    for (int sitting = 1; sitting <= sittings; ++sitting) {
+        const std::optional<GazeSource> source = record.gaze_source(sitting);
+        if (source && record.header().stimuli.empty())
+            throw InputError(fmt::format("{}: this session was imported from {}: there is nothing to go on "
+                                         "with. Name the one that is meant with --session.",
+                                         folder, source->file));
+        if (source)
+            throw InputError(fmt::format("{}: this is a copy of a session, with the gaze of {}, and is not "
+                                         "gone on with. Go on with the session itself, and import again.",
+                                         folder, source->file));
+    }
+}
+
+void require_same_run(const std::filesystem::path& folder, const SessionHeader& header,
+                      const RunOptions& options) {
+    if (options.seed && *options.seed != header.schedule.seed)
+        throw InputError(fmt::format("{}: this session has the seed {}: leave --seed out, or give that.",
+                                     folder.string(), header.schedule.seed));
+    if ((header.clock == ClockKind::virtual_time) != options.virtual_time)
+        throw InputError(fmt::format("{}: this session was begun {} --virtual-time, and goes on so.",
+                                     folder.string(), options.virtual_time ? "without" : "with"));
+}
+
+/// What the policy makes of the record's last trial.
+Resumption resumption_of(const SessionRecord& record, const Protocol& protocol, const SessionSoFar& so_far,
+                         ResumePolicy policy) {
+    TrialQueue queue(protocol, record.header().schedule);
+    queue.go_through(so_far.steps);
+    const ResumeEffect effect = queue.resume(policy);
+    Resumption resumption{policy, effect.given_up, {}, {}};
+    if (!effect.restarted_block)
+        return resumption;
+    for (const TrialRecord& attempt : record.trials())
+        if (attempt.trial.block == *effect.restarted_block)
+            resumption.superseded.push_back(attempt.id);
+    for (const Trial& trial : record.header().schedule.trials)
+        if (trial.block == *effect.restarted_block)
+            resumption.restarted.push_back(trial.index);
+    return resumption;
+}
+
+/// Whether the observer has agreed and filled in the form, as far as there is anything to.
+bool is_opened(const SessionRecord& record, const Protocol& protocol) {
+    const std::vector<RecordedConsent> consents = record.consents();
+    return (protocol.consent.text.empty() || (!consents.empty() && consents.back().accepted)) &&
+           (protocol.observer_fields.empty() || !record.observer_fields().empty());
+}
+
+void say_where_it_stands(const ResumedSession& session, const SessionSoFar& before) {
+    const SessionHeader& header = session.header;
+    fmt::print("resuming session {} of observer {}: {}\n", header.session_number,
+               header.schedule.observer.label, session.folder.string());
+    fmt::print("{} of {} are done", before.counted_trials, counted(header.schedule.trials.size(), "trial"));
+    const Resumption& resumption = session.resumption;
+    const auto last = std::find_if(before.steps.rbegin(), before.steps.rend(), [](const PastStep& step) {
+        return step.kind == PastStep::Kind::trial || step.kind == PastStep::Kind::resumed;
+    });
+    const bool was_interrupted = last != before.steps.rend() && last->kind == PastStep::Kind::trial &&
+                                 last->fate == AttemptFate::interrupted;
+    if (!resumption.restarted.empty())
+        fmt::print("; a block of {} begins again with its first\n",
+                   counted(resumption.restarted.size(), "trial"));
+    else if (resumption.given_up)
+        fmt::print("; trial {} was interrupted, and is given up\n", *resumption.given_up + 1);
+    else if (was_interrupted)
+        fmt::print("; trial {} was interrupted, and is done again\n", last->trial + 1);
+    else
+        fmt::print("; no trial was running\n");
+}
+
+} // namespace
+
+bool finish_manifest(const RunOptions& options, const SessionPlace& place) {
+    const std::vector<int> numbers = session_numbers(place);
+    if (numbers.empty())
+        return false;
+    const std::filesystem::path folder = session_path(place, options.session_number.value_or(numbers.back()));
+    if (!std::filesystem::exists(folder) || FolderLock(folder, FolderLock::Patience::none).is_refused() ||
+        !SessionRecord(folder).is_complete())
+        return false;
+    try {
+        if (read_manifest(folder).is_closed)
+            return false;
+    } catch (const RecordError&) {
+        return false; // damaged, or of an earlier program: overt verify says which
+    }
+    if (!fold_session_file(folder / session_file_name) || !close_manifest(folder))
+        throw InputError(fmt::format("{}: all trials are done, but another program has the session open, so "
+                                     "that its manifest cannot be finished: close it there, and run this "
+                                     "again.",
+                                     folder.string()));
+    fmt::print("{}: all trials were done; the manifest is finished now\n", folder.string());
+    return true;
+}
+
+ResumedSession take_up_session(const RunOptions& options, const SessionPlace& place,
+                               const Protocol& protocol) {
+    const std::filesystem::path folder = session_to_take_up(place, options.session_number);
+    // Somebody who runs it just now is found out before minutes are spent.
+    { const SessionLock nobody_else(folder); }
+    const SessionRecord record(folder);
+    refuse_imported(record);
+    if (record.is_complete())
+        throw InputError(
+            fmt::format("{}: this session is complete: there is nothing to go on with.", folder.string()));
+    require_same_protocol(folder, record.header().protocol, protocol);
+    require_same_run(folder, record.header(), options);
+
+    const SessionSoFar before = record.so_far();
+    ResumedSession session{folder, record.header(), before, {}, {}};
+    session.so_far.is_opened = is_opened(record, protocol);
+    session.resumption = resumption_of(record, protocol, before, *options.resume);
+    session.so_far.steps.push_back({PastStep::Kind::resumed, -1, {}, *options.resume});
+    session.so_far.counted_trials -= static_cast<int>(
+        std::count_if(record.trials().begin(), record.trials().end(), [&](const TrialRecord& attempt) {
+            const auto& superseded = session.resumption.superseded;
+            return attempt.counts &&
+                   std::find(superseded.begin(), superseded.end(), attempt.id) != superseded.end();
+        }));
+    session.clock_start = record.last_time() + clock_leap;
+    say_where_it_stands(session, before);
+    return session;
+}
+
+void require_same_stimuli(const ResumedSession& session, const SessionHeader& now) {
+    const SessionHeader& then = session.header;
+    std::vector<std::string> changed;
+    for (std::size_t i = 0; i < std::min(then.sculptures.size(), now.sculptures.size()); ++i)
+        if (then.sculptures[i].mesh_sha256 != now.sculptures[i].mesh_sha256)
+            changed.push_back("the mesh of " + then.sculptures[i].id);
+    for (const RecordedStimulus& stimulus : then.stimuli) {
+        const auto same =
+            std::find_if(now.stimuli.begin(), now.stimuli.end(), [&](const RecordedStimulus& other) {
+                return other.condition == stimulus.condition && other.frames_sha256 == stimulus.frames_sha256;
+            });
+        if (same == now.stimuli.end())
+            changed.push_back(
+                fmt::format("the frames of {}/{}",
+                            then.sculptures[static_cast<std::size_t>(stimulus.condition.sculpture)].id,
+                            then.materials[static_cast<std::size_t>(stimulus.condition.material)].id));
+    }
+    const auto light_of = [](const SessionHeader& header) {
+        return header.characterisation ? header.characterisation->sha256 : ContentHash();
+    };
+    if (light_of(then) != light_of(now))
+        changed.emplace_back("the display's characterisation");
+    if (!changed.empty())
+        throw InputError(fmt::format("{}: what would be shown is not what this session was begun with: {} "
+                                     "changed. Put back the files (and give the same --quality), or begin "
+                                     "another session without --resume.",
+                                     session.folder.string(), fmt::join(changed, ", ")));
+}
+
+} // namespace overt

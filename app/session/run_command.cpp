@@ -1,0 +1,269 @@
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "app/cli/cache_folder.h"
+#include "app/cli/interruption.h"
+#include "app/cli/progress_bar.h"
+#include "app/cli/this_program.h"
+#include "app/inputs/protocol_file.h"
+#include "app/inputs/protocol_inputs.h"
+#include "app/rig/answer_equipment.h"
+#include "app/rig/display_box_session.h"
+#include "app/rig/output_verification.h"
+#include "app/rig/rig.h"
+#include "app/session/session_commands.h"
+#include "app/session/session_plan.h"
+#include "app/session/session_recording.h"
+#include "app/session/session_talk.h"
+#include "devices/host/thread_priority.h"
+#include "experiment/base/error.h"
+#include "experiment/design/schedule.h"
+#include "experiment/record/read/timing_report.h"
+#include "experiment/record/session_schema.h"
+#include "experiment/record/write/session_store.h"
+#include "experiment/session/session.h"
+
+namespace overt {
+
+namespace {
+
+/// Draws and renders what the cache lacks. Ctrl-C ends it with what is finished.
+void prepare_stimuli(Rig& rig, const RunOptions& options) {
+    ProgressBar bar;
+    const Progress show = [&](std::string_view what, int done, int total, double share) {
+        bar.update(what, done, total, share);
+        if (Interruption::requested())
+            throw Error(
+                "interrupted while the stimuli were made ready: no trial was begun. What was finished "
+                "is kept, and the same command goes on from there.");
+    };
+    if (!rig.maps_are_live())
+        rig.library().prepare_maps(show);
+    rig.library().prepare_given_maps(show);
+    rig.library().prepare_frames(show, options.quality);
+}
+
+void check_timing(Rig& rig, double seconds) {
+    ProgressBar bar;
+    const std::vector<ScreenFinding> findings = rig.check_timing(
+        seconds, [&](int done, int total) { bar.update("measuring the screen's refresh, s", done, total); });
+    bar.finish();
+    for (const ScreenFinding& finding : findings)
+        if (finding.what == "measured refresh" || finding.what == "vertical blank")
+            fmt::print("{}: {}\n", finding.what, finding.finding);
+    say_risks(findings);
+}
+
+/// So that nobody takes the session for one on a real display.
+void note_faults(const std::filesystem::path& file, const Clock& clock, SessionStore& store) {
+    if (file.empty())
+        return;
+    std::ifstream stream(file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    store.event({clock.now(), -1, simulated_faults_event, text});
+    fmt::print("display: with the simulated faults of {}\n", file.string());
+}
+
+void note_struck(const VirtualRefresh& display, const Trial& trial, const Clock& clock, SessionStore& store) {
+    for (const DisplayFault& fault : display.struck()) {
+        const bool skips = fault.kind == DisplayFault::Kind::skip;
+        store.event({clock.now(), trial.index, "display fault",
+                     skips ? fmt::format("skip of {} at refresh {}", fault.refreshes, fault.refresh)
+                           : fmt::format("{} by {:.3f} ms at refresh {}", name_of(fault.kind),
+                                         fault.amount_ms, fault.refresh)});
+    }
+}
+
+std::vector<ScriptedOperatorKey> operators_keys(const RunOptions& options, const OperatorSettings& settings) {
+    if (!options.operator_keys.empty() && !options.simulate_observer)
+        throw InputError("--simulate-operator is for sessions with --simulate-observer");
+    std::vector<ScriptedOperatorKey> keys;
+    for (const std::string& key : options.operator_keys)
+        keys.push_back(read_operator_key(key, static_cast<int>(settings.skip_reasons.size())));
+    return keys;
+}
+
+void note_thread(const std::vector<ThreadWish>& wishes, const Clock& clock, SessionStore& store) {
+    for (const ThreadWish& wish : wishes) {
+        const std::string answer =
+            fmt::format("{}: {}{}", wish.what, wish.granted ? "" : "refused: ", wish.detail);
+        store.event({clock.now(), -1, "thread", answer});
+        fmt::print(wish.granted ? stdout : stderr, "{}\n", answer);
+    }
+}
+
+/// Who the box is, if the session goes through one; found before anything is drawn.
+struct FoundBox {
+    RecordedBox::Use use = RecordedBox::Use::no_mode;
+    std::optional<BoxIdentity> identity;
+};
+
+FoundBox find_box(const DisplaySettings& display, const RunOptions& options) {
+    switch_back_what_was_left();
+    const BoxPlan plan = plan_box(display, wants_window(options.context), options.virtual_time);
+    if (plan.use != RecordedBox::Use::box)
+        return {plan.use, {}};
+    return {plan.use, require_box(plan)};
+}
+
+/// The display box as the session has it.
+class BoxInUse {
+  public:
+    /// Switches the box that was found, now that the display is open, and says so.
+    BoxInUse(const FoundBox& found, const DisplaySettings& display, Rig& rig) {
+        recorded_.use = found.use;
+        if (found.identity) {
+            fmt::print("display box: switching {} at {} …\n", found.identity->product, found.identity->port);
+            session_.emplace(*found.identity, display, rig.clock(), rig.presenter());
+            recorded_ = session_->recorded();
+        }
+        fmt::print("display box: {}\n", describe(recorded_));
+    }
+
+    void write_beginning(SessionStore& store) {
+        if (session_)
+            session_->write_beginning(store);
+        else
+            store.display_box(recorded_);
+    }
+    void check(SessionStore& store) {
+        if (session_)
+            session_->check(store);
+    }
+    void leave(SessionStore& store) {
+        if (session_)
+            session_->leave(store);
+    }
+
+  private:
+    RecordedBox recorded_;
+    std::optional<DisplayBoxSession> session_;
+};
+
+/// The session's folder with all that stands fixed; a resumed session has it already.
+struct SessionFolder {
+    std::filesystem::path path;
+    SessionHeader header;
+    std::string started_utc; ///< of this sitting
+};
+
+SessionFolder open_folder(const RunOptions& options, const SessionPlace& place, const Experiment& experiment,
+                          const SessionPlan& plan, Rig& rig) {
+    SessionHeader now = make_session_header(
+        experiment.protocol, plan.schedule, experiment.sculptures, rig.library(), rig.context().description(),
+        rig.tracker().description(), rig.clock_kind(), !rig.maps_are_live());
+    if (plan.resumed) {
+        require_same_stimuli(*plan.resumed, now);
+        reopen_manifest(plan.resumed->folder, plan.resumed->header, this_program());
+        return {plan.resumed->folder, plan.resumed->header, now.started_utc};
+    }
+    SessionDirectory directory(place, options.session_number);
+    now.session_number = directory.session_number();
+    put_files(directory, now, experiment.sculptures, rig.library());
+    directory.publish();
+    const std::string started_utc = now.started_utc;
+    return {directory.path(), std::move(now), started_utc};
+}
+
+SessionStore::Options store_options(const RunOptions& options, const SessionPlan& plan,
+                                    const SessionFolder& folder) {
+    return {.wait_when_full = options.virtual_time,
+            .ring_capacity = 65536,
+            .started_utc = folder.started_utc,
+            .program_version = this_program().version,
+            .program_sha256 = this_program().sha256,
+            .resumption = plan.resumed ? std::optional(plan.resumed->resumption) : std::nullopt};
+}
+
+/// What the record must know of the machine before the first trial.
+void note_circumstances(const RunOptions& options, const Protocol& protocol, const Schedule& schedule,
+                        Rig& rig, SessionStore& store) {
+    for (const ScreenFinding& finding : rig.screen_findings())
+        store.event({rig.clock().now(), -1, "screen", fmt::format("{}: {}", finding.what, finding.finding)});
+    if (options.verify_output) {
+        ProgressBar bar;
+        record_verification(rig.presenter(), rig.library(), protocol, schedule, rig.clock(), store,
+                            [&](int done, int total) { bar.update("verifying the output", done, total); });
+    }
+}
+
+} // namespace
+
+int run_session(const RunOptions& options) {
+    const Observer observer = observer_labelled(options.observer);
+    const Experiment experiment =
+        read_experiment_or_report(options.protocol, cache_folder(), InputDepth::everything);
+    const Protocol& protocol = experiment.protocol;
+    // What would refuse the session at its end is said before anything is drawn.
+    const SessionPlace place{options.sessions, protocol.name, observer.label};
+    if (options.resume && finish_manifest(options, place))
+        return 0;
+    const SessionPlan plan = plan_session(options, place, protocol, observer);
+    const FoundBox found_box = find_box(protocol.display, options);
+
+    Rig rig(protocol, experiment.sculptures,
+            {options.context, options.virtual_time, options.windowed, options.simulate_observer.has_value(),
+             seed_of_simulated(options, plan), options.maps, options.monitor,
+             operators_keys(options, protocol.operators)},
+            cache_folder());
+    say_before(protocol, plan.schedule, rig.context().description(), options);
+    say_risks(rig.screen_findings());
+    const Interruption interruption;
+    prepare_stimuli(rig, options);
+    say_frames(rig.library());
+    rig.open(plan.faults, plan.resumed ? plan.resumed->clock_start : SessionTime());
+    if (rig.is_on_a_real_screen() && options.refresh_check_s > 0.0)
+        check_timing(rig, options.refresh_check_s);
+    rig.presenter().close_on(Interruption::requested());
+    BoxInUse box(found_box, protocol.display, rig);
+    AnswerEquipment answers(protocol.answers, rig.clock(),
+                            options.simulate_observer ? &rig.simulated_observer() : nullptr,
+                            seed_of_simulated(options, plan));
+    fmt::print("spoken answers: {}\n", answers.description());
+
+    const SessionFolder folder = open_folder(options, place, experiment, plan, rig);
+    SessionStore store(folder.path / session_file_name, store_options(options, plan, folder));
+    box.write_beginning(store);
+    note_circumstances(options, protocol, plan.schedule, rig, store);
+    answers.keep_in(folder.path);
+    store.event({rig.clock().now(), -1, "answer recording", answers.description()});
+    Session session(protocol, plan.schedule, screen_geometry_of(protocol).centre(),
+                    {.clock = rig.clock(),
+                     .presenter = rig.presenter(),
+                     .tracker = rig.tracker(),
+                     .panel = rig.panel(),
+                     .log = store,
+                     .witnesses = rig.witnesses(),
+                     .observer = observer.label,
+                     .can_type = !options.simulate_observer && options.ask_at == AskAt::window,
+                     .recorder = answers.recorder(),
+                     .on_level = answers.meter()},
+                    plan.fields);
+    TrialProgress progress(protocol, static_cast<int>(plan.schedule.trials.size()));
+    note_faults(options.faults, rig.clock(), store);
+    note_thread(prepare_thread({options.realtime, options.processor}), rig.clock(), store);
+    const SessionResult result = session.run(
+        [&](const Trial& trial, const TrialOutcome& outcome, int done) {
+            if (LiveMaps* live = rig.live_maps())
+                record_live_maps(live->take_finished(), folder.path, folder.header, store);
+            progress(trial, outcome, done);
+            if (const VirtualRefresh* display = rig.virtual_refresh())
+                note_struck(*display, trial, rig.clock(), store);
+            box.check(store);
+        },
+        plan.resumed ? plan.resumed->so_far : SessionSoFar());
+    progress.finish();
+    box.leave(store);
+    store.close();
+    if (!close_manifest(folder.path))
+        fmt::print(stderr,
+                   "the session is recorded, but its manifest is not finished, for another program has "
+                   "session.sqlite open, or the disk is full: afterwards overt run … --resume finishes it\n");
+    for (const std::string& key : rig.operator_keys_not_pressed())
+        fmt::print(stderr, "--simulate-operator {}: was not pressed: the session had no such moment\n", key);
+    say_after(options, result, store.lost(), plan.schedule, folder.path);
+    return result.aborted ? 1 : 0;
+}
+
+} // namespace overt

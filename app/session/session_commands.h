@@ -1,0 +1,52 @@
+/// The command that runs a session. Each takes its options and gives the exit code, 0 done, 1 failed. Bad
+/// input is thrown as InputError, which main turns into exit code 2.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/chosen_command.h"
+#include "app/cli/context_choice.h"
+#include "app/rig/rig.h"
+#include "experiment/ports/past_step.h"
+#include "experiment/protocol/protocol.h"
+
+namespace overt {
+
+/// Adds it to the command line.
+void add_session_commands(CLI::App& app, ChosenCommand& chosen);
+
+/// Where the observer's form is filled in as far as the command line does not.
+enum class AskAt { window, terminal, nobody };
+
+struct RunOptions {
+    std::filesystem::path protocol;
+    std::string observer;
+    std::optional<int> session_number;
+    std::optional<ResumePolicy> resume; ///< take up an interrupted session: this one, or the last there is
+    std::optional<std::uint64_t> seed;
+    std::optional<std::uint64_t> simulate_observer;
+    std::vector<std::string> observer_fields; ///< ID=VALUE
+    AskAt ask_at = AskAt::window;
+    std::vector<std::string> operator_keys; ///< of a simulated operator, see read_operator_key()
+    ContextChoice context;
+    bool virtual_time = false;
+    bool windowed = false;
+    std::filesystem::path sessions = "sessions";
+    std::optional<int> trials; ///< only the first so many
+    MapTime maps = MapTime::automatic;
+    bool verify_output = false;   ///< decode every page before the first trial
+    std::filesystem::path faults; ///< of a display that only keeps time; empty: none
+    bool realtime = false;        ///< ask for priority and locked memory
+    std::optional<int> processor; ///< the only one for the session's thread
+    std::filesystem::path print_session_to;
+    std::optional<int> monitor;         ///< from 1
+    double refresh_check_s = 5.0;       ///< measure a real screen's refresh for so long; 0: take its word
+    std::optional<BakeQuality> quality; ///< that the frames have at least; nothing: the protocol's
+};
+int run_session(const RunOptions& options);
+
+} // namespace overt

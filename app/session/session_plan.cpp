@@ -1,0 +1,108 @@
+#include "app/session/session_plan.h"
+
+#include <iostream>
+#include <random>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "app/inputs/protocol_file.h"
+#include "app/rig/rig.h"
+#include "experiment/base/error.h"
+#include "experiment/base/folder_lock.h"
+#include "experiment/design/schedule.h"
+#include "experiment/record/read/session_record.h"
+
+namespace overt {
+
+namespace {
+
+std::uint64_t fresh_seed() {
+    std::random_device device;
+    return (std::uint64_t{device()} << 32) | device();
+}
+
+Schedule new_schedule(const RunOptions& options, const Protocol& protocol, const Observer& observer) {
+    const std::uint64_t seed = options.seed             ? *options.seed
+                               : protocol.schedule.seed ? *protocol.schedule.seed
+                                                        : fresh_seed();
+    Schedule schedule = make_schedule(protocol, observer, seed);
+    if (options.trials && *options.trials < static_cast<int>(schedule.trials.size()))
+        schedule.trials.resize(static_cast<std::size_t>(*options.trials));
+    return schedule;
+}
+
+/// Whoever begins another session may have meant to go on with the last one.
+void mention_interrupted(const SessionPlace& place) {
+    for (const int number : session_numbers(place)) {
+        try {
+            const std::filesystem::path folder = session_path(place, number);
+            const SessionRecord record(folder);
+            const bool is_imported = record.header().stimuli.empty();
+            if (record.is_complete() || is_imported ||
+                FolderLock(folder, FolderLock::Patience::none).is_refused())
+                continue;
+            fmt::print(
+                stderr,
+                "observer {}: session {} was interrupted, and this is a new one: --resume --session {} "
+                "goes on with that\n",
+                place.observer_label, number, number);
+        } catch (const Error&) {
+            continue; // what cannot be read is nothing to go on with
+        }
+    }
+}
+
+/// The faults of --faults, or none. What is wrong with the file is printed, with its places.
+DisplayFaults read_faults_or_report(const std::filesystem::path& file) {
+    if (file.empty())
+        return {};
+    Diagnostics diagnostics;
+    const std::optional<DisplayFaults> faults = read_fault_file(file, diagnostics);
+    print_findings(diagnostics);
+    if (!faults)
+        throw FindingsPrinted(fmt::format("{}: no session was begun", file.string()));
+    return *faults;
+}
+
+/// The form as far as it is filled in outside of the window. Throws InputError for what is missing where
+/// nobody can be asked.
+FieldValues fill_in_form(const Protocol& protocol, const RunOptions& options) {
+    const std::span<const ObserverFieldSettings> fields = protocol.observer_fields;
+    FieldValues values = values_given(fields, options.observer_fields);
+    if (options.simulate_observer)
+        simulate_values(fields, values, *options.simulate_observer);
+    const bool has_window = wants_window(options.context), has_terminal = ::isatty(STDIN_FILENO) == 1;
+    const bool asks_in_window = options.ask_at == AskAt::window && has_window && !options.simulate_observer;
+    if (!options.simulate_observer && has_terminal &&
+        (options.ask_at == AskAt::terminal || (options.ask_at == AskAt::window && !has_window)))
+        ask_for_values(fields, values, std::cin, std::cerr);
+    if (!asks_in_window)
+        require_values(fields, values);
+    return values;
+}
+
+} // namespace
+
+SessionPlan plan_session(const RunOptions& options, const SessionPlace& place, const Protocol& protocol,
+                         const Observer& observer) {
+    SessionPlan plan;
+    if (options.resume)
+        plan.resumed = take_up_session(options, place, protocol);
+    else {
+        check_session_place(place, options.session_number);
+        mention_interrupted(place);
+    }
+    plan.faults = read_faults_or_report(options.faults);
+    // Whoever goes on was asked already.
+    if (!plan.resumed || !plan.resumed->so_far.is_opened)
+        plan.fields = fill_in_form(protocol, options);
+    plan.schedule = plan.resumed ? plan.resumed->header.schedule : new_schedule(options, protocol, observer);
+    return plan;
+}
+
+std::uint64_t seed_of_simulated(const RunOptions& options, const SessionPlan& plan) {
+    return options.simulate_observer.value_or(plan.schedule.seed);
+}
+
+} // namespace overt

@@ -1,0 +1,225 @@
+#include "app/session/session_recording.h"
+
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "app/cli/this_program.h"
+#include "experiment/base/error.h"
+#include "experiment/base/parallel.h"
+#include "experiment/protocol/protocol_keys.h"
+#include "experiment/record/header_rows.h"
+#include "experiment/scene/ply_writer.h"
+
+namespace overt {
+
+namespace {
+
+void copy_into(const std::filesystem::path& from, const std::filesystem::path& to) {
+    std::error_code error;
+    std::filesystem::create_directories(to.parent_path(), error);
+    if (!error)
+        std::filesystem::copy_file(from, to, error);
+    if (error)
+        throw RecordError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream stream(file, std::ios::binary);
+    stream << text;
+    if (!stream.flush())
+        throw RecordError(fmt::format("{}: cannot be written", file.string()));
+}
+
+std::string map_name(const std::string& sculpture, PoseIndex pose) {
+    return fmt::format("maps/{}/pose_{:02}.exr", sculpture, pose.value);
+}
+
+void add_prepared_maps(SessionHeader& header, const std::string& id, int sculpture,
+                       const StimulusLibrary& library) {
+    const auto kind =
+        library.has_given_maps(sculpture) ? RecordedMap::Kind::coordinates : RecordedMap::Kind::triangles;
+    for (int pose = 0; pose < static_cast<int>(library.poses().angles.size()); ++pose) {
+        header.maps.push_back({sculpture,
+                               {pose},
+                               map_name(id, {pose}),
+                               hash_of_file(library.map_file(sculpture, {pose})),
+                               RecordedMap::Made::prepared,
+                               kind});
+    }
+}
+
+void describe_sculptures(SessionHeader& header, const Protocol& protocol,
+                         std::span<const Sculpture> sculptures, const StimulusLibrary& library,
+                         bool with_prepared_maps) {
+    for (std::size_t i = 0; i < sculptures.size(); ++i) {
+        const Sculpture& sculpture = sculptures[i];
+        RecordedSculpture recorded;
+        recorded.id = sculpture.id;
+        recorded.title = protocol.sculptures[i].title;
+        recorded.mesh_sha256 = sculpture.mesh_hash;
+        recorded.part_names = sculpture.mesh.part_names;
+        if (sculpture.has_mesh()) {
+            recorded.mesh_file = fmt::format("meshes/{}.ply", sculpture.id);
+            recorded.camera = sculpture.scene.view.camera;
+            recorded.bounds = sculpture.scene.bounds;
+            recorded.axis_point = sculpture.scene.bounds.centre();
+            if (with_prepared_maps)
+                add_prepared_maps(header, recorded.id, static_cast<int>(i), library);
+        } else if (library.has_given_maps(static_cast<int>(i))) {
+            const SceneView scene = library.scene_of_given_maps(static_cast<int>(i));
+            recorded.camera = scene.view.camera;
+            recorded.bounds = scene.bounds;
+            recorded.axis_point = scene.bounds.centre();
+            add_prepared_maps(header, recorded.id, static_cast<int>(i), library);
+        }
+        header.sculptures.push_back(std::move(recorded));
+    }
+}
+
+std::optional<RecordedCharacterisation> recorded(const std::optional<DisplayCharacterisation>& light) {
+    if (!light)
+        return std::nullopt;
+    RecordedCharacterisation recorded{
+        light->display,       light->date, light->instrument, light->sha256, light->black_xyz,
+        light->primaries_xyz, {}};
+    for (const CharacterisationFile& file : light->files)
+        recorded.files.push_back({file.name, file.text});
+    return recorded;
+}
+
+/// By the keys of the table, so that a new one is recorded as it is.
+std::vector<RecordedDatasetEntry> recorded(const DatasetSettings& dataset) {
+    std::vector<RecordedDatasetEntry> entries;
+    const auto add = [&](std::string_view key, const std::string& value) {
+        if (!value.empty())
+            entries.push_back({std::string(key), value});
+    };
+    for_each_section([&]<class Struct>(const Section<Struct>& section) {
+        if constexpr (std::is_same_v<Struct, DatasetSettings>) {
+            for (const Key<DatasetSettings>& key : section.keys) {
+                if (const auto* text = std::get_if<std::string DatasetSettings::*>(&key.member))
+                    add(key.rule.name, dataset.*(*text));
+                if (const auto* list = std::get_if<std::vector<std::string> DatasetSettings::*>(&key.member))
+                    for (const std::string& value : dataset.*(*list))
+                        add(key.rule.name, value);
+            }
+        }
+    });
+    return entries;
+}
+
+} // namespace
+
+SessionHeader make_session_header(const Protocol& protocol, const Schedule& schedule,
+                                  std::span<const Sculpture> sculptures, const StimulusLibrary& library,
+                                  const GlDescription& graphics, const TrackerDescription& tracker,
+                                  ClockKind clock, bool with_prepared_maps) {
+    SessionHeader header;
+    header.protocol = {protocol.name, protocol.title, protocol.text, hash_of_text(protocol.text), {}};
+    for (const IncludedText& file : protocol.included)
+        header.protocol.included.push_back({file.name, file.text, hash_of_text(file.text)});
+    header.dataset = recorded(protocol.dataset);
+    for (const BlockSettings& block : protocol.blocks)
+        header.blocks.push_back(block.id);
+    header.schedule = schedule;
+    header.started_utc = utc_now();
+    header.clock = clock;
+    header.program = this_build();
+    header.graphics = {std::string(name_of(graphics.kind)), graphics.vendor, graphics.renderer,
+                       graphics.version};
+    header.tracker = tracker;
+    header.display = {screen_geometry_of(protocol), protocol.display.refresh_hz,
+                      from_seconds(1e-3 * protocol.display.latency_ms),
+                      std::string(name_of(protocol.display.output)), protocol.display.background};
+    header.characterisation = recorded(protocol.display.characterisation);
+    header.animation = protocol.animation;
+    header.poses = library.poses();
+    for (const Task& task : protocol.tasks)
+        header.tasks.push_back({task.id, task.question});
+    for (const MaterialSettings& material : protocol.materials)
+        header.materials.push_back({material.id, material.title});
+    for (int sculpture = 0; sculpture < static_cast<int>(sculptures.size()); ++sculpture) {
+        for (int material = 0; material < static_cast<int>(protocol.materials.size()); ++material) {
+            const Condition condition{sculpture, material};
+            header.stimuli.push_back(
+                {condition, library.source_of(condition), library.frames_hash(condition)});
+        }
+    }
+    describe_sculptures(header, protocol, sculptures, library, with_prepared_maps);
+    return header;
+}
+
+namespace {
+
+void put_all_files(const SessionDirectory& directory, const SessionHeader& header,
+                   std::span<const Sculpture> sculptures, const StimulusLibrary& library) {
+    for (std::size_t i = 0; i < sculptures.size(); ++i) {
+        if (!sculptures[i].has_mesh())
+            continue;
+        const std::filesystem::path file = directory.path() / header.sculptures[i].mesh_file;
+        std::filesystem::create_directories(file.parent_path());
+        write_ply(file, sculptures[i].mesh);
+    }
+    for (const RecordedMap& map : header.maps)
+        copy_into(library.map_file(map.sculpture, map.pose), directory.path() / map.file);
+    for (const RecordedStimulus& stimulus : header.stimuli) {
+        const std::filesystem::path file = directory.path() / preview_file(header, stimulus.condition);
+        std::filesystem::create_directories(file.parent_path());
+        write_srgb_png(file,
+                       library.page(stimulus.condition, library.page_of_frame(stimulus.condition).front()));
+    }
+    write_text(directory.path() / "protocol.toml", header.protocol.text);
+    for (const RecordedProtocol::Included& included : header.protocol.included) {
+        // Beside the copy of the protocol as it was beside the protocol. What lay outside of its folder is in
+        // the session file alone.
+        const std::filesystem::path name = included.name;
+        if (name.is_absolute() || included.name.starts_with(".."))
+            continue;
+        std::filesystem::create_directories((directory.path() / name).parent_path());
+        write_text(directory.path() / name, included.text);
+    }
+    create_session_file(directory.session_file(), header);
+    begin_manifest(directory.path(), header, this_program());
+}
+
+} // namespace
+
+void put_files(const SessionDirectory& directory, const SessionHeader& header,
+               std::span<const Sculpture> sculptures, const StimulusLibrary& library) {
+    try {
+        put_all_files(directory, header, sculptures, library);
+    } catch (const std::exception& error) {
+        throw RecordError(
+            fmt::format("{}\nThe session was not begun, and nothing is left of it. Make room on the "
+                        "disk or name another folder with --sessions, then run it again.",
+                        error.what()));
+    }
+}
+
+void record_live_maps(std::vector<LiveMap> maps, const std::filesystem::path& folder,
+                      const SessionHeader& header, SessionStore& store) {
+    std::erase_if(maps, [&](const LiveMap& map) {
+        return std::any_of(header.maps.begin(), header.maps.end(), [&](const RecordedMap& recorded) {
+            return recorded.sculpture == map.sculpture && recorded.pose == map.pose;
+        });
+    });
+    std::vector<RecordedMap> recorded(maps.size());
+    parallel_for(static_cast<int>(maps.size()), [&](int i) {
+        const LiveMap& map = maps[static_cast<std::size_t>(i)];
+        const RecordedSculpture& sculpture = header.sculptures[static_cast<std::size_t>(map.sculpture)];
+        const std::string name = map_name(sculpture.id, map.pose);
+        const std::filesystem::path file = folder / name;
+        std::filesystem::create_directories(file.parent_path());
+        const double angle_deg = header.poses.angles[static_cast<std::size_t>(map.pose.value)].value;
+        write_triangle_map(
+            file, map.map,
+            {{"mesh_sha256", sculpture.mesh_sha256}, {"angle_deg", fmt::format("{}", angle_deg)}});
+        recorded[static_cast<std::size_t>(i)] = {map.sculpture, map.pose, name, hash_of_file(file),
+                                                 RecordedMap::Made::live};
+    });
+    for (const RecordedMap& map : recorded)
+        store.map_made(map);
+}
+
+} // namespace overt

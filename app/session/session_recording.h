@@ -1,0 +1,34 @@
+/// Everything that stands fixed before a session's first trial, on disk: the header, the meshes and the maps.
+#pragma once
+
+#include <filesystem>
+
+#include "experiment/record/manifest.h"
+#include "experiment/record/preview_file.h"
+#include "experiment/record/session_directory.h"
+#include "experiment/record/session_header.h"
+#include "experiment/record/write/session_store.h"
+#include "render/stimulus/live_maps.h"
+#include "render/stimulus/stimulus_library.h"
+
+namespace overt {
+
+/// What a session is made of, gathered for its record. The library's frames must be prepared, and its maps if
+/// they are to be in it. File names are those that put_files() gives.
+SessionHeader make_session_header(const Protocol& protocol, const Schedule& schedule,
+                                  std::span<const Sculpture> sculptures, const StimulusLibrary& library,
+                                  const GlDescription& graphics, const TrackerDescription& tracker,
+                                  ClockKind clock, bool with_prepared_maps);
+
+/// Puts the meshes, the maps and a picture of each stimulus into the directory as the header names them, the
+/// header itself into a new session file, a copy of the protocol beside it, and a manifest of it all. Throws
+/// RecordError.
+void put_files(const SessionDirectory& directory, const SessionHeader& header,
+               std::span<const Sculpture> sculptures, const StimulusLibrary& library);
+
+/// Writes maps that were made live into a published session's folder; those that the header has already, from
+/// before the session was resumed, stay. Throws RecordError.
+void record_live_maps(std::vector<LiveMap> maps, const std::filesystem::path& folder,
+                      const SessionHeader& header, SessionStore& store);
+
+} // namespace overt

@@ -1,0 +1,102 @@
+#include "app/session/session_talk.h"
+
+#include <fstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiment/base/counted.h"
+#include "experiment/base/error.h"
+
+namespace overt {
+
+void say_before(const Protocol& protocol, const Schedule& schedule, const GlDescription& graphics,
+                const RunOptions& options) {
+    fmt::print("{}: observer {} (number {}), {}, seed {}\n",
+               protocol.title.empty() ? protocol.name : protocol.title, schedule.observer.label,
+               schedule.observer.number, counted(schedule.trials.size(), "trial"), schedule.seed);
+    fmt::print("display: {} ({}), {}\n", name_of(graphics.kind), graphics.renderer,
+               options.virtual_time ? "in virtual time" : "in real time");
+    if (!options.simulate_observer)
+        fmt::print("tracker: simulated; the gaze in this session is nobody's\n");
+}
+
+void say_frames(const StimulusLibrary& library) {
+    const std::vector<Condition> rendered = library.rendered_stimuli();
+    if (!rendered.empty())
+        fmt::print("frames: {}\n", library.source_of(rendered.front()));
+}
+
+void say_risks(const std::vector<ScreenFinding>& findings) {
+    for (const ScreenFinding& finding : findings)
+        if (finding.weight == ScreenFinding::Weight::risk)
+            fmt::print(stderr, "risk: {}: {}\n", finding.what, finding.finding);
+}
+
+namespace {
+
+/// What the operator should know of an attempt before the next.
+std::vector<std::string> remarks_on(const TrialOutcome& outcome, double drift_limit_deg) {
+    using enum TrialOutcome::Afterwards;
+    std::vector<std::string> remarks;
+    if (outcome.missed_refreshes > 0)
+        remarks.push_back(fmt::format("{} refreshes missed", outcome.missed_refreshes));
+    if (outcome.drift && outcome.drift->value > drift_limit_deg)
+        remarks.push_back(fmt::format("the drift check found {:.2f} deg, more than {}", outcome.drift->value,
+                                      drift_limit_deg));
+    if (outcome.shown_refreshes > 0 && !outcome.drift)
+        remarks.emplace_back("the drift check found no eye");
+    if (outcome.failure.empty())
+        return remarks;
+    const bool counts = outcome.status == TrialOutcome::Status::completed;
+    remarks.push_back(fmt::format("{}: {}", outcome.failure,
+                                  counts                               ? "counts as it is"
+                                  : outcome.afterwards == now          ? "comes again now"
+                                  : outcome.afterwards == end_of_block ? "comes again at the end of the block"
+                                                                       : "does not come again"));
+    return remarks;
+}
+
+} // namespace
+
+TrialProgress::TrialProgress(const Protocol& protocol, int total) : protocol_(&protocol), total_(total) {
+    bar_.update("trials", 0, total_);
+}
+
+void TrialProgress::operator()(const Trial& trial, const TrialOutcome& outcome, int done) {
+    const auto name = [](const auto& list, int index) { return list[static_cast<std::size_t>(index)].id; };
+    bar_.update("trials", done, total_);
+    const std::vector<std::string> remarks = remarks_on(outcome, protocol_->tracker.drift_limit_deg);
+    if (remarks.empty())
+        return;
+    bar_.finish();
+    fmt::print(stderr, "trial {} ({}, {}, {}): {}\n", trial.index + 1, name(protocol_->tasks, trial.task),
+               name(protocol_->sculptures, trial.condition.sculpture),
+               name(protocol_->materials, trial.condition.material), fmt::join(remarks, ", "));
+}
+
+void say_after(const RunOptions& options, const SessionResult& result, const LostRows& lost,
+               const Schedule& schedule, const std::filesystem::path& folder) {
+    if (lost.flips + lost.samples > 0)
+        fmt::print(stderr, "the disk was too slow: {} and {} were not recorded\n",
+                   counted(lost.flips, "flip"), counted(lost.samples, "sample"));
+    const int planned = static_cast<int>(schedule.trials.size());
+    const bool is_short = !result.aborted && result.completed_trials < planned;
+    fmt::print("{} of {} completed{}, {} missed\nsession: {}\n", result.completed_trials,
+               counted(planned, "trial"),
+               is_short ? fmt::format(", {} given up", planned - result.completed_trials) : "",
+               counted(result.missed_refreshes, "refresh", "refreshes"), folder.string());
+    if (!options.print_session_to.empty()) {
+        std::ofstream file(options.print_session_to);
+        file << folder.string() << "\n";
+        if (!file.flush())
+            throw RecordError(fmt::format("{}: cannot be written", options.print_session_to.string()));
+    }
+    if (result.aborted)
+        fmt::print(stderr, "the session ended early: {}{}\n", result.reason,
+                   result.is_opened || result.completed_trials > 0
+                       ? "; overt run with --resume goes on with it"
+                       : "");
+}
+
+} // namespace overt

@@ -1,0 +1,147 @@
+#include "app/stimuli/bake_outlook.h"
+
+#include <chrono>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "experiment/protocol/protocol_keys.h"
+
+namespace overt {
+
+namespace {
+
+constexpr int probe_px = 96;
+constexpr int probe_samples = 8;
+/// For compressing and writing a pixel, on one processor of 2.5 GHz.
+constexpr double writing_s_per_px = 0.15e-6;
+
+SceneView small_view(const SceneView& scene) {
+    SceneView small = scene;
+    const int longer = std::max(scene.view.image_px.x, scene.view.image_px.y);
+    small.view.image_px = glm::max(scene.view.image_px * std::min(probe_px, longer) / longer, glm::ivec2(1));
+    return small;
+}
+
+double share_of(const std::vector<std::uint8_t>& covered) {
+    return static_cast<double>(std::count(covered.begin(), covered.end(), 1)) /
+           static_cast<double>(covered.size());
+}
+
+double seconds_per_path(const BakeScene& scene, const SpectralLight& light, const SceneView& view,
+                        const std::vector<std::uint8_t>& covered) {
+    BakeSettings settings;
+    settings.samples = probe_samples;
+    const auto begin = std::chrono::steady_clock::now();
+    const SpectralFrame frame = bake_frame(scene, light, view, Degrees{0.0}, covered, settings);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    double paths = 1.0;
+    for (const std::uint16_t samples : frame.samples)
+        paths += samples;
+    return taken.count() / paths;
+}
+
+} // namespace
+
+PathProbe::PathProbe(const Protocol& protocol, std::span<const Sculpture> sculptures)
+    : protocol_(&protocol), seconds_per_path_(protocol.materials.size(), 0.0),
+      traced_share_(sculptures.size(), 0.0) {
+    const SpectralLight light(protocol.light);
+    bool measured = false;
+    for (std::size_t i = 0; i < sculptures.size(); ++i) {
+        const Sculpture& sculpture = sculptures[i];
+        if (!sculpture.has_mesh())
+            continue;
+        const SceneView view = small_view(sculpture.scene);
+        std::vector<std::uint8_t> covered;
+        for (std::size_t material = 0; material < protocol.materials.size(); ++material) {
+            if (!covered.empty() && measured)
+                break;
+            const BakeScene scene(sculpture.mesh, protocol.materials[material]);
+            if (covered.empty()) {
+                covered = covered_pixels(scene, view, Degrees{0.0});
+                traced_share_[i] = share_of(covered);
+            }
+            if (!measured)
+                seconds_per_path_[material] = seconds_per_path(scene, light, view, covered);
+        }
+        measured = true;
+    }
+}
+
+double PathProbe::seconds_of_frame(const Condition& condition, const FrameGrade& grade) const {
+    const auto material = static_cast<std::size_t>(condition.material);
+    const BakeSettings settings = bake_settings(grade, protocol_->bake, protocol_->materials[material].kind);
+    const double pixels = static_cast<double>(protocol_->view.width_px) * protocol_->view.height_px;
+    const double paths = pixels * traced_share_[static_cast<std::size_t>(condition.sculpture)] *
+                         settings.samples / (settings.pixel_step * settings.pixel_step);
+    return paths * seconds_per_path_[material] + pixels * writing_s_per_px;
+}
+
+BakeOutlook bake_outlook(const Experiment& experiment, const StimulusLibrary& library) {
+    BakeOutlook outlook;
+    outlook.wanted = experiment.protocol.bake.quality;
+    const std::vector<Condition> stimuli = library.rendered_stimuli();
+    if (stimuli.empty() || outlook.wanted == BakeQuality::live)
+        return outlook;
+    outlook.for_session = library.grade_of_session();
+    std::optional<PathProbe> probe;
+    for (const BakeQuality quality :
+         {BakeQuality::preview, BakeQuality::draft, BakeQuality::standard, BakeQuality::reference}) {
+        GradeOutlook one{grade_of(quality, experiment.protocol.bake)};
+        for (const Condition& stimulus : stimuli) {
+            const auto missing = static_cast<int>(library.missing_frames(stimulus, one.grade).size());
+            const int all = static_cast<int>(library.poses().angles.size());
+            one.there += all - missing;
+            one.frames += all;
+            if (missing == 0)
+                continue;
+            if (!probe)
+                probe.emplace(experiment.protocol, experiment.sculptures);
+            one.seconds_left += missing * probe->seconds_of_frame(stimulus, one.grade);
+        }
+        outlook.grades.push_back(one);
+    }
+    return outlook;
+}
+
+std::string duration_text(double seconds) {
+    if (seconds < 90.0)
+        return fmt::format("{:.0f} s", std::max(1.0, seconds));
+    if (seconds < 5400.0)
+        return fmt::format("{:.0f} min", seconds / 60.0);
+    return fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+std::string to_text(const BakeOutlook& outlook) {
+    if (outlook.grades.empty())
+        return {};
+    std::string text = "\nRendered stimuli, and what the rest will take here if nothing else runs\n\n";
+    for (const GradeOutlook& one : outlook.grades) {
+        const std::string left =
+            one.there == one.frames ? "" : fmt::format(", about {} left", duration_text(one.seconds_left));
+        text += fmt::format("  {:<28}{} of {} frames{}\n", describe(one.grade), one.there, one.frames, left);
+    }
+    if (outlook.for_session)
+        text += fmt::format("  A session takes {}.\n", describe(*outlook.for_session));
+    else if (outlook.wanted == BakeQuality::preview)
+        text += "  A session renders previews before it begins.\n";
+    else
+        text += fmt::format("  A session is refused until `overt bake` has made {} quality.\n",
+                            name_of(outlook.wanted));
+    return text;
+}
+
+nlohmann::ordered_json to_json(const BakeOutlook& outlook) {
+    auto grades = nlohmann::ordered_json::array();
+    for (const GradeOutlook& one : outlook.grades)
+        grades.push_back({{"quality", name_of(one.grade.quality)},
+                          {"frames_there", one.there},
+                          {"frames", one.frames},
+                          {"seconds_left", one.seconds_left}});
+    return {{"grades", grades},
+            {"session_takes", outlook.for_session ? name_of(outlook.for_session->quality) : "nothing"},
+            {"session_needs", name_of(outlook.wanted)}};
+}
+
+} // namespace overt

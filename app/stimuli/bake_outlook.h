@@ -1,0 +1,51 @@
+/// What of a protocol's stimuli is rendered, how well, and what the rest will take on this machine.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/inputs/protocol_inputs.h"
+#include "render/stimulus/stimulus_library.h"
+
+namespace overt {
+
+struct GradeOutlook {
+    FrameGrade grade;
+    int there = 0, frames = 0; ///< distinct poses of all stimuli that are rendered
+    double seconds_left = 0.0; ///< for what is missing, by a probe
+};
+
+struct BakeOutlook {
+    std::vector<GradeOutlook> grades;      ///< preview to reference; empty if nothing is rendered
+    std::optional<FrameGrade> for_session; ///< what a session takes now
+    BakeQuality wanted = BakeQuality::preview;
+};
+
+/// How long paths take on this machine: traces a small picture of one sculpture in each material.
+class PathProbe {
+  public:
+    /// Takes a second or two. The sculptures need a mesh to count.
+    PathProbe(const Protocol& protocol, std::span<const Sculpture> sculptures);
+
+    /// For one frame of a stimulus, writing it included.
+    double seconds_of_frame(const Condition& condition, const FrameGrade& grade) const;
+
+  private:
+    const Protocol* protocol_;
+    std::vector<double> seconds_per_path_; ///< of each material
+    std::vector<double> traced_share_;     ///< of the picture, for each sculpture
+};
+
+/// Looks into the cache; measures only if something is missing.
+BakeOutlook bake_outlook(const Experiment& experiment, const StimulusLibrary& library);
+
+/// "40 s", "12 min", "7.5 h".
+std::string duration_text(double seconds);
+
+std::string to_text(const BakeOutlook& outlook);
+nlohmann::ordered_json to_json(const BakeOutlook& outlook);
+
+} // namespace overt

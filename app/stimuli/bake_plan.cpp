@@ -1,0 +1,91 @@
+#include "app/stimuli/bake_plan.h"
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+
+namespace overt {
+
+namespace {
+
+/// The whole text as a number of at most six digits.
+std::optional<int> number_in(std::string_view text) {
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size() || text.size() > 6 || number < 0)
+        return std::nullopt;
+    return number;
+}
+
+} // namespace
+
+Shard shard_called(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    if (slash != std::string::npos) {
+        const auto number = number_in(std::string_view(text).substr(0, slash)),
+                   count = number_in(std::string_view(text).substr(slash + 1));
+        if (number && count && *number >= 1 && *number <= *count && *count <= 100000)
+            return {*number, *count};
+    }
+    throw InputError(
+        fmt::format("--shard {}: write the number of this machine and how many there are, 1/4 to "
+                    "4/4 for four of them",
+                    text));
+}
+
+FrameRange frame_range_called(const std::string& text, const Animation& animation) {
+    const int last = animation.frame_count - 1;
+    if (text == "all")
+        return {0, last};
+    const std::size_t dash = text.find('-');
+    const auto from = number_in(std::string_view(text).substr(0, dash));
+    const auto to = dash == std::string::npos ? from : number_in(std::string_view(text).substr(dash + 1));
+    if (!from || !to || *from > *to)
+        throw InputError(fmt::format("--frames {}: write a number, a range such as 0-30, or all", text));
+    if (*to > last)
+        throw InputError(fmt::format("--frames {}: the animation has frames 0 to {}", text, last));
+    return {*from, *to};
+}
+
+std::vector<BakeUnit> bake_units(const std::vector<Condition>& stimuli, const FrameRange& frames,
+                                 const PoseTable& poses, const FrameGrade& grade, const Protocol& protocol) {
+    std::vector<bool> is_shown(poses.angles.size());
+    for (int frame = frames.first; frame <= frames.last; ++frame)
+        is_shown[static_cast<std::size_t>(poses.pose_of({frame}).value)] = true;
+    std::vector<BakeUnit> units;
+    for (const Condition& condition : stimuli) {
+        const MaterialKind kind = protocol.materials[static_cast<std::size_t>(condition.material)].kind;
+        for (std::size_t pose = 0; pose < is_shown.size(); ++pose) {
+            if (is_shown[pose])
+                units.push_back({condition, {static_cast<int>(pose)}, expected_cost(grade, protocol, kind)});
+        }
+    }
+    return units;
+}
+
+std::vector<BakeUnit> dealt_to(const Shard& shard, const std::vector<BakeUnit>& units) {
+    std::vector<std::size_t> dearest_first(units.size());
+    std::iota(dearest_first.begin(), dearest_first.end(), std::size_t{0});
+    std::stable_sort(dearest_first.begin(), dearest_first.end(),
+                     [&](std::size_t a, std::size_t b) { return units[a].cost > units[b].cost; });
+    std::vector<double> load(static_cast<std::size_t>(shard.count));
+    std::vector<std::size_t> mine;
+    for (const std::size_t unit : dearest_first) {
+        const auto least = std::min_element(load.begin(), load.end());
+        *least += units[unit].cost;
+        if (least - load.begin() == shard.number - 1)
+            mine.push_back(unit);
+    }
+    std::sort(mine.begin(), mine.end());
+    std::vector<BakeUnit> dealt;
+    for (const std::size_t unit : mine)
+        dealt.push_back(units[unit]);
+    return dealt;
+}
+
+} // namespace overt

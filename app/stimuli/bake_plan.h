@@ -1,0 +1,44 @@
+/// Which frames are to be rendered, and by whom.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/stimulus/stimulus_library.h"
+
+namespace overt {
+
+/// One frame to render: of a stimulus, in one of its distinct poses.
+struct BakeUnit {
+    Condition condition;
+    PoseIndex pose;
+    double cost = 0.0; ///< see expected_cost()
+};
+
+/// One of several machines that share the work, counted from 1.
+struct Shard {
+    int number = 1;
+    int count = 1;
+};
+
+/// "3/16". Throws InputError for anything else than 1/n … n/n, n up to 100,000.
+Shard shard_called(const std::string& text);
+
+/// Frames by their numbers, both ends among them. "7", "0-30" or "all". Throws InputError for others, or for
+/// frames that the animation does not have.
+struct FrameRange {
+    int first = 0, last = 0;
+    bool holds(int frame) const { return frame >= first && frame <= last; }
+};
+FrameRange frame_range_called(const std::string& text, const Animation& animation);
+
+/// All frames of the stimuli, in their order and that of poses; a pose is among them if a frame of the range
+/// shows it.
+std::vector<BakeUnit> bake_units(const std::vector<Condition>& stimuli, const FrameRange& frames,
+                                 const PoseTable& poses, const FrameGrade& grade, const Protocol& protocol);
+
+/// What one shard has to do of it: dealt out by expected cost, the dearest first, each to whoever has least.
+/// It depends on nothing but the arguments, and the shards 1/n … n/n have each unit once.
+std::vector<BakeUnit> dealt_to(const Shard& shard, const std::vector<BakeUnit>& units);
+
+} // namespace overt

@@ -1,0 +1,200 @@
+#include <future>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/cache_folder.h"
+#include "app/cli/figures.h"
+#include "app/cli/progress_bar.h"
+#include "app/inputs/protocol_file.h"
+#include "app/stimuli/map_figures.h"
+#include "app/stimuli/stimulus_commands.h"
+#include "experiment/base/counted.h"
+#include "experiment/maps/coordinate_image_file.h"
+#include "render/gl/headless_context.h"
+#include "render/stimulus/stimulus_library.h"
+
+namespace overt {
+
+namespace {
+
+constexpr const char* unit_of_shipped = "mm";
+constexpr const char* unit_of_others = "that of the mesh file, times the protocol's scale";
+
+/// The frames to write, by the distinct pose that they show: each pose is drawn once.
+std::map<PoseIndex, std::vector<int>> frames_by_pose(const Animation& animation, const PoseTable& poses,
+                                                     std::optional<int> frame) {
+    if (frame && *frame >= animation.frame_count) {
+        throw InputError(
+            fmt::format("--frame {}: the animation has frames 0 to {}", *frame, animation.frame_count - 1));
+    }
+    std::map<PoseIndex, std::vector<int>> frames;
+    for (int k = 0; k < animation.frame_count; ++k) {
+        if (!frame || *frame == k)
+            frames[poses.pose_of({k})].push_back(k);
+    }
+    return frames;
+}
+
+/// Where the maps go, and as what.
+class MapFiles {
+  public:
+    MapFiles(const LutOptions& options, std::string sculpture)
+        : folder_(options.out.empty() ? std::filesystem::path("luts") / sculpture : options.out),
+          sculpture_(std::move(sculpture)), exr_(options.format != "png16"), png_(options.format != "exr") {}
+
+    /// Throws InputError if a file of these frames is there already.
+    void refuse_to_overwrite(const std::map<PoseIndex, std::vector<int>>& frames) const {
+        for (const auto& [pose, numbers] : frames) {
+            for (const int frame : numbers) {
+                for (const std::filesystem::path& file : files_of(frame)) {
+                    if (std::filesystem::exists(file)) {
+                        throw InputError(fmt::format(
+                            "{}: is there already: give another --out, or --overwrite to replace it",
+                            file.string()));
+                    }
+                }
+            }
+        }
+    }
+
+    std::vector<std::filesystem::path> files_of(int frame) const {
+        const std::filesystem::path stem = folder_ / fmt::format("{}_frame_{:04}", sculpture_, frame);
+        std::vector<std::filesystem::path> files;
+        for (const auto& [wanted, extension] : {std::pair{exr_, ".exr"}, {png_, ".png"}, {png_, ".json"}}) {
+            if (wanted)
+                files.push_back(stem.string() + extension);
+        }
+        return files;
+    }
+
+    void write(const CoordinateImage& image, MapDescription description,
+               const std::vector<int>& frames) const {
+        std::filesystem::create_directories(folder_);
+        for (const int frame : frames) {
+            description.frame = frame;
+            const std::vector<std::filesystem::path> files = files_of(frame);
+            if (exr_)
+                write_coordinate_exr(files.front(), image, description);
+            if (png_)
+                write_coordinate_png(files[exr_ ? 1 : 0], image, description);
+        }
+    }
+
+    const std::filesystem::path& folder() const { return folder_; }
+
+  private:
+    std::filesystem::path folder_;
+    std::string sculpture_;
+    bool exr_, png_;
+};
+
+MapDescription description_of(const Sculpture& sculpture, bool shipped, int scale) {
+    MapDescription description;
+    description.sculpture = sculpture.id;
+    description.unit = shipped ? unit_of_shipped : unit_of_others;
+    description.bounds = sculpture.scene.bounds;
+    description.scale = scale;
+    description.camera = sculpture.scene.view.camera;
+    description.size_px = sculpture.scene.view.image_px;
+    description.mesh_sha256 = sculpture.mesh_hash;
+    return description;
+}
+
+/// The exact maps of some poses, drawn anew.
+CoordinateMaps draw_maps(StimulusLibrary& library, const Sculpture& sculpture, int index,
+                         const std::map<PoseIndex, std::vector<int>>& frames, ProgressBar& bar) {
+    std::vector<Degrees> angles;
+    std::vector<TriangleMap> maps;
+    for (const auto& [pose, numbers] : frames) {
+        bar.update("mapping " + sculpture.id, static_cast<int>(maps.size()), static_cast<int>(frames.size()));
+        angles.push_back(library.poses().angles[static_cast<std::size_t>(pose.value)]);
+        maps.push_back(library.draw_map(index, pose));
+        if (maps.back().covered_pixels() == 0) {
+            throw InputError(
+                fmt::format("sculpture «{}» is nowhere in the picture at {:.3g} degrees: correct the camera "
+                            "under [view]",
+                            sculpture.id, angles.back().value));
+        }
+    }
+    return {sculpture.mesh, sculpture.scene, std::move(angles), std::move(maps)};
+}
+
+void print_outcome(const LutOptions& options, const std::vector<std::string>& files,
+                   const BenchFigures& figures, const std::filesystem::path& folder) {
+    if (options.json) {
+        nlohmann::ordered_json json = to_json(figures);
+        json["files"] = files;
+        fmt::print("{}\n", json.dump(2));
+        return;
+    }
+    print_table(figures);
+    if (!files.empty())
+        fmt::print("{}: {}\n", counted(files.size(), "file"), folder.string());
+}
+
+} // namespace
+
+int run_lut(const LutOptions& options) {
+    const Protocol protocol = read_protocol_or_report(options.protocol);
+    const int index = sculpture_called(protocol, options.stimulus);
+    const SculptureSettings& settings = protocol.sculptures[static_cast<std::size_t>(index)];
+    std::vector<Sculpture> sculptures(protocol.sculptures.size());
+    Sculpture& sculpture = sculptures[static_cast<std::size_t>(index)];
+    sculpture = load_sculpture(settings, protocol, cache_folder());
+    if (!sculpture.has_mesh()) {
+        throw InputError(fmt::format("sculpture «{}» has no mesh to make maps of, or to check them against",
+                                     sculpture.id));
+    }
+
+    const auto context = make_headless_context(options.context);
+    StimulusLibrary library(*context, protocol, sculptures, cache_folder());
+    const auto frames = frames_by_pose(protocol.animation, library.poses(), options.frame);
+    const MapFiles files(options, sculpture.id);
+    // A check alone leaves nothing behind.
+    const bool writes = !options.check || !options.out.empty();
+    if (writes && !options.overwrite)
+        files.refuse_to_overwrite(frames);
+
+    ProgressBar bar;
+    const CoordinateMaps maps = draw_maps(library, sculpture, index, frames, bar);
+    std::optional<RayCaster> rays;
+    if (options.check)
+        rays.emplace(sculpture.mesh);
+    std::optional<MapCheck> check;
+    std::vector<std::string> written;
+    MapDescription description = description_of(sculpture, !settings.shipped.empty(), options.scale);
+    std::future<void> writing; // one map is compressed and written while the next is worked out
+    int drawn = 0;
+    for (const auto& [pose, numbers] : frames) {
+        bar.update(fmt::format("{} {}", writes ? "writing maps of" : "checking", sculpture.id), drawn,
+                   static_cast<int>(frames.size()));
+        description.angle = library.poses().angles[static_cast<std::size_t>(pose.value)];
+        CoordinateImage image = coordinate_image(maps, {drawn++}, sculpture.scene.view.image_px);
+        if (rays) {
+            const MapCheck one = check_map(image, *rays, sculpture.scene, *description.angle, options.scale);
+            check = check ? worst_of(*check, one) : one;
+        }
+        if (!writes)
+            continue;
+        if (writing.valid())
+            writing.get();
+        for (const int frame : numbers) {
+            for (const std::filesystem::path& file : files.files_of(frame))
+                written.push_back(file.string());
+        }
+        writing = std::async(std::launch::async, [&files, image = std::move(image), description, &numbers] {
+            files.write(image, description, numbers);
+        });
+    }
+    if (writing.valid())
+        writing.get();
+    bar.update(fmt::format("{} {}", writes ? "writing maps of" : "checking", sculpture.id), drawn, drawn);
+    bar.finish();
+    const BenchFigures figures =
+        check ? figures_of(*check, sculpture.scene.view.image_px, sculpture.id) : BenchFigures{};
+    print_outcome(options, written, figures, files.folder());
+    return all_hold(figures) ? 0 : 1;
+}
+
+} // namespace overt

@@ -1,0 +1,93 @@
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "app/cli/cache_folder.h"
+#include "app/cli/progress_bar.h"
+#include "app/inputs/protocol_file.h"
+#include "app/inputs/protocol_inputs.h"
+#include "app/stimuli/live_play.h"
+#include "app/stimuli/stimulus_commands.h"
+#include "devices/host/clocks.h"
+#include "render/gl/headless_context.h"
+#include "render/presenter/page_presenter.h"
+#include "render/stimulus/stimulus_library.h"
+#include "render/window/window_system.h"
+
+namespace overt {
+
+namespace {
+
+void write_frame(const StimulusLibrary& library, const Condition& stimulus, const PlayOptions& options) {
+    const auto frame = static_cast<std::size_t>(options.frame.value_or(0));
+    const int page = library.page_of_frame(stimulus)[frame];
+    write_srgb_png(options.picture, library.page(stimulus, page));
+    fmt::print("{}\n", options.picture.string());
+}
+
+/// Plays in a window until the time is up, it is closed, or a key is pressed.
+void play_in_window(WindowContext& window, StimulusLibrary& library, const Condition& stimulus,
+                    const Protocol& protocol, double duration_s) {
+    SteadyClock clock;
+    DisplaySettings display = protocol.display;
+    // For a look on an ordinary screen: the packed signal of a Display++ would be unreadable there.
+    display.output = OutputMode::native_8bit;
+    display.gamma = 2.2;
+    WindowDisplay surface(window, clock, display.refresh_hz, false);
+    PagePresenter presenter(window, surface, library, screen_geometry_of(protocol), display,
+                            protocol.screens);
+    presenter.load_frames(stimulus);
+    const double frame_s = 1.0 / protocol.animation.frame_rate_hz;
+    const SessionTime begin = clock.now();
+    WindowKeyPress press{};
+    while (!presenter.closed() && !window.next_key_press(press)) {
+        const double elapsed_s = to_seconds(clock.now() - begin);
+        if (elapsed_s >= duration_s)
+            break;
+        presenter.flip(protocol.animation.frame_at_step(static_cast<int>(elapsed_s / frame_s)));
+    }
+}
+
+} // namespace
+
+int run_play(const PlayOptions& options) {
+    const Experiment experiment =
+        read_experiment_or_report(options.protocol, cache_folder(), InputDepth::sculptures);
+    const Protocol& protocol = experiment.protocol;
+    const std::vector<Sculpture>& sculptures = experiment.sculptures;
+    const Condition stimulus = stimulus_called(protocol, options.stimulus);
+    if (options.frame.value_or(0) >= protocol.animation.frame_count) {
+        throw InputError(fmt::format("--frame {}: the animation has frames 0 to {}", *options.frame,
+                                     protocol.animation.frame_count - 1));
+    }
+    const bool in_window = options.picture.empty();
+    if (options.live)
+        return play_live(protocol, sculptures, stimulus, options);
+    if (in_window && !display_is_available())
+        throw InputError("there is no display to play on: write a frame with --picture FILE instead");
+
+    std::unique_ptr<GlContext> headless;
+    std::unique_ptr<WindowContext> window;
+    if (in_window) {
+        window = std::make_unique<WindowContext>(
+            WindowRequest{{protocol.display.width_px, protocol.display.height_px}, "overt play"});
+    } else {
+        headless =
+            make_headless_context(options.context == ContextKind::window ? std::nullopt : options.context);
+    }
+    const GlContext& context = window ? static_cast<const GlContext&>(*window) : *headless;
+    StimulusLibrary library(context, protocol, sculptures, cache_folder());
+    ProgressBar bar;
+    library.prepare_frames(stimulus, [&](std::string_view what, int done, int total, double share) {
+        bar.update(what, done, total, share);
+    });
+    bar.finish();
+    if (in_window) {
+        play_in_window(*window, library, stimulus, protocol, options.repeat_s);
+    } else {
+        write_frame(library, stimulus, options);
+    }
+    return 0;
+}
+
+} // namespace overt

@@ -1,0 +1,78 @@
+/// The commands for looking at stimuli and making them: play, bake, lut, reconstruct. Each takes its options
+/// and gives the exit code, 0 done, 1 failed. Bad input is thrown as InputError, which main turns into exit
+/// code 2.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/chosen_command.h"
+#include "app/cli/context_choice.h"
+#include "experiment/protocol/protocol.h"
+
+namespace overt {
+
+/// Adds them to the command line.
+void add_stimulus_commands(CLI::App& app, ChosenCommand& chosen);
+
+struct PlayOptions {
+    std::filesystem::path protocol;
+    std::string stimulus;
+    ContextChoice context;
+    std::optional<int> frame;
+    std::filesystem::path picture;
+    double repeat_s = 8.0;
+    bool live = false; ///< drawn now, to be turned with the mouse, instead of the frames
+};
+int run_play(const PlayOptions& options);
+
+struct BakeOptions {
+    std::filesystem::path protocol;
+    std::optional<BakeQuality>
+        quality; ///< nothing: the protocol's, if it is better than a preview, else standard
+    std::optional<int> samples;
+    std::optional<double> target_error_de;
+    std::vector<std::string> only; ///< SCULPTURE/MATERIAL; empty: all that are not given as frames
+    std::string frames = "all";    ///< "7", "0-30"
+    std::string shard;             ///< "1/4"
+    std::filesystem::path out;     ///< folder for numbered frames, or empty
+    std::string as = "display";    ///< or xyz, spectra
+    bool png16 = false;
+    bool force = false;
+    std::filesystem::path sheet, strip; ///< pictures to look at, or empty
+    bool dry_run = false;
+    bool json = false;
+    ContextChoice context;
+};
+int run_bake(const BakeOptions& options);
+
+struct LutOptions {
+    std::filesystem::path protocol;
+    std::string stimulus;        ///< SCULPTURE or SCULPTURE/MATERIAL: the map is the same for all materials
+    std::optional<int> frame;    ///< nothing: all
+    std::filesystem::path out;   ///< folder; empty: luts/SCULPTURE, or with `check` nothing is written
+    std::string format = "both"; ///< exr, png16 or both
+    int scale = 65535;           ///< of 16-bit codes, or 65536
+    ContextChoice context;
+    bool check = false;
+    bool overwrite = false;
+    bool json = false;
+};
+int run_lut(const LutOptions& options);
+
+struct ReconstructOptions {
+    std::filesystem::path protocol;
+    std::string stimulus;      ///< SCULPTURE or SCULPTURE/MATERIAL
+    std::optional<int> frame;  ///< nothing: all
+    bool points = false;       ///< a cloud also of one frame
+    double spacing = 0.0;      ///< of a cloud's points, in the unit of the mesh; 0: as the pixels have it
+    std::filesystem::path out; ///< .ply or .obj
+    ContextChoice context;
+    bool overwrite = false;
+    bool json = false;
+};
+int run_reconstruct(const ReconstructOptions& options);
+
+} // namespace overt

@@ -1,0 +1,98 @@
+#include "devices/link/serial_port_search.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <map>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace overt {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::string_view prefix = "ttyACM";
+
+std::string first_line(const fs::path& file) {
+    std::ifstream stream(file);
+    std::string line;
+    std::getline(stream, line);
+    return line;
+}
+
+std::optional<std::uint16_t> hexadecimal(const std::string& text) {
+    std::uint16_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+    if (error != std::errc() || end == text.data())
+        return std::nullopt;
+    return value;
+}
+
+/// The number after ttyACM, nothing for other names.
+std::optional<int> port_number(const std::string& name) {
+    if (!name.starts_with(prefix))
+        return std::nullopt;
+    int number = 0;
+    const char* const end = name.data() + name.size();
+    const auto parsed = std::from_chars(name.data() + prefix.size(), end, number);
+    if (parsed.ec != std::errc() || parsed.ptr != end)
+        return std::nullopt;
+    return number;
+}
+
+void collect_names(const fs::path& folder, std::map<int, std::string>& names) {
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        if (const auto number = port_number(name))
+            names.emplace(*number, name);
+    }
+}
+
+/// The tty belongs to a USB interface, which lies within the USB device: the first folder upward that has an
+/// idVendor.
+void read_usb_device(const fs::path& tty, SerialPortInfo& port) {
+    std::error_code error;
+    fs::path folder = fs::canonical(tty, error);
+    for (; !error && folder.has_relative_path(); folder = folder.parent_path()) {
+        std::error_code absent;
+        if (!fs::exists(folder / "idVendor", absent))
+            continue;
+        port.vendor_id = hexadecimal(first_line(folder / "idVendor"));
+        port.product_id = hexadecimal(first_line(folder / "idProduct"));
+        port.manufacturer = first_line(folder / "manufacturer");
+        port.product = first_line(folder / "product");
+        port.serial_number = first_line(folder / "serial");
+        return;
+    }
+}
+
+} // namespace
+
+std::string describe(const SerialPortInfo& port) {
+    std::string identity;
+    if (port.vendor_id && port.product_id)
+        identity = fmt::format("{:04x}:{:04x}", *port.vendor_id, *port.product_id);
+    if (!port.product.empty())
+        identity += (identity.empty() ? "" : " ") + port.product;
+    return identity.empty() ? port.path : fmt::format("{} ({})", port.path, identity);
+}
+
+std::vector<SerialPortInfo> serial_ports(const fs::path& devices, const fs::path& sysfs) {
+    std::map<int, std::string> names;
+    collect_names(sysfs / "class/tty", names);
+    collect_names(devices, names); // a container may have the node and no sysfs
+    std::vector<SerialPortInfo> ports;
+    for (const auto& [number, name] : names) {
+        std::error_code absent;
+        if (!fs::exists(devices / name, absent))
+            continue;
+        SerialPortInfo& port = ports.emplace_back();
+        port.path = (devices / name).string();
+        read_usb_device(sysfs / "class/tty" / name, port);
+    }
+    return ports;
+}
+
+} // namespace overt

@@ -1,0 +1,155 @@
+#include "devices/simulated/gaze_script.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "devices/simulated/eye_movements.h"
+#include "experiment/base/error.h"
+
+namespace overt {
+
+namespace {
+
+/// How long the script goes on after the planned end: refreshes can be late, and the eye stays a moment.
+constexpr SessionDuration afterwards = std::chrono::seconds(2);
+
+constexpr int draws_of_a_region = 200;
+
+/// Time from the object's appearance to the first saccade.
+constexpr double reaction_median_s = 0.2, reaction_log_sd = 0.2, reaction_low_s = 0.12, reaction_high_s = 0.4;
+
+/// Spread of fixations on a picture of which only the image is known, as share of its size.
+constexpr double image_spread = 0.15;
+
+/// Composes one script: what the steps below share.
+struct Composer {
+    const ObservedScene& scene;
+    const GazeTargets* targets;
+    const PursuedTurn& turn;
+    const ObserverSettings& settings;
+    RandomStream random;
+
+    ScreenPoint place(const ScriptedFixation& fixation, SessionDuration since_onset) const {
+        return place_of(fixation, since_onset, scene, targets, turn);
+    }
+
+    /// Sets the begin after a saccade from `before`, and the end. Gives the saccade's size.
+    Degrees follow(const ScriptedFixation& before, ScriptedFixation& next, double duration_s) const {
+        if (next.target) {
+            const Degrees angle = turn.angle_at(before.end - scene.light_delay(scene.screen.centre().y_px));
+            const glm::dvec2 image = targets->project(next.target->position, angle);
+            next.light_delay = scene.light_delay(scene.screen.screen_from_image(image).y_px);
+        }
+        const Degrees amplitude =
+            scene.screen.angle_between(place(before, before.end), place(next, before.end));
+        next.begin = before.end + saccade_duration(amplitude);
+        next.end = next.begin + from_seconds(duration_s);
+        return amplitude;
+    }
+
+    bool stays_visible(const ScriptedFixation& fixation, SessionDuration from) const {
+        const int last = turn.step_at(fixation.end - fixation.light_delay);
+        for (int step = turn.step_at(from - fixation.light_delay); step <= last; ++step) {
+            if (!targets->is_visible(*fixation.target, turn.angle_of_step(step)))
+                return false;
+        }
+        return true;
+    }
+
+    bool find_target(const ScriptedFixation& before, ScriptedFixation& next, Region region,
+                     double duration_s) {
+        for (int draw = 0; draw < draws_of_a_region; ++draw) {
+            next.target = targets->draw(random, region);
+            const Degrees amplitude = follow(before, next, duration_s);
+            if (amplitude >= settings.shortest_saccade && stays_visible(next, before.end))
+                return true;
+        }
+        return false;
+    }
+
+    ScriptedFixation next_fixation(const ScriptedFixation& before, double head_share) {
+        const double duration_s =
+            log_normal_within(random, settings.fixation_median_s, settings.fixation_log_sd,
+                              settings.shortest_fixation_s, settings.longest_fixation_s);
+        const Region region = random.uniform() < head_share ? Region::head : Region::elsewhere;
+        const Region other = region == Region::head ? Region::elsewhere : Region::head;
+        ScriptedFixation next;
+        if (targets) {
+            if (find_target(before, next, region, duration_s) || find_target(before, next, other, duration_s))
+                return next;
+            next.target.reset();
+            next.place = scene.screen.centre();
+        } else {
+            const glm::dvec2 size(scene.screen.image_px);
+            const glm::dvec2 image(size.x * (0.5 + image_spread * random.normal()),
+                                   size.y * (0.5 + image_spread * random.normal()));
+            next.place = scene.screen.screen_from_image(glm::clamp(image, glm::dvec2(0.0), size - 1.0));
+        }
+        follow(before, next, duration_s);
+        return next;
+    }
+};
+
+} // namespace
+
+PursuedTurn::PursuedTurn(const ObservedScene& scene)
+    : frame_period_(scene.frame_period()), steps_(scene.animation.shown_frame_count()) {
+    OVERT_EXPECTS(steps_ > 0);
+    for (int step = 0; step < scene.animation.steps_per_period(); ++step)
+        angles_.push_back(scene.animation.angle_of(scene.animation.frame_at_step(step)));
+}
+
+Degrees PursuedTurn::angle_at(SessionDuration since_lit) const noexcept {
+    const double steps = to_seconds(since_lit) / to_seconds(frame_period_) - 0.5;
+    const double place = std::clamp(steps, 0.0, steps_ - 1.0);
+    const int before = static_cast<int>(place);
+    const double share = place - before;
+    const double from = angle_of_step(before).value, to = angle_of_step(before + 1).value;
+    return {share == 0.0 ? from : from + share * (to - from)};
+}
+
+int PursuedTurn::step_at(SessionDuration since_lit) const noexcept {
+    const auto step = static_cast<int>(since_lit / frame_period_);
+    return std::clamp(step, 0, steps_ - 1);
+}
+
+GazeScript::GazeScript(const ObservedScene& scene, const ObserverSettings& settings)
+    : horizon_(from_seconds(scene.animation.duration_s) + afterwards) {
+    const double shortest_s =
+        settings.shortest_fixation_s + to_seconds(saccade_duration(Degrees{0.0})) + 1e-3;
+    fixations_.reserve(static_cast<std::size_t>(to_seconds(horizon_) / shortest_s) + 2);
+}
+
+void GazeScript::compose(const ObservedScene& scene, const GazeTargets* targets, const PursuedTurn& turn,
+                         const ObserverSettings& settings, std::uint64_t seed, int trial,
+                         double head_share) noexcept {
+    Composer composer{scene, targets, turn, settings,
+                      RandomStream(seed, "scanpath", static_cast<std::uint64_t>(trial))};
+    fixations_.clear();
+    ScriptedFixation first;
+    first.place = scene.screen.centre();
+    first.end = from_seconds(log_normal_within(composer.random, reaction_median_s, reaction_log_sd,
+                                               reaction_low_s, reaction_high_s));
+    fixations_.push_back(first);
+    while (fixations_.back().end < horizon_ && fixations_.size() < fixations_.capacity())
+        fixations_.push_back(composer.next_fixation(fixations_.back(), head_share));
+}
+
+std::size_t GazeScript::fixation_at(SessionDuration since_onset) const noexcept {
+    // The fixation whose saccade away from the one before has not begun later than this.
+    const auto next = std::upper_bound(
+        fixations_.begin(), fixations_.end(), since_onset,
+        [](SessionDuration time, const ScriptedFixation& fixation) { return time < fixation.begin; });
+    return next == fixations_.begin() ? 0 : static_cast<std::size_t>(next - fixations_.begin() - 1);
+}
+
+ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_onset,
+                     const ObservedScene& scene, const GazeTargets* targets,
+                     const PursuedTurn& turn) noexcept {
+    if (!fixation.target)
+        return fixation.place;
+    const Degrees angle = turn.angle_at(since_onset - fixation.light_delay);
+    return scene.screen.screen_from_image(targets->project(fixation.target->position, angle));
+}
+
+} // namespace overt

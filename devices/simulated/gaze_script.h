@@ -1,0 +1,89 @@
+/// What an observer does during one presentation: where it looks, in which order, and for how long.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "devices/simulated/gaze_targets.h"
+#include "devices/simulated/observed_scene.h"
+#include "experiment/maps/surface_point.h"
+#include "experiment/session_time.h"
+
+namespace overt {
+
+/// How long fixations last and how the eyes wander.
+struct ObserverSettings {
+    double fixation_median_s = 0.25;
+    double fixation_log_sd = 0.45;
+    double shortest_fixation_s = 0.08;
+    double longest_fixation_s = 1.5;
+    Degrees shortest_saccade{0.5};
+    Degrees drift{0.03};   ///< standard deviation of the slow wandering along each axis
+    Degrees tremor{0.002}; ///< standard deviation of the tremor along each axis
+    double blinks_per_minute = 12.0;
+};
+
+/// The smooth turn that the eye pursues: the animation's steps joined by straight lines, so that halfway
+/// through the time for which a frame is lit the eye is at that frame's angle. Between two such instants the
+/// eye is at most half a step from what is lit.
+class PursuedTurn {
+  public:
+    explicit PursuedTurn(const ObservedScene& scene);
+
+    /// `since_lit` counts from the instant at which the first frame's light reached the place looked at.
+    Degrees angle_at(SessionDuration since_lit) const noexcept;
+
+    /// The step lit then, 0 … steps-1; the first and the last stay.
+    int step_at(SessionDuration since_lit) const noexcept;
+    Degrees angle_of_step(int step) const noexcept {
+        return angles_[static_cast<std::size_t>(step) % angles_.size()];
+    }
+
+  private:
+    std::vector<Degrees> angles_; ///< of one period
+    SessionDuration frame_period_;
+    int steps_ = 0; ///< shown in one presentation
+};
+
+/// A stretch of time during which the eye stays with one place. Times count from the presentation's onset.
+struct ScriptedFixation {
+    SessionDuration begin{}, end{};
+    std::optional<SurfacePoint> target; ///< what is pursued; nothing: `place` on the screen is looked at
+    ScreenPoint place;
+    SessionDuration light_delay{}; ///< from vertical blank to the light of the row looked at
+};
+
+/// The fixations of one presentation in order; between the end of one and the begin of the next lies a
+/// saccade. The first is at the middle of the screen, where the observer looked before the onset, and is not
+/// chosen: in an analysis it drops out as begun before the onset.
+class GazeScript {
+  public:
+    /// Sets aside room for a presentation of the scene's animation.
+    GazeScript(const ObservedScene& scene, const ObserverSettings& settings);
+
+    /// Writes the script of a trial: a function of its arguments alone. `targets` is nullptr for a sculpture
+    /// without a mesh. Allocates nothing; some thousand rays are cast.
+    ///
+    /// Each fixation goes to the head with probability `head_share`, else elsewhere, at a point that is
+    /// visible in every frame lit from the saccade's start to the fixation's end. If 200 points of the region
+    /// are not, the other region is tried, and at last the middle of the screen.
+    void compose(const ObservedScene& scene, const GazeTargets* targets, const PursuedTurn& turn,
+                 const ObserverSettings& settings, std::uint64_t seed, int trial, double head_share) noexcept;
+
+    const std::vector<ScriptedFixation>& fixations() const { return fixations_; }
+
+    /// Index of the fixation under way or just left at a time since onset.
+    std::size_t fixation_at(SessionDuration since_onset) const noexcept;
+
+  private:
+    std::vector<ScriptedFixation> fixations_;
+    SessionDuration horizon_; ///< the script goes on a while after the presentation's planned end
+};
+
+/// Where a fixation's target is on the screen, as the eye pursues it.
+ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_onset,
+                     const ObservedScene& scene, const GazeTargets* targets,
+                     const PursuedTurn& turn) noexcept;
+
+} // namespace overt

@@ -1,0 +1,94 @@
+#include "devices/simulated/gaze_targets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace overt {
+
+namespace {
+
+constexpr double plinth_weight = 0.1;
+constexpr double least_facing = 0.2; ///< cosine of the most oblique angle that is looked at
+
+struct Corners {
+    glm::dvec3 a, b, c;
+    glm::dvec3 normal_times_area() const { return 0.5 * glm::cross(b - a, c - a); }
+};
+
+Corners corners_of(const Mesh& mesh, std::uint32_t triangle) {
+    const glm::uvec3 t = mesh.triangles[triangle];
+    return {glm::dvec3(mesh.positions[t.x]), glm::dvec3(mesh.positions[t.y]),
+            glm::dvec3(mesh.positions[t.z])};
+}
+
+glm::dvec3 turned_back(glm::dvec3 world_point, const TurntablePose& pose) {
+    return to_object({world_point, {0.0, 1.0, 0.0}}, pose).origin;
+}
+
+} // namespace
+
+GazeTargets::GazeTargets(const ObservedSculpture& sculpture)
+    : mesh_(sculpture.mesh), scene_(sculpture.scene), caster_(*sculpture.mesh) {
+    for (std::uint32_t i = 0; i < mesh_->triangles.size(); ++i) {
+        const std::string_view part = mesh_->part_names[mesh_->triangle_parts[i]];
+        const double area = glm::length(corners_of(*mesh_, i).normal_times_area());
+        const double weight = part == "plinth" ? plinth_weight * area : area;
+        WeightedTriangles& region = part == "head" ? head_ : elsewhere_;
+        const double before = region.cumulative.empty() ? 0.0 : region.cumulative.back();
+        region.triangles.push_back(i);
+        region.cumulative.push_back(before + weight);
+    }
+}
+
+SurfacePoint GazeTargets::draw(RandomStream& random, Region region) const noexcept {
+    const bool wants_head = region == Region::head;
+    const WeightedTriangles& wanted = wants_head ? head_ : elsewhere_;
+    const WeightedTriangles& from = wanted.triangles.empty() ? (wants_head ? elsewhere_ : head_) : wanted;
+    const double place = random.uniform(0.0, from.cumulative.back());
+    const auto found = std::upper_bound(from.cumulative.begin(), from.cumulative.end() - 1, place);
+    SurfacePoint point;
+    point.triangle = from.triangles[static_cast<std::size_t>(found - from.cumulative.begin())];
+    point.part = mesh_->triangle_parts[point.triangle];
+    // The square root makes all of the triangle's area equally probable.
+    const double root = std::sqrt(random.uniform()), share = random.uniform();
+    point.barycentric = {1.0 - root, root * (1.0 - share), root * share};
+    const Corners corners = corners_of(*mesh_, point.triangle);
+    point.position =
+        point.barycentric.x * corners.a + point.barycentric.y * corners.b + point.barycentric.z * corners.c;
+    return point;
+}
+
+bool GazeTargets::is_visible(const SurfacePoint& point, Degrees angle) const noexcept {
+    const glm::dvec3 eye = turned_back(scene_.view.camera.position, scene_.pose_at(angle));
+    const glm::dvec3 normal = corners_of(*mesh_, point.triangle).normal_times_area();
+    const glm::dvec3 to_eye = eye - point.position;
+    const double facing = std::abs(glm::dot(normal, to_eye)) / (glm::length(normal) * glm::length(to_eye));
+    return facing >= least_facing && !caster_.is_hidden(point.position, eye);
+}
+
+std::optional<SurfacePoint> GazeTargets::surface_at(glm::dvec2 image_point_px, Degrees angle) const noexcept {
+    const Ray ray = scene_.view.ray_through(image_point_px);
+    const TurntablePose pose = scene_.pose_at(angle);
+    const Ray object_ray = to_object(ray, pose);
+    const std::optional<RayHit> hit = caster_.first_hit(object_ray);
+    if (!hit)
+        return std::nullopt;
+    const glm::dvec3 normal = corners_of(*mesh_, hit->triangle).normal_times_area();
+    const double cosine = std::abs(glm::dot(normal, object_ray.direction)) / glm::length(normal);
+    SurfacePoint point;
+    point.position = hit->position;
+    point.triangle = hit->triangle;
+    point.barycentric = hit->barycentric;
+    point.part = mesh_->triangle_parts[hit->triangle];
+    point.depth = scene_.view.depth_of(ray.origin + hit->distance * ray.direction);
+    point.incidence = to_degrees({std::acos(std::min(cosine, 1.0))});
+    return point;
+}
+
+glm::dvec2 GazeTargets::project(glm::dvec3 object_point, Degrees angle) const noexcept {
+    const glm::dmat4 world_from_object = scene_.pose_at(angle).world_from_object();
+    return scene_.view.project(glm::dvec3(world_from_object * glm::dvec4(object_point, 1.0)));
+}
+
+} // namespace overt

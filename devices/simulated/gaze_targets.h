@@ -1,0 +1,50 @@
+/// Places on one sculpture that an observer may look at.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "devices/simulated/observed_scene.h"
+#include "experiment/base/random.h"
+#include "experiment/maps/surface_point.h"
+#include "experiment/scene/ray_caster.h"
+
+namespace overt {
+
+/// The head, or all that is not the head.
+enum class Region : std::uint8_t { head, elsewhere };
+
+/// Draws surface points and knows what is visible of them. Constant queries allocate nothing.
+class GazeTargets {
+  public:
+    /// The sculpture's mesh must outlive this and have triangles.
+    explicit GazeTargets(const ObservedSculpture& sculpture);
+
+    /// A point of the region, all of its area equally probable, save that the part «plinth» is looked at a
+    /// tenth as often. A sculpture without that region gives a point of the other.
+    SurfacePoint draw(RandomStream& random, Region region) const noexcept;
+
+    /// Whether the point is seen when the object is turned by `angle`, and not too obliquely (up to 78
+    /// degrees between line of sight and normal).
+    bool is_visible(const SurfacePoint& point, Degrees angle) const noexcept;
+
+    /// What is seen at a place of the image.
+    std::optional<SurfacePoint> surface_at(glm::dvec2 image_point_px, Degrees angle) const noexcept;
+
+    /// Image place of a point of the object.
+    glm::dvec2 project(glm::dvec3 object_point, Degrees angle) const noexcept;
+
+  private:
+    struct WeightedTriangles {
+        std::vector<std::uint32_t> triangles;
+        std::vector<double> cumulative; ///< weighted area up to and with each triangle
+    };
+
+    const Mesh* mesh_;
+    SceneView scene_;
+    RayCaster caster_;
+    WeightedTriangles head_, elsewhere_;
+};
+
+} // namespace overt

@@ -1,0 +1,37 @@
+#include "devices/simulated/observed_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace overt {
+
+SessionDuration ObservedScene::light_delay(double y_px) const {
+    const double rows = screen.screen_px.y;
+    return display_latency + from_seconds(std::clamp(y_px, 0.0, rows) / (rows * refresh_hz));
+}
+
+SessionDuration ObservedScene::frame_period() const {
+    const int refreshes = refreshes_per_frame(animation.frame_rate_hz, refresh_hz);
+    return from_seconds(refreshes > 0 ? refreshes / refresh_hz : 1.0 / animation.frame_rate_hz);
+}
+
+ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Sculpture> sculptures,
+                                  const ScreenGeometry& screen) {
+    ObservedScene scene;
+    scene.screen = screen;
+    scene.animation = protocol.animation;
+    scene.refresh_hz = protocol.display.refresh_hz;
+    scene.display_latency = from_seconds(1e-3 * protocol.display.latency_ms);
+    for (const Sculpture& sculpture : sculptures)
+        scene.sculptures.push_back({sculpture.has_mesh() ? &sculpture.mesh : nullptr, sculpture.scene});
+    for (const Task& task : protocol.tasks)
+        scene.tasks.push_back({task.id, task.simulated_head_share});
+    return scene;
+}
+
+glm::dvec2 px_per_deg_at_centre(const ScreenGeometry& screen) {
+    return std::tan(to_radians({1.0}).value) * screen.viewing_distance_mm * glm::dvec2(screen.screen_px) /
+           screen.screen_mm;
+}
+
+} // namespace overt

@@ -1,0 +1,51 @@
+/// What a simulated observer can look at, and how its light reaches the eye.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiment/animation.h"
+#include "experiment/protocol/protocol.h"
+#include "experiment/scene/mesh.h"
+#include "experiment/scene/viewing.h"
+#include "experiment/screen_geometry.h"
+#include "experiment/session_time.h"
+#include "experiment/stimulus/sculpture.h"
+
+namespace overt {
+
+struct ObservedSculpture {
+    const Mesh* mesh = nullptr; ///< nullptr or without triangles: ready-made frames whose surface is unknown
+    SceneView scene;
+};
+
+struct ObservedTask {
+    std::string id;
+    double head_share = 0.0; ///< share of fixations that go to the part «head», 0 … 1
+};
+
+struct ObservedScene {
+    ScreenGeometry screen;
+    Animation animation;
+    double refresh_hz = 120.0;
+    SessionDuration display_latency{};         ///< from vertical blank to the first row's light
+    std::vector<ObservedSculpture> sculptures; ///< by Condition::sculpture
+    std::vector<ObservedTask> tasks;           ///< by Trial::task
+
+    /// From vertical blank to the light of a row: rows are lit one after another, evenly over one refresh.
+    /// Rows above and below the screen are taken as its first and last.
+    SessionDuration light_delay(double y_px) const;
+
+    /// How long an animation frame is lit.
+    SessionDuration frame_period() const;
+};
+
+/// The scene of a protocol. Its meshes stay where they are: `sculptures` must outlive the result.
+ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Sculpture> sculptures,
+                                  const ScreenGeometry& screen);
+
+/// Pixels per degree at the middle of the screen, along each axis.
+glm::dvec2 px_per_deg_at_centre(const ScreenGeometry& screen);
+
+} // namespace overt

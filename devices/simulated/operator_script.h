@@ -1,0 +1,27 @@
+/// An operator who is not there: keys that a simulated session is led by.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "experiment/ports/ports.h"
+
+namespace overt {
+
+/// One key, pressed once.
+struct ScriptedOperatorKey {
+    SessionPhase phase = SessionPhase::task_screen;
+    std::optional<int> trial; ///< index, practice not counted; nothing: whichever comes first
+    double after_s = 0.0;     ///< the phase began
+    ResponsePress::Key key = ResponsePress::Key::pause;
+    char32_t answer = U'y'; ///< to the question that follows: y, n, or the digit of a reason
+    std::string text;       ///< as it was written
+};
+
+/// Reads «PHASE[@TRIAL]+SECONDS=KEY[,ANSWER]», as «stimulus@3+0.5=skip,2»: trials count from 1, the answer is
+/// yes, no or, to skip, the digit of one of so many reasons, and yes if it is left out. Throws InputError
+/// that says what may stand there.
+ScriptedOperatorKey read_operator_key(std::string_view text, int reasons);
+
+} // namespace overt

@@ -1,0 +1,172 @@
+#include "devices/simulated/simulated_observer.h"
+
+#include <algorithm>
+
+#include "experiment/base/error.h"
+
+namespace overt {
+
+namespace {
+
+constexpr SessionDuration lingering = std::chrono::milliseconds(150);
+constexpr SessionDuration rest_after_saccade = std::chrono::milliseconds(20);
+
+ScreenPoint between(ScreenPoint from, ScreenPoint to, double share) {
+    return {from.x_px + share * (to.x_px - from.x_px), from.y_px + share * (to.y_px - from.y_px)};
+}
+
+double share_of(SessionTime time, SessionTime begin, SessionTime end) {
+    return to_seconds(time - begin) / to_seconds(end - begin);
+}
+
+} // namespace
+
+SimulatedObserver::Presentation::Presentation(const ObservedScene& scene, const ObserverSettings& settings)
+    : script(scene, settings) {
+    // One for each refresh; a missed refresh takes its place in the count.
+    flips.reserve(static_cast<std::size_t>(scene.animation.duration_s * scene.refresh_hz) + 64);
+}
+
+SimulatedObserver::SimulatedObserver(ObservedScene scene, std::uint64_t seed,
+                                     const ObserverSettings& settings)
+    : scene_(std::move(scene)), seed_(seed), settings_(settings), turn_(scene_),
+      wandering_(seed, settings.drift, settings.tremor), blinks_(seed, settings.blinks_per_minute),
+      px_per_deg_(px_per_deg_at_centre(scene_.screen)) {
+    for (int frame = 0; frame < scene_.animation.frame_count; ++frame)
+        angle_of_frame_.push_back(scene_.animation.angle_of({frame}));
+    for (const ObservedSculpture& sculpture : scene_.sculptures) {
+        const bool has_surface = sculpture.mesh && !sculpture.mesh->triangles.empty();
+        targets_.push_back(has_surface ? std::make_unique<GazeTargets>(sculpture) : nullptr);
+    }
+    prepare_next();
+}
+
+void SimulatedObserver::prepare_next() {
+    if (begun_ == presentations_.size())
+        presentations_.push_back(std::make_unique<Presentation>(scene_, settings_));
+}
+
+void SimulatedObserver::presentation_begins(const Trial& trial) noexcept {
+    OVERT_EXPECTS(begun_ < presentations_.size());
+    Presentation& presentation = *presentations_[begun_++];
+    presentation.trial = trial.index;
+    presentation.targets = targets_[static_cast<std::size_t>(trial.condition.sculpture)].get();
+    presentation.script.compose(scene_, presentation.targets, turn_, settings_, seed_, trial.index,
+                                scene_.tasks[static_cast<std::size_t>(trial.task)].head_share);
+}
+
+void SimulatedObserver::saw(const FlipRecord& flip) noexcept {
+    OVERT_EXPECTS(begun_ > 0);
+    std::vector<SeenFlip>& flips = presentations_[begun_ - 1]->flips;
+    if (flips.size() < flips.capacity())
+        flips.push_back({flip.report.vertical_blank, flip.shown});
+}
+
+void SimulatedObserver::saw_screen(const Screen&, SessionTime onset) noexcept {
+    if (begun_ > 0) {
+        Presentation& presentation = *presentations_[begun_ - 1];
+        if (!presentation.end) {
+            presentation.end = onset;
+            if (!presentation.flips.empty())
+                plan_return(presentation);
+        }
+    }
+    prepare_next();
+}
+
+void SimulatedObserver::plan_return(Presentation& presentation) const noexcept {
+    const std::vector<ScriptedFixation>& fixations = presentation.script.fixations();
+    SessionDuration leaves = *presentation.end + lingering - presentation.onset();
+    const std::size_t current = presentation.script.fixation_at(leaves);
+    if (leaves >= fixations[current].end && current + 1 < fixations.size())
+        leaves = fixations[current + 1].begin + rest_after_saccade; // a saccade under way arrives first
+    presentation.left_place = scripted(presentation, leaves).place;
+    presentation.leaves = presentation.onset() + leaves;
+    presentation.back =
+        presentation.leaves +
+        saccade_duration(scene_.screen.angle_between(presentation.left_place, scene_.screen.centre()));
+}
+
+const SimulatedObserver::Presentation* SimulatedObserver::presentation_at(SessionTime time) const noexcept {
+    for (std::size_t i = begun_; i-- > 0;) {
+        const Presentation& presentation = *presentations_[i];
+        if (presentation.flips.empty() || time < presentation.onset())
+            continue;
+        return presentation.end && time >= presentation.back ? nullptr : &presentation;
+    }
+    return nullptr;
+}
+
+SimulatedObserver::Looking SimulatedObserver::scripted(const Presentation& presentation,
+                                                       SessionDuration since_onset) const noexcept {
+    const std::vector<ScriptedFixation>& fixations = presentation.script.fixations();
+    const std::size_t index = presentation.script.fixation_at(since_onset);
+    const ScriptedFixation& fixation = fixations[index];
+    const ScreenPoint place = place_of(fixation, since_onset, scene_, presentation.targets, turn_);
+    if (since_onset < fixation.end || index + 1 == fixations.size())
+        return {place, EyeState::fixation, &fixation};
+    // Both ends of the way go on with the turning object.
+    const ScriptedFixation& next = fixations[index + 1];
+    const double share = to_seconds(since_onset - fixation.end) / to_seconds(next.begin - fixation.end);
+    const ScreenPoint to = place_of(next, since_onset, scene_, presentation.targets, turn_);
+    return {between(place, to, saccade_progress(share)), EyeState::saccade, nullptr};
+}
+
+SimulatedObserver::Looking SimulatedObserver::looking_at(const Presentation& presentation,
+                                                         SessionTime time) const noexcept {
+    if (!presentation.end || time < presentation.leaves)
+        return scripted(presentation, time - presentation.onset());
+    const double share = share_of(time, presentation.leaves, presentation.back);
+    return {between(presentation.left_place, scene_.screen.centre(), saccade_progress(share)),
+            EyeState::saccade, nullptr};
+}
+
+TrueGaze SimulatedObserver::gaze_at(SessionTime time) const noexcept {
+    const Presentation* presentation = presentation_at(time);
+    const Looking looking = presentation ? looking_at(*presentation, time) : Looking{scene_.screen.centre()};
+    const glm::dvec2 away_px = wandering_.displacement_deg(time) * px_per_deg_;
+    return {{looking.place.x_px + away_px.x, looking.place.y_px + away_px.y},
+            blinks_.eye_closed_at(time) ? EyeState::blink : looking.state};
+}
+
+GazeTruth SimulatedObserver::truth_at(SessionTime time) const noexcept {
+    GazeTruth truth;
+    truth.gaze = gaze_at(time);
+    const Presentation* presentation = presentation_at(time);
+    if (!presentation)
+        return truth;
+    const Looking looking = looking_at(*presentation, time);
+    if (looking.fixation && truth.gaze.state == EyeState::fixation)
+        truth.target = looking.fixation->target;
+    truth.frame = frame_lit(*presentation, time, truth.gaze.place.y_px);
+    if (truth.frame && presentation->targets && truth.gaze.state != EyeState::blink) {
+        const glm::dvec2 image = scene_.screen.image_from_screen(truth.gaze.place);
+        if (scene_.screen.is_inside_image(image))
+            truth.surface = presentation->targets->surface_at(
+                image, angle_of_frame_[static_cast<std::size_t>(truth.frame->value)]);
+    }
+    return truth;
+}
+
+std::optional<AnimationFrameIndex>
+SimulatedObserver::frame_lit(const Presentation& presentation, SessionTime time, double y_px) const noexcept {
+    const SessionTime blank = time - scene_.light_delay(y_px);
+    if (presentation.end && blank >= *presentation.end)
+        return std::nullopt;
+    const auto after =
+        std::upper_bound(presentation.flips.begin(), presentation.flips.end(), blank,
+                         [](SessionTime value, const SeenFlip& flip) { return value < flip.vertical_blank; });
+    if (after == presentation.flips.begin())
+        return std::nullopt;
+    return std::prev(after)->frame;
+}
+
+const GazeScript* SimulatedObserver::script_of(int trial) const {
+    for (std::size_t i = 0; i < begun_; ++i) {
+        if (presentations_[i]->trial == trial)
+            return &presentations_[i]->script;
+    }
+    return nullptr;
+}
+
+} // namespace overt

@@ -1,0 +1,124 @@
+/// An observer with known eyes: sees the flips, looks at places of the sculpture's surface, and can be asked
+/// for the truth at any time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/simulated/eye_movements.h"
+#include "devices/simulated/gaze_script.h"
+#include "devices/simulated/gaze_targets.h"
+#include "devices/simulated/observed_scene.h"
+#include "experiment/maps/surface_point.h"
+#include "experiment/ports/ports.h"
+
+namespace overt {
+
+enum class EyeState : std::uint8_t { fixation, saccade, blink };
+
+/// Where an eye points, and whether it is open.
+struct TrueGaze {
+    ScreenPoint place;
+    EyeState state = EyeState::fixation;
+};
+
+/// All that is known about an instant.
+struct GazeTruth {
+    TrueGaze gaze;
+    std::optional<SurfacePoint> target;       ///< what the fixation under way pursues
+    std::optional<AnimationFrameIndex> frame; ///< really lit then on the row looked at
+    std::optional<SurfacePoint> surface;      ///< what is under the gaze in that frame, by ray casting
+};
+
+/// What an observer answers, and how long after the question.
+struct SimulatedAnswer {
+    SessionDuration after{};                      ///< when the key is pressed
+    SessionDuration voice_after{}, voice_until{}; ///< when it is spoken
+    std::string text;
+};
+
+/// Deterministic: where it looks is a function of the seed, the trial and the onset; blinks and the eye's
+/// small wandering are functions of the seed and the session time.
+///
+/// Three truths, which the settings drift = tremor = 0 bring together: the target is what the observer means
+/// to look at; the gaze pursues it along the smooth turn (PursuedTurn), not along the steps in which it is
+/// shown; the surface is what the frame lit at that instant has under the gaze. In the middle of the time for
+/// which a frame is lit they are the same place, in between they differ by up to half a step of the turn. A
+/// measurement is compared with `surface`, which is exact at every instant, missed refreshes included.
+///
+/// Used on the session's thread, also by the simulated devices. Between a presentation's first and last flip
+/// nothing is allocated.
+class SimulatedObserver final : public DisplayWitness {
+  public:
+    /// Throws GraphicsError if a sculpture's rays cannot be cast. The scene's meshes must outlive this.
+    SimulatedObserver(ObservedScene scene, std::uint64_t seed, const ObserverSettings& settings = {});
+
+    /// A screen must have been seen since the presentation before. Casts some thousand rays, which takes
+    /// about a millisecond.
+    void presentation_begins(const Trial& trial) noexcept override;
+    void saw(const FlipRecord& flip) noexcept override;
+    /// Ends a presentation: 150 ms later the eye returns to the middle of the screen.
+    void saw_screen(const Screen& screen, SessionTime onset) noexcept override;
+
+    /// Where the eye points. A moment that the display has not yet come to is taken as if nothing changed.
+    TrueGaze gaze_at(SessionTime time) const noexcept;
+    GazeTruth truth_at(SessionTime time) const noexcept;
+
+    /// When and what is answered: log-normal around some seconds, by the task's id.
+    SimulatedAnswer answer_to(const Trial& trial) const;
+    /// How long the `count`-th text is read before a key is pressed.
+    SessionDuration reading_time(int count) const;
+
+    const ObservedScene& scene() const { return scene_; }
+
+    /// The fixations planned for a trial that was presented, or nullptr.
+    const GazeScript* script_of(int trial) const;
+
+  private:
+    struct SeenFlip {
+        SessionTime vertical_blank;
+        AnimationFrameIndex frame;
+    };
+    struct Presentation {
+        Presentation(const ObservedScene& scene, const ObserverSettings& settings);
+        int trial = -1;
+        const GazeTargets* targets = nullptr;
+        GazeScript script;
+        std::vector<SeenFlip> flips;
+        std::optional<SessionTime> end; ///< onset of the screen that followed
+        SessionTime leaves;             ///< begin of the saccade back to the middle
+        SessionTime back;
+        ScreenPoint left_place;
+        SessionTime onset() const { return flips.front().vertical_blank; }
+    };
+    struct Looking {
+        ScreenPoint place;
+        EyeState state = EyeState::fixation;
+        const ScriptedFixation* fixation = nullptr;
+    };
+
+    void prepare_next();
+    const Presentation* presentation_at(SessionTime time) const noexcept;
+    Looking looking_at(const Presentation& presentation, SessionTime time) const noexcept;
+    Looking scripted(const Presentation& presentation, SessionDuration since_onset) const noexcept;
+    void plan_return(Presentation& presentation) const noexcept;
+    std::optional<AnimationFrameIndex> frame_lit(const Presentation& presentation, SessionTime time,
+                                                 double y_px) const noexcept;
+
+    ObservedScene scene_;
+    std::uint64_t seed_;
+    ObserverSettings settings_;
+    PursuedTurn turn_;
+    FixationalMotion wandering_;
+    BlinkTrain blinks_;
+    glm::dvec2 px_per_deg_;
+    std::vector<Degrees> angle_of_frame_;
+    std::vector<std::unique_ptr<GazeTargets>> targets_;        ///< by sculpture; nullptr without a mesh
+    std::vector<std::unique_ptr<Presentation>> presentations_; ///< in order; the last ones still empty
+    std::size_t begun_ = 0;                                    ///< presentations that have begun
+};
+
+} // namespace overt

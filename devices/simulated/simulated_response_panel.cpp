@@ -1,0 +1,94 @@
+#include "devices/simulated/simulated_response_panel.h"
+
+namespace overt {
+
+namespace {
+
+using Key = ResponsePress::Key;
+
+constexpr SessionDuration pressed_again_after = std::chrono::seconds(1);
+constexpr SessionDuration operators_decision = std::chrono::seconds(1);
+constexpr SessionDuration operators_pause = std::chrono::seconds(5);
+
+} // namespace
+
+SimulatedResponsePanel::SimulatedResponsePanel(const Clock& clock, const SimulatedObserver& observer,
+                                               std::vector<ScriptedOperatorKey> script)
+    : clock_(&clock), observer_(&observer) {
+    for (const ScriptedOperatorKey& key : script)
+        operators_.push_back({key, {}, false});
+}
+
+void SimulatedResponsePanel::await_key(SessionTime since) {
+    next_press_ = since + observer_->reading_time(texts_read_++);
+    pressed_with_.key = Key::next;
+    answer_.clear();
+}
+
+void SimulatedResponsePanel::await_response(const Trial& trial, SessionTime since) {
+    SimulatedAnswer answer = observer_->answer_to(trial);
+    next_press_ = since + answer.after;
+    pressed_with_.key = Key::next;
+    answer_ = std::move(answer.text);
+}
+
+void SimulatedResponsePanel::await_decision(bool is_consent, SessionTime since) {
+    if (is_consent) {
+        await_key(since);
+        pressed_with_.key = Key::yes;
+        return;
+    }
+    next_press_ = since + operators_decision;
+    pressed_with_.key = operators_answer_ == U'y'   ? Key::yes
+                        : operators_answer_ == U'n' ? Key::no
+                                                    : Key::character;
+    pressed_with_.character = operators_answer_;
+}
+
+void SimulatedResponsePanel::entered(SessionPhase phase, int trial) noexcept {
+    if (phase == SessionPhase::pause && !resumes_at_)
+        resumes_at_ = clock_->now() + operators_pause;
+    for (Operator& one : operators_) {
+        const ScriptedOperatorKey& scripted = one.scripted;
+        if (!one.due && scripted.phase == phase && (!scripted.trial || *scripted.trial == trial))
+            one.due = clock_->now() + from_seconds(scripted.after_s);
+    }
+}
+
+std::vector<std::string> SimulatedResponsePanel::not_pressed() const {
+    std::vector<std::string> texts;
+    for (const Operator& one : operators_)
+        if (!one.is_done)
+            texts.push_back(one.scripted.text);
+    return texts;
+}
+
+std::optional<ResponsePress> SimulatedResponsePanel::operators_press() noexcept {
+    const SessionTime now = clock_->now();
+    if (resumes_at_ && now >= *resumes_at_) {
+        const ResponsePress press{Key::pause, *resumes_at_};
+        resumes_at_.reset();
+        return press;
+    }
+    for (Operator& one : operators_) {
+        if (!one.due || one.is_done || now < *one.due)
+            continue;
+        one.is_done = true;
+        operators_answer_ = one.scripted.answer;
+        return ResponsePress{one.scripted.key, *one.due};
+    }
+    return std::nullopt;
+}
+
+std::optional<ResponsePress> SimulatedResponsePanel::poll() noexcept {
+    if (const std::optional<ResponsePress> press = operators_press())
+        return press;
+    if (!next_press_ || clock_->now() < *next_press_)
+        return std::nullopt;
+    ResponsePress press = pressed_with_;
+    press.pressed_at = *next_press_;
+    next_press_ = *next_press_ + pressed_again_after;
+    return press;
+}
+
+} // namespace overt

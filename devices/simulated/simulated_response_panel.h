@@ -1,0 +1,53 @@
+/// The key and the voice of a simulated observer, and the keys of a simulated operator.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/simulated/operator_script.h"
+#include "devices/simulated/simulated_observer.h"
+#include "experiment/ports/ports.h"
+
+namespace overt {
+
+/// Presses «next» when the observer has read or answered, and again each second for as long as that has no
+/// effect (a protocol may set a least time). Agrees to take part. A pause ends when it has lasted five
+/// seconds.
+class SimulatedResponsePanel final : public ResponsePanel {
+  public:
+    /// Clock and observer must outlive this.
+    SimulatedResponsePanel(const Clock& clock, const SimulatedObserver& observer,
+                           std::vector<ScriptedOperatorKey> script = {});
+
+    void await_key(SessionTime since) override;
+    void await_response(const Trial& trial, SessionTime since) override;
+    void await_decision(bool is_consent, SessionTime since) override;
+    void await_entry(SessionTime since) override { await_key(since); }
+    std::optional<ResponsePress> poll() noexcept override;
+    std::string answer() override { return answer_; }
+    void entered(SessionPhase phase, int trial) noexcept override;
+
+    /// Keys of the script for which there was no such moment, as they were written.
+    std::vector<std::string> not_pressed() const;
+
+  private:
+    struct Operator {
+        ScriptedOperatorKey scripted;
+        std::optional<SessionTime> due; ///< nothing: its phase has not come yet
+        bool is_done = false;
+    };
+    std::optional<ResponsePress> operators_press() noexcept;
+
+    const Clock* clock_;
+    const SimulatedObserver* observer_;
+    std::vector<Operator> operators_;
+    int texts_read_ = 0;
+    std::optional<SessionTime> next_press_;
+    ResponsePress pressed_with_;            ///< what next_press_ is
+    std::optional<SessionTime> resumes_at_; ///< the operator's pause
+    char32_t operators_answer_ = U'n';
+    std::string answer_;
+};
+
+} // namespace overt

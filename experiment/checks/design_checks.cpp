@@ -1,0 +1,289 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "experiment/base/counted.h"
+#include "experiment/checks/protocol_checks.h"
+#include "experiment/design/block_plan.h"
+#include "experiment/design/latin_square.h"
+#include "experiment/design/observer_groups.h"
+#include "experiment/design/schedule.h"
+#include "experiment/protocol/protocol_keys.h"
+
+namespace overt {
+
+namespace {
+
+template <class Entry>
+void check_names(ProtocolExamination& examination, const std::string& path,
+                 const std::vector<std::string>& names, const std::vector<Entry>& entries,
+                 std::string_view noun) {
+    std::vector<std::string_view> known;
+    for (const Entry& entry : entries)
+        known.push_back(entry.id);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (std::find(known.begin(), known.end(), names[i]) == known.end()) {
+            examination.error({path}, fmt::format("there is no {} \"{}\"", noun, names[i]),
+                              suggest_name(names[i], known));
+        } else if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+                   names.begin() + static_cast<std::ptrdiff_t>(i)) {
+            examination.error({path}, fmt::format("{} \"{}\" is listed twice", noun, names[i]),
+                              "to show more often, there is \"repetitions\"");
+        }
+    }
+}
+
+template <class Entry>
+void check_entry_ids(ProtocolExamination& examination, std::string_view section,
+                     const std::vector<Entry>& entries) {
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const auto first = std::find_if(entries.begin(), entries.end(),
+                                        [&](const Entry& earlier) { return earlier.id == entries[i].id; });
+        const auto earlier = static_cast<std::size_t>(first - entries.begin());
+        const std::string path = fmt::format("{}[{}].id", section, i);
+        if (earlier < i && !entries[i].id.empty())
+            examination.error(
+                {path}, fmt::format("id \"{}\" is taken already", entries[i].id),
+                fmt::format("by the [[{}]] in {}", section,
+                            examination.line_of(fmt::format("{}[{}].id", section, earlier), path)));
+    }
+}
+
+void check_weights(ProtocolExamination& examination, const BlockSettings& block, int index) {
+    const std::string path = fmt::format("block[{}].weights", index);
+    if (block.weights.empty())
+        return;
+    const std::size_t levels =
+        levels_in(examination.protocol, scope_of(examination.protocol, index), block.by).size();
+    if (block.weights.size() != levels) {
+        examination.error({path},
+                          fmt::format("there are {} weights for {} levels of the factor {}",
+                                      block.weights.size(), levels, name_of(block.by)),
+                          "a weight for each level, in the order of the list");
+        return;
+    }
+    if (std::all_of(block.weights.begin(), block.weights.end(),
+                    [](double weight) { return weight == 0.0; })) {
+        examination.error({path}, "all weights are 0: nothing would be shown");
+    } else if (!block.draws && std::any_of(block.weights.begin(), block.weights.end(),
+                                           [](double weight) { return weight != std::floor(weight); })) {
+        examination.error({path},
+                          "without \"draws\", weights say how often each trial comes, in whole numbers",
+                          "multiply them, or say with \"draws\" how many trials are drawn");
+    }
+}
+
+/// A key that says nothing under the order that the block has.
+void check_idle(ProtocolExamination& examination, int index, std::string_view key, bool is_used,
+                std::string_view used_by) {
+    const std::string path = fmt::format("block[{}].{}", index, key);
+    if (!is_used && examination.is_written(path))
+        examination.error(
+            {path}, fmt::format("\"{}\" is for blocks of order {}", key, used_by),
+            fmt::format("this one is {}",
+                        name_of(examination.protocol.blocks[static_cast<std::size_t>(index)].order)));
+}
+
+void check_block(ProtocolExamination& examination, int index) {
+    const Protocol& protocol = examination.protocol;
+    const BlockSettings& block = protocol.blocks[static_cast<std::size_t>(index)];
+    const auto path = [&](std::string_view key) { return fmt::format("block[{}].{}", index, key); };
+    check_names(examination, path("tasks"), block.tasks, protocol.tasks, "task");
+    check_names(examination, path("sculptures"), block.sculptures, protocol.sculptures, "sculpture");
+    check_names(examination, path("materials"), block.materials, protocol.materials, "material");
+    const bool is_blocked = block.order == OrderMethod::blocked,
+               is_weighted = block.order == OrderMethod::weighted;
+    check_idle(examination, index, "by", is_blocked || is_weighted, "blocked or weighted");
+    check_idle(examination, index, "levels", is_blocked, "blocked");
+    check_idle(examination, index, "weights", is_weighted, "weighted");
+    check_idle(examination, index, "draws", is_weighted, "weighted");
+    if (is_weighted)
+        check_weights(examination, block, index);
+    constexpr std::size_t most_levels = 60;
+    if (is_blocked && block.levels == LevelOrder::random) {
+        const std::size_t levels = levels_in(protocol, scope_of(protocol, index), block.by).size();
+        if (levels > most_levels)
+            examination.error({path("by"), path("levels")},
+                              fmt::format("{} levels are too many for a random order of them; {} is the most",
+                                          levels, most_levels),
+                              "take levels = \"random-square\"");
+    }
+    if (block.continues && index == 0)
+        examination.error({path("continues")}, "there is no block before this one that it could continue");
+    else if (block.continues && protocol.schedule.block_order == LevelOrder::random)
+        examination.error({path("continues"), "schedule.block_order"},
+                          "a block cannot continue the one before it where their order is random",
+                          "take block_order = \"random-square\"");
+}
+
+/// Those of the planned observers who see the same.
+struct AlikeObservers {
+    std::string of_group; ///< « of group "gold"», or nothing without groups
+    int count = 0;
+    int first = 1;  ///< number of one of them
+    int blocks = 0; ///< that they have
+};
+
+std::vector<AlikeObservers> planned_observers(const Protocol& protocol) {
+    if (protocol.groups.empty())
+        return {{"", protocol.schedule.observers, 1, block_count(protocol)}};
+    std::vector<AlikeObservers> groups(protocol.groups.size());
+    const int planned =
+        std::min(protocol.schedule.observers, group_capacity(protocol).value_or(protocol.schedule.observers));
+    for (int number = planned; number >= 1; --number) {
+        const auto group = static_cast<std::size_t>(group_place(protocol, number).group);
+        const GroupSettings& settings = protocol.groups[group];
+        groups[group] = {fmt::format(" of group \"{}\"", settings.id), groups[group].count + 1, number,
+                         settings.blocks.empty() ? block_count(protocol)
+                                                 : static_cast<int>(settings.blocks.size())};
+    }
+    std::erase_if(groups, [](const AlikeObservers& group) { return group.count == 0; });
+    return groups;
+}
+
+/// Squares and rotations that a number of observers does not fill.
+void check_fill(ProtocolExamination& examination, const AlikeObservers& observers, std::string_view what,
+                int rows) {
+    if (rows <= 1 || observers.count % rows == 0)
+        return;
+    const int below = observers.count / rows * rows;
+    examination.warning(
+        {"schedule.observers"},
+        fmt::format("{}{} {} not fill {}, which takes {}", counted(observers.count, "observer"),
+                    observers.of_group, observers.count == 1 ? "does" : "do", what, rows),
+        below > 0 ? fmt::format("{} or {} observers{} would", below, below + rows, observers.of_group)
+                  : fmt::format("{} observers{} would", rows, observers.of_group));
+}
+
+bool rotates_materials(const Protocol& protocol, int block, const BlockScope& scope) {
+    return std::any_of(scope.tasks.begin(), scope.tasks.end(), [&](int task) {
+        return block_at(protocol, block)
+                   .stimuli.value_or(protocol.tasks[static_cast<std::size_t>(task)].stimuli) ==
+               TaskCoverage::once_per_sculpture;
+    });
+}
+
+void check_squares(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    const ScheduleSettings& schedule = protocol.schedule;
+    for (const AlikeObservers& observers : planned_observers(protocol)) {
+        const std::vector<BlockPlan> plans = block_plans(protocol, observers.first, 0);
+        if (schedule.block_order >= LevelOrder::cyclic)
+            check_fill(examination, observers, "the square of blocks",
+                       rows_of_square(square_of(schedule.block_order), observers.blocks));
+        int rotation = 1;
+        for (const BlockPlan& plan : plans) {
+            const BlockSettings& block = block_at(protocol, plan.block);
+            if (block.order == OrderMethod::blocked && block.levels >= LevelOrder::cyclic)
+                check_fill(
+                    examination, observers, fmt::format("the square of levels of block \"{}\"", block.id),
+                    rows_of_square(square_of(block.levels),
+                                   static_cast<int>(levels_in(protocol, plan.scope, block.by).size())));
+            if (rotates_materials(protocol, plan.block, plan.scope))
+                rotation = std::max(rotation, rows_of_square(schedule.material_rotation,
+                                                             static_cast<int>(plan.scope.materials.size())));
+        }
+        if (!protocol.groups.empty())
+            check_fill(examination, observers, "the rotation of materials", rotation);
+    }
+}
+
+/// Without groups, in the words of what is seen.
+void check_rotation(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    if (!protocol.groups.empty())
+        return;
+    const int observers = protocol.schedule.observers;
+    int rotation = 1;
+    for (int index = 0; index < block_count(protocol); ++index) {
+        const BlockScope scope = scope_of(protocol, index);
+        if (rotates_materials(protocol, index, scope))
+            rotation = std::max(rotation, rows_of_square(protocol.schedule.material_rotation,
+                                                         static_cast<int>(scope.materials.size())));
+    }
+    if (observers % rotation != 0) {
+        const int below = observers / rotation * rotation;
+        examination.warning(
+            {"schedule.observers"},
+            fmt::format(
+                "{} cannot see {} materials equally often under the tasks that are asked once per sculpture",
+                counted(observers, "observer"), protocol.materials.size()),
+            below > 0 ? fmt::format("{} or {} observers would", below, below + rotation)
+                      : fmt::format("{} observers would", rotation));
+    }
+}
+
+} // namespace
+
+void check_blocks(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    check_entry_ids(examination, "block", protocol.blocks);
+    for (int index = 0; index < static_cast<int>(protocol.blocks.size()); ++index)
+        check_block(examination, index);
+    for (const Task& task : protocol.tasks) {
+        const auto has_it = [&](const BlockSettings& block) {
+            return block.tasks.empty() ||
+                   std::find(block.tasks.begin(), block.tasks.end(), task.id) != block.tasks.end();
+        };
+        if (!protocol.blocks.empty() && std::none_of(protocol.blocks.begin(), protocol.blocks.end(), has_it))
+            examination.warning({"block[0]"}, fmt::format("no block asks task \"{}\"", task.id));
+    }
+}
+
+void check_groups(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    check_entry_ids(examination, "group", protocol.groups);
+    for (std::size_t i = 0; i < protocol.groups.size(); ++i) {
+        const GroupSettings& group = protocol.groups[i];
+        const auto path = [&](std::string_view key) { return fmt::format("group[{}].{}", i, key); };
+        check_names(examination, path("blocks"), group.blocks, protocol.blocks, "block");
+        check_names(examination, path("tasks"), group.tasks, protocol.tasks, "task");
+        check_names(examination, path("sculptures"), group.sculptures, protocol.sculptures, "sculpture");
+        check_names(examination, path("materials"), group.materials, protocol.materials, "material");
+    }
+    const std::optional<int> capacity = group_capacity(protocol);
+    if (capacity && *capacity < protocol.schedule.observers)
+        examination.error({"schedule.observers", "group[0].cap"},
+                          fmt::format("{} observers are planned, and the caps of the groups take only {}",
+                                      protocol.schedule.observers, *capacity),
+                          "raise a cap, or plan fewer observers");
+}
+
+void check_schedule(ProtocolExamination& examination) {
+    // More than anyone sits through, and a bound for all that is reckoned per trial.
+    constexpr int most_trials = 2000;
+    const Protocol& protocol = examination.protocol;
+    const int distinct = std::max(1, static_cast<int>(protocol.groups.size()));
+    for (int number = 1; number <= std::min(distinct, protocol.schedule.observers); ++number) {
+        // Before trials are made, so that no product of large numbers is.
+        double trials = 0.0;
+        for (const BlockPlan& plan : block_plans(protocol, number, 0)) {
+            const BlockSettings& block = block_at(protocol, plan.block);
+            double weight = 0.0;
+            for (const Trial& trial : plan.trials)
+                weight += weight_of(protocol, trial);
+            trials += (block.draws ? static_cast<double>(*block.draws) : weight) * block.repetitions;
+        }
+        if (trials > most_trials) {
+            examination.error(
+                {protocol.blocks.empty() ? "task" : "block[0]"},
+                fmt::format("an observer would have {} trials; {} is the most", trials, most_trials));
+            return;
+        }
+        if (trials == 0.0) {
+            const int group = group_place(protocol, number).group;
+            examination.error({group >= 0 ? fmt::format("group[{}]", group) : "block"},
+                              fmt::format("observer {} would have no trials", number),
+                              group >= 0 ? "nothing is left of the blocks by what the group leaves out" : "");
+            return;
+        }
+    }
+    if (const auto conflict = find_order_conflict(protocol))
+        examination.error(conflict->keys, conflict->message, conflict->hint);
+    check_dropped_limits(examination);
+    check_rotation(examination);
+    check_squares(examination);
+}
+
+} // namespace overt

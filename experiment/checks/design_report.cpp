@@ -1,0 +1,233 @@
+#include "experiment/checks/design_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "experiment/checks/design_balance.h"
+#include "experiment/design/block_plan.h"
+#include "experiment/design/observer_groups.h"
+#include "experiment/design/schedule.h"
+#include "experiment/design/trial_queue.h"
+#include "experiment/protocol/protocol_keys.h"
+#include "experiment/stimulus/frame_memory.h"
+
+namespace overt {
+
+namespace {
+
+template <class Entry> std::vector<std::string> ids_of(const std::vector<Entry>& entries) {
+    std::vector<std::string> ids;
+    for (const Entry& entry : entries)
+        ids.push_back(entry.id);
+    return ids;
+}
+
+AnimationFacts animation_facts(const Protocol& protocol) {
+    const Animation& animation = protocol.animation;
+    const PageCycle cycle = make_page_cycle(animation, protocol.display.refresh_hz);
+    AnimationFacts facts;
+    facts.frames = animation.frame_count;
+    facts.distinct_poses = static_cast<int>(distinct_poses(animation).angles.size());
+    facts.shown_frames = animation.shown_frame_count();
+    facts.refreshes_per_frame = refreshes_per_frame(animation.frame_rate_hz, protocol.display.refresh_hz);
+    facts.refreshes = cycle.total_refreshes;
+    facts.duration_s = cycle.total_refreshes / protocol.display.refresh_hz;
+    facts.periods = static_cast<double>(facts.shown_frames) / animation.steps_per_period();
+    return facts;
+}
+
+VisualAngles visual_angles(const Protocol& protocol) {
+    const ScreenGeometry geometry = screen_geometry_of(protocol);
+    const ScreenPoint centre = geometry.centre();
+    /// Of an area, along its middle row and its middle column.
+    const auto size_deg = [&](ScreenPoint middle, glm::dvec2 px) {
+        const glm::dvec2 half = 0.5 * px;
+        const auto& [x, y] = middle;
+        return glm::dvec2(geometry.angle_between({x - half.x, y}, {x + half.x, y}).value,
+                          geometry.angle_between({x, y - half.y}, {x, y + half.y}).value);
+    };
+    const glm::dvec2 image_px(geometry.image_px), screen = size_deg(centre, geometry.screen_px);
+    const ScreenPoint middle = geometry.screen_from_image(0.5 * image_px);
+    const glm::dvec2 image = size_deg(middle, image_px);
+    VisualAngles angles;
+    angles.screen_width_deg = screen.x;
+    angles.screen_height_deg = screen.y;
+    angles.image_width_deg = image.x;
+    angles.image_height_deg = image.y;
+    angles.image_right_deg = std::copysign(geometry.angle_between(centre, {middle.x_px, centre.y_px}).value,
+                                           middle.x_px - centre.x_px);
+    angles.image_up_deg = std::copysign(geometry.angle_between(centre, {centre.x_px, middle.y_px}).value,
+                                        centre.y_px - middle.y_px);
+    // The camera stands before the middle of its picture, wherever that is shown.
+    angles.camera_fov_deg = protocol.view.vertical_fov_deg.value_or(size_deg(centre, image_px).y);
+    angles.px_per_deg = geometry.px_per_deg_at_centre();
+    return angles;
+}
+
+/// Of the observer with these trials, if nothing fails.
+SessionLength session_length(const Protocol& protocol, const Schedule& schedule, double animation_s,
+                             const DesignAssumptions& assumptions) {
+    const ScreenSettings& screens = protocol.screens;
+    const double question_s = std::max(screens.task_min_s, assumptions.question_s);
+    const double shown_s = animation_s + 2.0 * screens.recording_lead_s;
+    const double answer_s = std::clamp(assumptions.answer_s, screens.response_min_s, screens.response_max_s);
+    SessionLength length;
+    length.calibration_s = assumptions.calibration_s;
+    // What is read before the first trial: consent, and the pages of [instructions].
+    length.instructions_s = assumptions.text_s * static_cast<double>(protocol.instructions.pages.size() +
+                                                                     (protocol.consent.text.empty() ? 0 : 1));
+    TrialQueue queue(protocol, schedule);
+    while (const std::optional<SessionStep> step = queue.next()) {
+        switch (step->kind) {
+        case SessionStep::Kind::instructions:
+            length.instructions_s += assumptions.text_s;
+            break;
+        case SessionStep::Kind::practice:
+            length.practice_s += question_s + screens.drift_target_s + shown_s + answer_s;
+            if (!protocol.practice[static_cast<std::size_t>(step->trial.index)].feedback.empty())
+                length.practice_s += assumptions.question_s;
+            break;
+        case SessionStep::Kind::pause:
+            // No key ends a self-paced one before its least time.
+            length.breaks_s += protocol.breaks.pace == BreakPace::self
+                                   ? std::max(protocol.breaks.duration_s, protocol.breaks.min_s)
+                                   : protocol.breaks.duration_s;
+            ++length.breaks;
+            break;
+        case SessionStep::Kind::trial:
+            length.questions_s += question_s;
+            length.drift_checks_s += screens.drift_target_s;
+            length.animations_s += shown_s;
+            length.answers_s += answer_s;
+            queue.tell({});
+            break;
+        }
+    }
+    return length;
+}
+
+MemoryNeed memory_need(const Protocol& protocol, int poses) {
+    constexpr double bytes_per_map_px = 4.0; // a triangle's number
+    MemoryNeed need;
+    need.pages_per_stimulus_bytes = most_pages(protocol) * page_bytes(protocol);
+    need.next_fits = 2.0 * need.pages_per_stimulus_bytes <= 1e6 * protocol.display.frame_store_mb;
+    need.maps_per_sculpture_bytes =
+        bytes_per_map_px * poses * protocol.view.width_px * protocol.view.height_px;
+    return need;
+}
+
+std::string order_in_words(const BlockSettings& block) {
+    std::string words(name_of(block.order));
+    if (block.order == OrderMethod::blocked)
+        words += fmt::format(" by {}, levels {}", name_of(block.by), name_of(block.levels));
+    if (block.order == OrderMethod::weighted)
+        words += fmt::format(" by {}{}", name_of(block.by), block.draws ? ", drawn with replacement" : "");
+    if (block.repetitions > 1)
+        words += fmt::format(", {} times{}", block.repetitions,
+                             block.repetition_order == RepetitionOrder::mixed ? ", mixed" : "");
+    if (block.continues)
+        words += ", with the block before";
+    return words;
+}
+
+/// What the planned observers have: trials, blocks, groups.
+void add_observers(DesignReport& report, const Protocol& protocol) {
+    for (const BlockSettings& block : protocol.blocks)
+        report.blocks.push_back(block.id);
+    for (int block = 0; block < block_count(protocol); ++block)
+        report.block_facts.push_back(
+            {block_at(protocol, block).id, order_in_words(block_at(protocol, block)), 0});
+    for (const GroupSettings& group : protocol.groups)
+        report.groups.push_back({group.id, group.cap, 0, 0});
+    report.fewest_trials = std::numeric_limits<int>::max();
+    for (const Observer& observer : planned_observers(protocol)) {
+        int trials = 0;
+        for (const BlockPlan& plan : block_plans(protocol, observer.number, 0)) {
+            const int length = length_of(protocol, plan);
+            BlockFacts& facts = report.block_facts[static_cast<std::size_t>(plan.block)];
+            facts.trials = std::max(facts.trials, length);
+            trials += length;
+        }
+        report.trials_per_observer = std::max(report.trials_per_observer, trials);
+        report.fewest_trials = std::min(report.fewest_trials, trials);
+        if (const int group = group_place(protocol, observer.number).group; group >= 0) {
+            GroupFacts& facts = report.groups[static_cast<std::size_t>(group)];
+            ++facts.observers;
+            facts.trials = trials;
+        }
+    }
+}
+
+/// The observer who sits longest, among those who differ.
+SessionLength longest_session(const Protocol& protocol, ScheduleMaker& maker, std::uint64_t seed,
+                              double animation_s, const DesignAssumptions& assumptions) {
+    SessionLength longest;
+    const std::size_t different = std::max<std::size_t>(1, protocol.groups.size());
+    std::vector<Observer> observers = planned_observers(protocol);
+    observers.resize(std::min(observers.size(), different));
+    for (const Observer& observer : observers) {
+        const SessionLength length =
+            session_length(protocol, maker.make(observer, seed), animation_s, assumptions);
+        if (length.total_s() > longest.total_s())
+            longest = length;
+    }
+    return longest;
+}
+
+} // namespace
+
+std::vector<Observer> planned_observers(const Protocol& protocol) {
+    std::vector<Observer> observers;
+    // More than the caps of the groups take there cannot be.
+    const int count =
+        std::min(protocol.schedule.observers, group_capacity(protocol).value_or(protocol.schedule.observers));
+    for (int number = 1; number <= count; ++number)
+        observers.push_back({fmt::format("{:02}", number), number});
+    return observers;
+}
+
+DesignReport make_design_report(const Protocol& protocol, const std::vector<Observer>& observers,
+                                std::uint64_t example_seed, const DesignAssumptions& assumptions,
+                                bool takes_seed) {
+    DesignReport report;
+    report.name = protocol.name;
+    report.title = protocol.title;
+    report.tasks = ids_of(protocol.tasks);
+    report.sculptures = ids_of(protocol.sculptures);
+    report.materials = ids_of(protocol.materials);
+    add_observers(report, protocol);
+    report.practice_trials = static_cast<int>(protocol.practice.size());
+    report.observers = protocol.schedule.observers;
+    report.display = protocol.display;
+    report.view = protocol.view;
+    report.motion = protocol.animation;
+    report.animation = animation_facts(protocol);
+    report.angles = visual_angles(protocol);
+    report.assumptions = assumptions;
+    report.is_seed_fixed = protocol.schedule.seed.has_value() && !takes_seed;
+    report.is_seed_given = takes_seed;
+    const std::uint64_t seed = takes_seed ? example_seed : protocol.schedule.seed.value_or(example_seed);
+    ScheduleMaker maker(protocol);
+    report.session = longest_session(protocol, maker, seed, report.animation.duration_s, assumptions);
+    report.memory = memory_need(protocol, report.animation.distinct_poses);
+    const Presentations presentations = count_presentations(protocol, maker, seed);
+    report.incidence = presentations.cells;
+    for (const Observer& observer : observers) {
+        report.schedules.push_back(maker.make(observer, seed));
+        if (const int group = group_place(protocol, observer.number).group; group >= 0)
+            report.schedule_groups.push_back(protocol.groups[static_cast<std::size_t>(group)].id);
+    }
+    report.warnings = balance_warnings(protocol, presentations);
+    if (std::any_of(report.schedules.begin(), report.schedules.end(),
+                    [](const Schedule& schedule) { return !schedule.is_even; }))
+        report.warnings.emplace_back(
+            "the limits leave too many orders to count and too few to meet by chance: they are "
+            "kept, but orders come from a chain of random exchanges and are only nearly equally "
+            "probable");
+    return report;
+}
+
+} // namespace overt

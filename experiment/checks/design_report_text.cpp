@@ -1,0 +1,263 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "experiment/base/counted.h"
+#include "experiment/checks/design_report.h"
+#include "experiment/colour/characterisation_text.h"
+#include "experiment/protocol/protocol_keys.h"
+
+namespace overt {
+
+namespace {
+
+std::string in_bytes(double bytes) {
+    return bytes < 9.5e6 ? fmt::format("{:.2g} MB", bytes / 1e6)
+           : bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6)
+                         : fmt::format("{:.1f} GB", bytes / 1e9);
+}
+
+std::size_t longest(const std::vector<std::string>& names) {
+    std::size_t length = 0;
+    for (const std::string& name : names)
+        length = std::max(length, name.size());
+    return length;
+}
+
+const std::string& at(const std::vector<std::string>& names, int index) {
+    return names.at(static_cast<std::size_t>(index));
+}
+
+/// A heading in the left column and its lines beside it.
+void add_facts(std::string& text, std::string_view heading, const std::vector<std::string>& lines) {
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        text += fmt::format("  {:<11}{}\n", i == 0 ? heading : "", lines[i]);
+}
+
+void add_blocks(std::string& text, const DesignReport& report) {
+    std::vector<std::string> lines;
+    if (!report.blocks.empty()) {
+        for (const BlockFacts& block : report.block_facts)
+            lines.push_back(fmt::format("{}: {}, {}", block.id, counted(block.trials, "trial"), block.order));
+        add_facts(text, "Blocks", lines);
+    }
+    lines.clear();
+    for (const GroupFacts& group : report.groups)
+        lines.push_back(fmt::format("{}: {}{}, {} each", group.id, counted(group.observers, "observer"),
+                                    group.cap > 0 ? fmt::format(" of {}", group.cap) : "",
+                                    counted(group.trials, "trial")));
+    add_facts(text, "Groups", lines);
+}
+
+void add_overview(std::string& text, const DesignReport& report) {
+    const int sculptures = static_cast<int>(report.sculptures.size());
+    const int materials = static_cast<int>(report.materials.size());
+    const int tasks = static_cast<int>(report.tasks.size()), stimuli = sculptures * materials;
+    const AnimationFacts& animation = report.animation;
+    const VisualAngles& angles = report.angles;
+    add_facts(
+        text, "Design",
+        {fmt::format("{} x {} = {}; {}: {}", counted(sculptures, "sculpture"), counted(materials, "material"),
+                     counted(stimuli, "stimulus", "stimuli"), counted(tasks, "task"),
+                     counted(tasks * stimuli, "map")),
+         fmt::format("{}{} for each of {}",
+                     report.fewest_trials < report.trials_per_observer
+                         ? fmt::format("{} to ", report.fewest_trials)
+                         : "",
+                     counted(report.trials_per_observer, "trial"), counted(report.observers, "observer"))});
+    add_blocks(text, report);
+    add_facts(
+        text, "Animation",
+        {fmt::format("{} ({}), {}, {} deg to each side", counted(animation.frames, "frame"),
+                     name_of(report.motion.playback), counted(animation.distinct_poses, "distinct pose"),
+                     report.motion.amplitude.value),
+         fmt::format("shown: {} at {:.6g} Hz = {:.3f} s = {:.4g} swings to and fro",
+                     counted(animation.shown_frames, "frame"), animation.shown_frames / animation.duration_s,
+                     animation.duration_s, animation.periods),
+         fmt::format("each frame is lit for {} at {} Hz: {} refreshes",
+                     counted(animation.refreshes_per_frame, "refresh", "refreshes"),
+                     report.display.refresh_hz, animation.refreshes)});
+    add_facts(
+        text, "Screen",
+        {fmt::format("{} x {} px, {} x {} mm, seen from {} mm: {:.2f} x {:.2f} deg", report.display.width_px,
+                     report.display.height_px, report.display.width_mm, report.display.height_mm,
+                     report.display.viewing_distance_mm, angles.screen_width_deg, angles.screen_height_deg),
+         fmt::format("light leaves as {}", name_of(report.display.output))});
+    if (const auto& light = report.display.characterisation) {
+        std::vector<std::string> lines = light_lines(*light);
+        lines.push_back(fmt::format("measured {} with {}; background {:.4g} cd/m2",
+                                    light->date.empty() ? "at no stated time" : light->date,
+                                    light->instrument.empty() ? "no stated instrument" : light->instrument,
+                                    light->luminance_of(report.display.background)));
+        add_facts(text, "Light", lines);
+    }
+    std::vector<std::string> stimulus{
+        fmt::format("{} x {} px: {:.2f} x {:.2f} deg, {:.1f} px per degree at the screen's middle",
+                    report.view.width_px, report.view.height_px, angles.image_width_deg,
+                    angles.image_height_deg, angles.px_per_deg),
+        fmt::format("rendered under {:.2f} deg", angles.camera_fov_deg)};
+    if (std::hypot(angles.image_right_deg, angles.image_up_deg) > 2.0 / angles.px_per_deg)
+        stimulus.push_back(fmt::format("its middle stands {:.2f} deg to the right of the screen's and {:.2f} "
+                                       "deg above it",
+                                       angles.image_right_deg, angles.image_up_deg));
+    add_facts(text, "Stimulus", stimulus);
+    const MemoryNeed& memory = report.memory;
+    add_facts(
+        text, "Memory",
+        {memory.next_fits
+             ? fmt::format("{} of frames for a stimulus, {} on the graphics card with those of the next",
+                           in_bytes(memory.pages_per_stimulus_bytes), in_bytes(memory.pages_at_once_bytes()))
+             : fmt::format("{} of frames for a stimulus; those of the next do not fit beside them, and "
+                           "are loaded before its trial (frame_store_mb = {})",
+                           in_bytes(memory.pages_per_stimulus_bytes), report.display.frame_store_mb),
+         fmt::format("{} of maps for each sculpture", in_bytes(memory.maps_per_sculpture_bytes))});
+}
+
+void add_surfaces(std::string& text, const DesignReport& report) {
+    std::vector<std::string> lines;
+    for (const SurfaceFacts& surface : report.surfaces) {
+        std::string parts;
+        for (const auto& [name, share] : surface.part_shares)
+            parts += fmt::format("{} {:.1f} % {}", parts.empty() ? ":" : ",", 100.0 * share, name);
+        lines.push_back(fmt::format("{}, {} triangles{}", surface.sculpture, surface.triangles, parts));
+    }
+    add_facts(text, "Surface", lines);
+}
+
+void add_session(std::string& text, const DesignReport& report) {
+    const SessionLength& session = report.session;
+    const auto minutes = [](double seconds) { return fmt::format("{:.1f}", seconds / 60.0); };
+    add_facts(
+        text, "Session",
+        {fmt::format(
+             "about {:.0f} min: calibration {}, questions {}, drift checks {}, animations {}, answers {}",
+             session.total_s() / 60.0, minutes(session.calibration_s), minutes(session.questions_s),
+             minutes(session.drift_checks_s), minutes(session.animations_s), minutes(session.answers_s)),
+         fmt::format("if reading takes {} s and answering {} s", report.assumptions.question_s,
+                     report.assumptions.answer_s)});
+    if (session.practice_s + session.breaks_s + session.instructions_s > 0.0)
+        add_facts(text, "",
+                  {fmt::format("with {} of practice, {} of instructions, and {} in {}",
+                               minutes(session.practice_s), minutes(session.instructions_s),
+                               minutes(session.breaks_s), counted(session.breaks, "break"))});
+}
+
+void add_balance(std::string& text, const DesignReport& report) {
+    text +=
+        fmt::format("\nPresentations of each stimulus over {}\n\n", counted(report.observers, "observer"));
+    const std::size_t task_width = longest(report.tasks);
+    const std::size_t cell_width = std::max<std::size_t>(4, longest(report.materials));
+    const std::size_t group_width = (cell_width + 1) * report.materials.size();
+    std::string groups, cells;
+    for (const std::string& sculpture : report.sculptures) {
+        groups += fmt::format("  {:<{}}", sculpture, std::max(group_width, sculpture.size()) - 1);
+        cells += " ";
+        for (const std::string& material : report.materials)
+            cells += fmt::format(" {:>{}}", material, cell_width);
+        cells.append(std::max(group_width, sculpture.size()) - group_width, ' ');
+    }
+    groups.erase(groups.find_last_not_of(' ') + 1);
+    cells.erase(cells.find_last_not_of(' ') + 1);
+    const std::string margin(task_width + 2, ' ');
+    text += fmt::format("{} {}\n{} {}\n", margin, groups, margin, cells);
+    std::size_t next = 0;
+    for (const std::string& task : report.tasks) {
+        text += fmt::format("  {:<{}} ", task, task_width);
+        for (const std::string& sculpture : report.sculptures) {
+            text += " ";
+            for (std::size_t material = 0; material < report.materials.size(); ++material)
+                text += fmt::format(" {:>{}}", report.incidence[next++].presentations, cell_width);
+            text.append(std::max(group_width, sculpture.size()) - group_width, ' ');
+        }
+        text += "\n";
+    }
+}
+
+void add_order_of_one(std::string& text, const DesignReport& report, const Schedule& schedule) {
+    const std::size_t task_width = longest(report.tasks), sculpture_width = longest(report.sculptures);
+    for (const Trial& trial : schedule.trials) {
+        const bool begins_block =
+            !report.blocks.empty() &&
+            (trial.index == 0 ||
+             schedule.trials[static_cast<std::size_t>(trial.index) - 1].block != trial.block);
+        if (begins_block)
+            text += fmt::format("  block {}\n", at(report.blocks, trial.block));
+        text += fmt::format("  {:>4}  {:<{}}  {:<{}}  {}\n", trial.index + 1, at(report.tasks, trial.task),
+                            task_width, at(report.sculptures, trial.condition.sculpture), sculpture_width,
+                            at(report.materials, trial.condition.material));
+    }
+}
+
+/// Position in a list as a letter, or a number where letters run out.
+std::string letter(char first, int index) {
+    return index < 26 ? std::string(1, static_cast<char>(first + index)) : fmt::format("({})", index + 1);
+}
+
+std::string legend(const std::vector<std::string>& names, char first) {
+    std::string text;
+    for (int i = 0; i < static_cast<int>(names.size()); ++i) {
+        const std::string code = first == '1' ? fmt::format("{}", i + 1) : letter(first, i);
+        text += fmt::format("{}{} {}", i == 0 ? "" : ", ", code, at(names, i));
+    }
+    return text;
+}
+
+void add_orders_of_many(std::string& text, const DesignReport& report) {
+    constexpr int codes_per_line = 18;
+    text += fmt::format("  task: {}\n  sculpture: {}\n  material: {}\n\n", legend(report.tasks, '1'),
+                        legend(report.sculptures, 'A'), legend(report.materials, 'a'));
+    for (const Schedule& schedule : report.schedules) {
+        std::string line;
+        for (const Trial& trial : schedule.trials) {
+            const bool begins_block =
+                trial.index > 0 &&
+                schedule.trials[static_cast<std::size_t>(trial.index) - 1].block != trial.block;
+            if (begins_block)
+                line += " |";
+            if (trial.index > 0 && trial.index % codes_per_line == 0)
+                line += "\n          ";
+            line += fmt::format(" {}{}{}", trial.task + 1, letter('A', trial.condition.sculpture),
+                                letter('a', trial.condition.material));
+        }
+        const auto index = static_cast<std::size_t>(&schedule - report.schedules.data());
+        const std::string group =
+            report.schedule_groups.empty() ? "" : fmt::format("  ({})", report.schedule_groups[index]);
+        text += fmt::format("  {:>6}: {}{}\n", schedule.observer.label, line, group);
+    }
+}
+
+void add_orders(std::string& text, const DesignReport& report) {
+    if (report.schedules.empty())
+        return;
+    const std::string seed = report.is_seed_fixed ? fmt::format("seed {}", report.schedules.front().seed)
+                             : report.is_seed_given
+                                 ? fmt::format("as from seed {}", report.schedules.front().seed)
+                                 : fmt::format("an example, from seed {}: each session draws its own",
+                                               report.schedules.front().seed);
+    if (report.schedules.size() == 1) {
+        text += fmt::format("\nOrder of trials for observer {} ({})\n\n",
+                            report.schedules.front().observer.label, seed);
+        add_order_of_one(text, report, report.schedules.front());
+    } else {
+        text += fmt::format("\nOrder of trials ({})\n\n", seed);
+        add_orders_of_many(text, report);
+    }
+}
+
+} // namespace
+
+std::string to_text(const DesignReport& report) {
+    std::string text = report.title == report.name ? report.name + "\n\n"
+                                                   : fmt::format("{} ({})\n\n", report.title, report.name);
+    add_overview(text, report);
+    add_surfaces(text, report);
+    add_session(text, report);
+    add_balance(text, report);
+    for (const std::string& warning : report.warnings)
+        text += fmt::format("\nwarning: {}\n", warning);
+    add_orders(text, report);
+    return text;
+}
+
+} // namespace overt

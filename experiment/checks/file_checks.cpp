@@ -1,0 +1,76 @@
+#include "experiment/checks/protocol_checks.h"
+#include "experiment/scene/metal_table.h"
+
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace overt {
+
+namespace {
+
+bool is_file(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored);
+}
+
+/// Whether all files of an animation are there; `file_of(frame)` names them, `what` is what they hold.
+template <class FileOf>
+void check_sequence(ProtocolExamination& examination, const std::string& path, const char* what,
+                    const FileOf& file_of) {
+    const int count = examination.protocol.animation.frame_count;
+    int missing = 0;
+    std::filesystem::path first_missing;
+    for (int frame = 0; frame < count; ++frame) {
+        const std::filesystem::path file = file_of(AnimationFrameIndex{frame});
+        if (is_file(file))
+            continue;
+        if (missing++ == 0)
+            first_missing = file;
+    }
+    if (missing > 0) {
+        examination.error({path, "animation.frame_count"},
+                          fmt::format("{} of {} {} are missing", missing, count, what),
+                          fmt::format("the first is {}", first_missing.string()));
+    }
+}
+
+} // namespace
+
+void check_files(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    const std::string remedy = "paths count from the folder of the protocol file";
+    if (protocol.light.probe != "overcast" && !is_file(protocol.light.probe))
+        examination.error({"light.probe"}, fmt::format("there is no file {}", protocol.light.probe),
+                          remedy + "; \"overcast\" needs none");
+    for (std::size_t i = 0; i < protocol.sculptures.size(); ++i) {
+        const SculptureSettings& sculpture = protocol.sculptures[i];
+        for (const auto& [key, file] :
+             {std::pair{"mesh", &sculpture.mesh}, std::pair{"labels", &sculpture.labels}}) {
+            if (!file->empty() && !is_file(*file))
+                examination.error({fmt::format("sculpture[{}].{}", i, key)},
+                                  fmt::format("there is no file {}", file->string()), remedy);
+        }
+        const std::string lut = fmt::format("sculpture[{}].lut", i);
+        if (!protocol.sculptures[i].lut.empty() && !examination.faulty.contains(lut)) {
+            check_sequence(examination, lut, "maps", [&](AnimationFrameIndex frame) {
+                return lut_file(protocol.sculptures[i], frame);
+            });
+        }
+    }
+    for (std::size_t i = 0; i < protocol.materials.size(); ++i) {
+        const std::string& metal = protocol.materials[i].metal;
+        if (is_metal_file(metal) && !is_file(metal)) {
+            examination.error({fmt::format("material[{}].metal", i)},
+                              fmt::format("there is no file {}", metal), remedy);
+        }
+    }
+    for (std::size_t i = 0; i < protocol.frames.size(); ++i) {
+        const std::string path = fmt::format("frames[{}].files", i);
+        if (!protocol.frames[i].files.empty() && !examination.faulty.contains(path))
+            check_sequence(examination, path, "frames",
+                           [&](AnimationFrameIndex frame) { return frame_file(protocol.frames[i], frame); });
+    }
+}
+
+} // namespace overt

@@ -1,0 +1,153 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "experiment/checks/protocol_checks.h"
+#include "experiment/protocol/protocol_keys.h"
+#include "experiment/stimulus/frame_memory.h"
+#include "experiment/stimulus/photodiode_patch.h"
+
+namespace overt {
+
+namespace {
+
+/// A table of colours takes 8 pixels of key, 4 of nothing and 2 for each of its 256 entries; the data packet
+/// is shorter.
+constexpr int t_lock_row_px = 524;
+
+bool is_native(OutputMode mode) {
+    return mode == OutputMode::native_8bit || mode == OutputMode::native_10bit;
+}
+
+void check_keys_of_mode(ProtocolExamination& examination) {
+    const DisplaySettings& display = examination.protocol.display;
+    const std::string_view mode = name_of(display.output);
+    if (joins_pixels_in_pairs(display.output)) {
+        if (display.width_px % 2 != 0)
+            examination.error({"display.width_px", "display.output"},
+                              fmt::format("{} joins pixels in pairs: the width has to be even", mode));
+    } else if (display.pair_filter != PairFilter::box) {
+        examination.error({"display.pair_filter"},
+                          fmt::format("{} joins no pixels in pairs: pair_filter has no meaning", mode));
+    }
+    if (is_native(display.output)) {
+        if (display.gamma == 1.0 && !examination.is_written("display.gamma") &&
+            !examination.is_written("display.characterisation")) {
+            examination.warning(
+                {"display.output", "display.gamma"},
+                fmt::format("{} with the default gamma of 1: the display would have to linearise itself",
+                            mode),
+                "ordinary monitors need gamma = 2.2, or a characterisation; write gamma = 1 if it is meant");
+        }
+    } else if (display.dither != Dithering::none) {
+        examination.error(
+            {"display.dither"},
+            fmt::format("{} carries 16 bits in bytes that noise would turn into others: nothing to dither",
+                        mode),
+            "leave dither out, or take output = \"native-8bit\"");
+    }
+    if (has_t_lock(display.output)) {
+        if (display.onset_trigger > 1023)
+            examination.error(
+                {"display.onset_trigger"},
+                fmt::format("{} has ten digital outputs: onset_trigger may be 1023 at most", mode));
+        if (display.width_px < t_lock_row_px)
+            examination.error({"display.width_px", "display.output"},
+                              fmt::format("{} carries messages in rows of {} px: the screen is narrower",
+                                          mode, t_lock_row_px));
+    } else {
+        if (display.onset_trigger != 0 && is_native(display.output))
+            examination.error({"display.onset_trigger"},
+                              fmt::format("{} has no digital outputs: onset_trigger needs mono++, color++, "
+                                          "bits++, vpixx-m16 or vpixx-c48",
+                                          mode));
+        if (display.box.starts_with('/'))
+            examination.error(
+                {"display.box"},
+                fmt::format("{} is sent through no box: box needs mono++, color++ or bits++", mode));
+    }
+    if (display.box != "auto" && display.box != "none" && !display.box.starts_with('/'))
+        examination.error({"display.box"}, fmt::format("\"{}\" is no serial port", display.box),
+                          "write \"auto\", \"none\", or a path such as \"/dev/ttyACM0\"");
+}
+
+void check_place(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    const ViewSettings& view = protocol.view;
+    if (view.left_px && view.centre_right_deg)
+        examination.error({"view.centre_right_deg"}, "left_px already says where the stimulus is");
+    if (view.top_px && view.centre_up_deg)
+        examination.error({"view.centre_up_deg"}, "top_px already says where the stimulus is");
+    const ScreenGeometry geometry = screen_geometry_of(protocol);
+    const glm::ivec2 first = geometry.image_origin_px, last = first + geometry.image_px - 1;
+    // What is larger than the screen has been found already, and is nowhere inside it.
+    if (geometry.image_px.x <= geometry.screen_px.x && (first.x < 0 || last.x >= geometry.screen_px.x)) {
+        examination.error({"view.left_px", "view.centre_right_deg", "view.width_px"},
+                          fmt::format("the stimulus takes the columns {} to {}, the screen has 0 to {}",
+                                      first.x, last.x, geometry.screen_px.x - 1));
+    }
+    if (geometry.image_px.y > geometry.screen_px.y)
+        return;
+    if (first.y < 0 || last.y >= geometry.screen_px.y) {
+        examination.error({"view.top_px", "view.centre_up_deg", "view.height_px"},
+                          fmt::format("the stimulus takes the rows {} to {}, the screen has 0 to {}", first.y,
+                                      last.y, geometry.screen_px.y - 1));
+    } else if (const int rows = reserved_rows(protocol.display.output); first.y < rows) {
+        examination.error(
+            {"view.top_px", "view.centre_up_deg", "view.height_px", "display.output"},
+            fmt::format(
+                "the stimulus begins in row {}, but {} keeps the first {} for messages to the display",
+                first.y, name_of(protocol.display.output), rows == 1 ? "row" : "three rows"),
+            fmt::format("take height_px = {}, or place the stimulus with top_px",
+                        geometry.image_px.y - 2 * (rows - first.y)));
+    }
+}
+
+void check_photodiode(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    const std::optional<PatchPlace> patch = photodiode_patch_of(protocol.display);
+    if (!patch) {
+        if (examination.is_written("display.photodiode_px"))
+            examination.warning({"display.photodiode_px"}, "no square is shown: photodiode says no corner");
+        return;
+    }
+    const ScreenGeometry geometry = screen_geometry_of(protocol);
+    const glm::ivec2 first = patch->origin_px - patch_distance_px, end = patch->end_px() + patch_distance_px;
+    const glm::ivec2 image = geometry.image_origin_px, image_end = image + geometry.image_px;
+    if (first.x < image_end.x && end.x > image.x && first.y < image_end.y && end.y > image.y) {
+        examination.error(
+            {"display.photodiode", "display.photodiode_px"},
+            fmt::format(
+                "the square takes the columns {} to {} and the rows {} to {}, closer than {} px to the "
+                "stimulus in columns {} to {} and rows {} to {}",
+                patch->origin_px.x, patch->end_px().x - 1, patch->origin_px.y, patch->end_px().y - 1,
+                patch_distance_px, image.x, image_end.x - 1, image.y, image_end.y - 1),
+            "take a smaller photodiode_px or another corner, or place the stimulus with left_px and top_px");
+    }
+}
+
+void check_frame_store(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    const double stimulus_mb = 1e-6 * most_pages(protocol) * page_bytes(protocol);
+    const double store_mb = protocol.display.frame_store_mb;
+    if (stimulus_mb <= store_mb)
+        return;
+    examination.error(
+        {"display.frame_store_mb", "view.width_px", "view.height_px", "animation.frame_count"},
+        fmt::format("a stimulus takes {:.4g} MB of the frame store, which may take {}", stimulus_mb,
+                    store_mb),
+        fmt::format("write frame_store_mb = {:.0f}, if the graphics card has as much ({:.0f} with "
+                    "the next stimulus), or show fewer or smaller frames",
+                    std::ceil(stimulus_mb), std::ceil(2.0 * stimulus_mb)));
+}
+
+} // namespace
+
+void check_output(ProtocolExamination& examination) {
+    check_keys_of_mode(examination);
+    check_place(examination);
+    check_photodiode(examination);
+    check_frame_store(examination);
+}
+
+} // namespace overt

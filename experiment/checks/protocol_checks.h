@@ -1,0 +1,44 @@
+/// What has to hold between the keys of a protocol, each of which is in order by itself.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "experiment/protocol/protocol_examination.h"
+
+namespace overt {
+
+// The rig: screen, image, animation, texts, schedule.
+void check_image_fits(ProtocolExamination& examination);
+/// What the video signal can carry, and where on the screen.
+void check_output(ProtocolExamination& examination);
+void check_animation(ProtocolExamination& examination);
+void check_screens(ProtocolExamination& examination);
+void check_schedule(ProtocolExamination& examination);
+/// Limits that are written in [schedule] and do not hold in a block, because of its order.
+void check_dropped_limits(ProtocolExamination& examination);
+
+/// Blocks and groups: what they name, and what belongs together in one.
+void check_blocks(ProtocolExamination& examination);
+void check_groups(ProtocolExamination& examination);
+void check_practice(ProtocolExamination& examination);
+void check_breaks(ProtocolExamination& examination);
+/// Consent, form, the operator's keys and spoken answers.
+void check_sitting(ProtocolExamination& examination);
+
+/// Reads the characterisation of the display, if the protocol names one and `look_at_files`, and finds what
+/// in the protocol contradicts it or asks for it. Turns luminances into linear light.
+void take_characterisation(ProtocolExamination& examination, bool look_at_files);
+
+// The lists: ids, references, and what belongs together in one entry.
+void check_ids(ProtocolExamination& examination);
+void check_sculptures(ProtocolExamination& examination, std::span<const std::string_view> shipped_sculptures);
+void check_materials(ProtocolExamination& examination);
+void check_frames(ProtocolExamination& examination);
+/// After take_characterisation().
+void check_bake(ProtocolExamination& examination);
+
+/// Whether meshes, probe and frames are there. Looks at the file system.
+void check_files(ProtocolExamination& examination);
+
+} // namespace overt

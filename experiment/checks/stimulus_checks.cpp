@@ -1,0 +1,268 @@
+#include "experiment/checks/protocol_checks.h"
+#include "experiment/scene/metal_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "experiment/protocol/protocol_keys.h"
+
+namespace overt {
+
+namespace {
+
+std::string entry_path(std::string_view list, std::size_t index, std::string_view key = {}) {
+    return key.empty() ? fmt::format("{}[{}]", list, index) : fmt::format("{}[{}].{}", list, index, key);
+}
+
+template <class Entry> std::vector<std::string_view> ids_of(const std::vector<Entry>& entries) {
+    std::vector<std::string_view> ids;
+    for (const Entry& entry : entries)
+        ids.push_back(entry.id);
+    return ids;
+}
+
+template <class Entry>
+void check_list(ProtocolExamination& examination, std::string_view list, const std::vector<Entry>& entries) {
+    // Indices into the lists travel as bytes in records and textures, 255 meaning none.
+    constexpr std::size_t most_entries = 254;
+    if (entries.size() > most_entries) {
+        examination.error({entry_path(list, most_entries)},
+                          fmt::format("more than {} entries of [[{}]]", most_entries, list));
+    }
+    std::map<std::string_view, std::size_t> seen;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const std::string path = entry_path(list, i, "id");
+        const auto [first, is_new] = seen.try_emplace(entries[i].id, i);
+        if (is_new || entries[i].id.empty())
+            continue;
+        examination.error({path}, fmt::format("id \"{}\" is taken already", entries[i].id),
+                          fmt::format("by the [[{}]] in {}", list,
+                                      examination.line_of(entry_path(list, first->second, "id"), path)));
+    }
+}
+
+bool is_covered_by_frames(const Protocol& protocol, std::size_t sculpture) {
+    for (std::size_t material = 0; material < protocol.materials.size(); ++material) {
+        if (!find_frames(protocol, static_cast<int>(sculpture), static_cast<int>(material)))
+            return false;
+    }
+    return !protocol.materials.empty();
+}
+
+/// Warns of keys that are written though they have no effect without another.
+void check_idle_keys(ProtocolExamination& examination, std::size_t index,
+                     std::initializer_list<std::string_view> keys, const char* without, const char* remark) {
+    for (const std::string_view key : keys) {
+        const std::string path = entry_path("sculpture", index, key);
+        if (examination.is_written(path))
+            examination.warning({path}, fmt::format("\"{}\" has no effect without {}", key, without), remark);
+    }
+}
+
+/// Whether a path has one group of # for a number; if not, reports it.
+void check_numbered_path(ProtocolExamination& examination, const std::string& path, const std::string& files,
+                         const char* example) {
+    const std::size_t begin = files.find('#');
+    const std::size_t end = begin == std::string::npos ? begin : files.find_first_not_of('#', begin);
+    if (begin != std::string::npos && (end == std::string::npos || files.find('#', end) == std::string::npos))
+        return;
+    examination.error({path}, "the path needs one group of # for the digits of the frame number", example);
+    examination.faulty.insert(path);
+}
+
+/// Ready-made maps: what they are maps of must be shown ready-made, too, and their box must be whole.
+void check_lut(ProtocolExamination& examination, std::size_t index) {
+    const auto path = [&](std::string_view key) { return entry_path("sculpture", index, key); };
+    const SculptureSettings& sculpture = examination.protocol.sculptures[index];
+    check_numbered_path(examination, path("lut"), sculpture.lut, "such as \"maps/frame_####.png\"");
+    if (!is_covered_by_frames(examination.protocol, index)) {
+        examination.error(
+            {path("lut")},
+            fmt::format("sculpture \"{}\" has maps, but not [[frames]] for every material", sculpture.id),
+            "without a mesh nothing can be rendered");
+    }
+    if (sculpture.lut_min.has_value() != sculpture.lut_max.has_value()) {
+        examination.error({path("lut_min"), path("lut_max")}, "a box needs both \"lut_min\" and \"lut_max\"");
+    } else if (sculpture.lut_min && glm::any(glm::greaterThan(*sculpture.lut_min, *sculpture.lut_max))) {
+        examination.error({path("lut_min"), path("lut_max")},
+                          "a coordinate of \"lut_min\" is larger than that of \"lut_max\"");
+    }
+}
+
+/// A sculpture that nothing is known of but its pictures.
+void check_shapeless(ProtocolExamination& examination, std::size_t index) {
+    const std::string& id = examination.protocol.sculptures[index].id;
+    const std::string entry = entry_path("sculpture", index);
+    if (is_covered_by_frames(examination.protocol, index)) {
+        examination.warning({entry},
+                            fmt::format("sculpture \"{}\" has frames, but no shape: gaze on it cannot be "
+                                        "projected to its surface",
+                                        id),
+                            "give the \"mesh\" that the frames were rendered from, or maps, \"lut\"");
+    } else {
+        examination.error({entry}, fmt::format("sculpture \"{}\" has neither \"shipped\" nor \"mesh\"", id),
+                          "or [[frames]] for every material");
+    }
+}
+
+/// What the numbers of ready-made frames mean.
+void check_frame_colours(ProtocolExamination& examination, std::size_t index) {
+    const auto path = [&](std::string_view key) { return entry_path("frames", index, key); };
+    const FrameSequenceSettings& sequence = examination.protocol.frames[index];
+    if (sequence.colour_space == FrameColours::xyz && sequence.encoding == FrameEncoding::srgb)
+        examination.error({path("encoding"), path("colour_space")}, "XYZ are not encoded as sRGB",
+                          "encoding = \"linear\"");
+    if (!sequence.background_colour && examination.is_written(path("background_tolerance")))
+        examination.warning({path("background_tolerance")},
+                            "\"background_tolerance\" has no effect without \"background_colour\"");
+}
+
+} // namespace
+
+void check_ids(ProtocolExamination& examination) {
+    check_list(examination, "task", examination.protocol.tasks);
+    check_list(examination, "sculpture", examination.protocol.sculptures);
+    check_list(examination, "material", examination.protocol.materials);
+}
+
+void check_sculptures(ProtocolExamination& examination,
+                      std::span<const std::string_view> shipped_sculptures) {
+    const Protocol& protocol = examination.protocol;
+    for (std::size_t i = 0; i < protocol.sculptures.size(); ++i) {
+        const SculptureSettings& sculpture = protocol.sculptures[i];
+        const std::string shipped = entry_path("sculpture", i, "shipped"),
+                          mesh = entry_path("sculpture", i, "mesh"), lut = entry_path("sculpture", i, "lut");
+        const bool has_shipped = examination.is_written(shipped), has_mesh = examination.is_written(mesh),
+                   has_lut = examination.is_written(lut);
+        if (has_shipped && has_mesh) {
+            examination.error({mesh, shipped}, "a sculpture is either \"shipped\" or a \"mesh\", not both",
+                              "take one of the two lines out");
+        } else if (has_lut && (has_shipped || has_mesh)) {
+            examination.error({lut}, "\"lut\" stands instead of \"shipped\" or \"mesh\", not beside it",
+                              "with a mesh, the maps are made from it, and more exactly");
+        } else if (has_shipped && std::find(shipped_sculptures.begin(), shipped_sculptures.end(),
+                                            sculpture.shipped) == shipped_sculptures.end()) {
+            examination.error({shipped}, fmt::format("overt has no sculpture \"{}\"", sculpture.shipped),
+                              suggest_name(sculpture.shipped, shipped_sculptures));
+        } else if (has_lut) {
+            check_lut(examination, i);
+        } else if (!has_shipped && !has_mesh) {
+            check_shapeless(examination, i);
+        }
+        if (!has_mesh)
+            check_idle_keys(examination, i, {"up", "scale", "unit", "labels"}, "\"mesh\"",
+                            "it describes the coordinates of a mesh file");
+        if (!has_lut)
+            check_idle_keys(examination, i, {"lut_first_number", "lut_scale", "lut_min", "lut_max"},
+                            "\"lut\"", "it describes ready-made maps");
+        else if (!sculpture.labels.empty() &&
+                 !(sculpture.head_spheres.empty() && sculpture.head_planes.empty()))
+            examination.error({entry_path("sculpture", i, "labels"), entry_path("sculpture", i, "head")},
+                              "\"labels\" and \"head\" both say which part is which",
+                              "take one of the two out");
+        if (!has_mesh && !has_lut)
+            check_idle_keys(examination, i, {"head"}, "\"mesh\"",
+                            "it describes the coordinates of a mesh file");
+        else if (sculpture.head_spheres.empty() && !sculpture.head_planes.empty())
+            examination.warning({entry_path("sculpture", i, "head")}, "\"planes\" alone make no head",
+                                "give \"spheres\" that hold it");
+    }
+}
+
+void check_materials(ProtocolExamination& examination) {
+    const std::map<std::string_view, std::vector<MaterialKind>> kinds_of_key{
+        {"metal",
+         {MaterialKind::smooth_conductor, MaterialKind::rough_conductor, MaterialKind::coated_conductor}},
+        {"roughness", {MaterialKind::rough_conductor}},
+        {"coat_ior", {MaterialKind::coated_conductor}},
+        {"coat_absorbance", {MaterialKind::coated_conductor}},
+        {"coat_thickness", {MaterialKind::coated_conductor}},
+        {"coat_bump", {MaterialKind::coated_conductor}},
+        {"coat_bump_width", {MaterialKind::coated_conductor}},
+        {"coat_seed", {MaterialKind::coated_conductor}},
+        {"reflectance", {MaterialKind::diffuse}}};
+    const std::vector<MaterialSettings>& materials = examination.protocol.materials;
+    constexpr std::string_view metals[] = {"Au", "Ag"};
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        const std::string& metal = materials[i].metal;
+        if (!is_metal_file(metal) &&
+            std::find(std::begin(metals), std::end(metals), metal) == std::end(metals)) {
+            examination.error(
+                {entry_path("material", i, "metal")}, fmt::format("there is no metal \"{}\"", metal),
+                "known are \"Au\" and \"Ag\"; for another give a table, a file that ends in .csv");
+        }
+        for (const auto& [key, kinds] : kinds_of_key) {
+            const std::string path = entry_path("material", i, key), kind = entry_path("material", i, "kind");
+            const bool matters = std::find(kinds.begin(), kinds.end(), materials[i].kind) != kinds.end();
+            if (!matters && examination.is_written(path)) {
+                examination.warning({path, kind},
+                                    fmt::format("\"{}\" has no effect on a material of kind \"{}\"", key,
+                                                name_of(materials[i].kind)));
+            }
+        }
+    }
+}
+
+void check_frames(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    const std::vector<std::string_view> sculptures = ids_of(protocol.sculptures),
+                                        materials = ids_of(protocol.materials);
+    std::map<std::pair<std::string, std::string>, std::size_t> seen;
+    const auto check_reference = [&](std::size_t i, std::string_view key, const std::string& id,
+                                     const std::vector<std::string_view>& known) {
+        if (std::find(known.begin(), known.end(), id) == known.end()) {
+            examination.error({entry_path("frames", i, key)},
+                              fmt::format("there is no [[{}]] \"{}\"", key, id), suggest_name(id, known));
+        }
+    };
+    for (std::size_t i = 0; i < protocol.frames.size(); ++i) {
+        const FrameSequenceSettings& sequence = protocol.frames[i];
+        check_reference(i, "sculpture", sequence.sculpture, sculptures);
+        check_reference(i, "material", sequence.material, materials);
+        const auto [first, is_new] = seen.try_emplace({sequence.sculpture, sequence.material}, i);
+        if (!is_new) {
+            examination.error(
+                {entry_path("frames", i, "sculpture"), entry_path("frames", i, "material")},
+                fmt::format("\"{}\" in \"{}\" has frames already", sequence.sculpture, sequence.material),
+                fmt::format("from the [[frames]] in line {}",
+                            protocol.places.of(entry_path("frames", first->second)).line));
+        }
+        check_numbered_path(examination, entry_path("frames", i, "files"), sequence.files,
+                            "such as \"gold/frame_####.exr\"");
+        check_frame_colours(examination, i);
+    }
+}
+
+void check_bake(ProtocolExamination& examination) {
+    const BakingSettings& bake = examination.protocol.bake;
+    const DisplaySettings& display = examination.protocol.display;
+    if (bake.quality == BakeQuality::live) {
+        for (const std::string_view key :
+             {"bake.samples", "bake.target_error_de", "bake.filter", "bake.filter_width_px", "bake.seed"}) {
+            if (examination.is_written(key))
+                examination.warning({key, "bake.quality"},
+                                    fmt::format("\"{}\" has no effect on frames that OpenGL draws",
+                                                key.substr(key.find('.') + 1)));
+        }
+    }
+    if (bake.observer == StandardObserver::cie1931)
+        return;
+    if (display.characterisation_file.empty()) {
+        examination.error({"bake.observer"},
+                          "how CIE 2006 sees the display's light is not known without its spectra",
+                          "name a characterisation with spectra with display.characterisation");
+    } else if (display.characterisation && !display.characterisation->spectra) {
+        examination.error({"bake.observer", "display.characterisation"},
+                          fmt::format("{} has no spectra, without which nobody knows how CIE 2006 sees it",
+                                      display.characterisation_file.filename().string()),
+                          "measure them, and name the table with [light] spectra in that file");
+    }
+    if (bake.quality == BakeQuality::live)
+        examination.error({"bake.observer", "bake.quality"}, "OpenGL draws for CIE 1931 only",
+                          "choose another quality, such as \"preview\"");
+}
+
+} // namespace overt

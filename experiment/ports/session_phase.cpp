@@ -1,0 +1,66 @@
+#include "experiment/ports/session_phase.h"
+
+#include <array>
+#include <initializer_list>
+
+namespace overt {
+
+namespace {
+
+using enum SessionPhase;
+
+constexpr std::array<std::string_view, session_phase_count> names{
+    "set-up",   "calibration",     "block",    "trial", "task screen", "drift check",
+    "stimulus", "response screen", "feedback", "rest",  "pause",       "end"};
+
+bool is_one_of(SessionPhase phase, std::initializer_list<SessionPhase> phases) {
+    for (const SessionPhase one : phases)
+        if (one == phase)
+            return true;
+    return false;
+}
+
+/// A text or the drift target stands on the screen there, or the stimulus is over: the operator may pause or
+/// calibrate.
+bool can_be_interrupted(SessionPhase phase) {
+    return is_one_of(
+        phase, {set_up, block, task_screen, drift_check, stimulus, response_screen, feedback, rest, pause});
+}
+
+} // namespace
+
+std::string_view name_of(SessionPhase phase) { return names[static_cast<std::size_t>(phase)]; }
+
+bool may_follow(SessionPhase from, SessionPhase to) {
+    // Whatever the plan has next when a trial or a text is over.
+    const std::initializer_list<SessionPhase> between{block, trial, rest};
+    if (to == end)
+        return true;
+    if ((to == pause || to == calibration) && (can_be_interrupted(from) || from == calibration))
+        return true;
+    switch (from) {
+    case set_up:
+    case block:
+    case rest:
+    case feedback:
+        return is_one_of(to, between);
+    case trial:
+        return to == task_screen;
+    case task_screen:
+        return to == drift_check || is_one_of(to, between);
+    case drift_check:
+        return to == stimulus || is_one_of(to, between);
+    case stimulus:
+        return to == response_screen || is_one_of(to, between);
+    case response_screen:
+        return to == feedback || is_one_of(to, between);
+    case calibration:
+    case pause:
+        return can_be_interrupted(to) || is_one_of(to, between);
+    case end:
+        return false;
+    }
+    return false;
+}
+
+} // namespace overt

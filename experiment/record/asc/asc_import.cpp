@@ -1,0 +1,212 @@
+#include "experiment/record/asc/asc_import.h"
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/record/asc/asc_rows.h"
+#include "experiment/record/asc/asc_trial.h"
+#include "experiment/record/asc/imported_session.h"
+#include "experiment/record/asc/recording_date.h"
+#include "experiment/record/header_rows.h"
+#include "experiment/record/session_schema.h"
+#include "experiment/record/sql.h"
+
+namespace fs = std::filesystem;
+
+namespace overt {
+namespace {
+
+constexpr glm::ivec2 usual_screen_px{1920, 1080};
+
+/// A line of the header, without what it begins with; empty if there is none.
+std::string header_line(const AscSurvey& survey, std::string_view beginning) {
+    const std::size_t at = survey.header.find(beginning);
+    if (at == std::string::npos)
+        return {};
+    const std::size_t begin = at + beginning.size();
+    return survey.header.substr(begin, survey.header.find('\n', begin) - begin);
+}
+
+SessionHeader header_of(const fs::path& file, const AscSurvey& survey, const AscImportOptions& options) {
+    SessionHeader header;
+    header.protocol.name = options.place.protocol_name;
+    header.protocol.title = fmt::format("Imported from {}", file.filename().string());
+    header.protocol.sha256 = hash_of_text("");
+    header.schedule.observer = {options.place.observer_label, 1};
+    for (int trial = 0; trial < survey.trials; ++trial)
+        header.schedule.trials.push_back({trial, 0, {0, 0}, 0});
+    header.started_utc = iso_date(header_line(survey, "** DATE: ")).value_or(options.now_utc);
+    header.program = options.program;
+    const std::string model = header_line(survey, "** EYELINK II ");
+    header.tracker.name = model.empty() ? "EyeLink" : "EyeLink " + model;
+    header.tracker.sample_rate_hz = survey.rate_hz;
+    header.tracker.eye = survey.has_left ? Eye::left : Eye::right;
+    ScreenGeometry& screen = header.display.screen;
+    screen.screen_px = screen.image_px = survey.screen_px.value_or(usual_screen_px);
+    screen.image_origin_px = {0, 0};
+    screen.screen_mm = options.screen_mm ? *options.screen_mm : survey.screen_mm.value_or(glm::dvec2(0.0));
+    screen.viewing_distance_mm =
+        options.viewing_distance_mm ? *options.viewing_distance_mm : survey.viewing_distance_mm.value_or(0.0);
+    header.display.refresh_hz = survey.refresh_hz.value_or(0.0);
+    header.display.output_mode = "unknown";
+    header.poses = {{Degrees{0.0}}, {PoseIndex{0}}};
+    header.tasks = {{"imported", ""}};
+    RecordedSculpture nothing;
+    nothing.id = "none";
+    header.sculptures = {nothing};
+    header.materials = {{"none", ""}};
+    return header;
+}
+
+/// Session time that runs with the tracker's, from the file's first line on.
+class SessionClockOf {
+  public:
+    explicit SessionClockOf(const AscSurvey& survey) : first_(survey.first) {}
+    SessionTime operator()(TrackerTime time) const { return SessionTime(SessionDuration(time - first_)); }
+
+  private:
+    TrackerTime first_;
+};
+
+void insert_trial(SQLite::Database& database, const AscTrialTimes& times,
+                  const SessionClockOf& session_time) {
+    const auto screen = [&](std::string_view word, TrackerTime otherwise) {
+        const auto found = times.screens.find(word);
+        return session_time(found == times.screens.end() ? otherwise : found->second);
+    };
+    SQLite::Statement insert(
+        database, "INSERT INTO trial (trial_id, sitting, trial, attempt, task, sculpture, material, status, "
+                  "started_ns, task_screen_onset_ns, presentation_onset_ns, presentation_end_ns, "
+                  "response_screen_onset_ns, responded_ns, shown_refreshes, missed_refreshes, answer, "
+                  "lost_flips, lost_samples) VALUES (?,1,?,1,0,0,0,?,?,?,?,?,?,?,0,0,'',0,0)");
+    run_statement(insert, times.trial + 1, times.trial, times.is_aborted ? "aborted" : "completed",
+                  session_time(times.first), screen(task_screen_message, times.first),
+                  screen(onset_message, times.first), screen(end_message, times.last),
+                  screen(response_screen_message, times.last), screen(response_message, times.last));
+}
+
+void insert_sitting(SQLite::Database& database, const SessionHeader& header, const AscSurvey& survey,
+                    const SessionClockOf& session_time) {
+    SQLite::Statement sitting(database,
+                              "INSERT INTO sitting (sitting, started_utc, closed) VALUES (1, ?, 1)");
+    run_statement(sitting, header.started_utc);
+    SQLite::Statement pair(database, "INSERT INTO clock_pair VALUES (NULL, 1, ?1, ?2, ?1)");
+    for (const TrackerTime time : {survey.first, survey.last})
+        run_statement(pair, session_time(time), static_cast<std::int64_t>(time.time_since_epoch().count()));
+}
+
+void add_remarks(AscImportSummary& summary, const SessionHeader& header) {
+    const AscSurvey& survey = summary.survey;
+    const ScreenGeometry& screen = header.display.screen;
+    const auto add = [&](std::string remark) { summary.remarks.push_back(std::move(remark)); };
+    if (!survey.screen_px)
+        add(fmt::format("The file names no DISPLAY_COORDS: the screen is taken to have {} x {} pixels.",
+                        screen.screen_px.x, screen.screen_px.y));
+    if (screen.viewing_distance_mm <= 0.0 || screen.screen_mm.x <= 0.0)
+        add("The file does not say how large and how far away the screen was, so degrees of visual angle are "
+            "not known, and there is no export to BIDS: give --screen-mm and --distance-mm.");
+    if (!survey.format.eyes_are_known)
+        add("The file does not say which eye it is of: it is taken for the right one.");
+    if (survey.format.rate_hz <= 0.0)
+        add(fmt::format("The file does not say the sampling rate: by its samples it is {:.6g} Hz.",
+                        survey.rate_hz));
+}
+
+} // namespace
+
+void add_asc_remarks(AscImportSummary& summary) {
+    const AscSurvey& survey = summary.survey;
+    const auto add = [&](std::string remark) { summary.remarks.push_back(std::move(remark)); };
+    if (survey.format.has_head_target)
+        add("Positions of the head's target (remote mode) are not kept.");
+    if (survey.format.lowest_rate_hz < survey.format.highest_rate_hz)
+        add(fmt::format(
+            "The sampling rate changes between recordings, from {:g} to {:g} Hz: the session names "
+            "the highest.",
+            survey.format.lowest_rate_hz, survey.format.highest_rate_hz));
+    if (survey.format.has_further_numbers)
+        add(survey.format.eyes_are_known
+                ? "Samples have further numbers (velocity, resolution or input), which are not kept."
+                : "Samples have further numbers, perhaps of the other eye, which are not kept: without lines "
+                  "START and SAMPLES nobody can tell.");
+    if (survey.events_that_are_no_gaze > 0)
+        add(fmt::format("{} fixations and saccades are not in gaze coordinates (EVENTS HREF or PUPIL): they "
+                        "are kept without their places.",
+                        survey.events_that_are_no_gaze));
+    if (survey.samples_that_are_no_gaze > 0)
+        add(fmt::format("{} samples that were no gaze on a screen (HREF or PUPIL) are left out.",
+                        survey.samples_that_are_no_gaze));
+    if (survey.unfinished_events > 0)
+        add(fmt::format("{} fixations, saccades or blinks began and never ended: they are left out.",
+                        survey.unfinished_events));
+    if (survey.non_ascii_texts > 0)
+        add(fmt::format("{} texts were no UTF-8 and are taken for Latin-1.", survey.non_ascii_texts));
+}
+
+GazeSource gaze_source_of(const fs::path& file, const AscSurvey& survey) {
+    GazeSource source;
+    source.file = file.filename().string();
+    source.sha256 = hash_of_file(file);
+    source.header = survey.header;
+    source.pupil_is_diameter = survey.format.pupil_is_diameter;
+    source.rate_hz = survey.rate_hz;
+    source.has_left = survey.has_left;
+    source.has_right = survey.has_right;
+    if (survey.px_per_deg) {
+        source.px_per_deg_x = survey.px_per_deg->x;
+        source.px_per_deg_y = survey.px_per_deg->y;
+    }
+    source.skipped_lines = survey.skipped_lines;
+    return source;
+}
+
+AscImportSummary import_asc(const fs::path& file, const AscImportOptions& options) {
+    if (options.out.empty())
+        check_session_place(options.place, options.session_number);
+    else if (fs::exists(options.out))
+        throw InputError(fmt::format("{}: exists already and is not overwritten. Name another folder.",
+                                     options.out.string()));
+    else
+        check_observer_label(options.place.observer_label);
+
+    AscImportSummary summary;
+    summary.survey = survey_asc(file, options.report, part_of(options.progress, 0));
+    SessionHeader header = header_of(file, summary.survey, options);
+    std::optional<SessionDirectory> by_place;
+    std::optional<PartialDirectory> by_name;
+    if (options.out.empty()) {
+        by_place.emplace(options.place, options.session_number);
+        header.session_number = by_place->session_number();
+    } else {
+        by_name.emplace(options.out);
+        header.session_number = options.session_number.value_or(1);
+    }
+    const fs::path session_file = (by_place ? by_place->path() : by_name->path()) / session_file_name;
+    create_session_file(session_file, header);
+    write_session_rows(session_file, [&](SQLite::Database& database) {
+        const SessionClockOf session_time(summary.survey);
+        insert_sitting(database, header, summary.survey, session_time);
+        GazeRows rows(database);
+        rows.source(1, gaze_source_of(file, summary.survey));
+        AscRows sink(
+            rows, 1, summary.survey.cut_by, [](int trial) { return std::optional<std::int64_t>(trial + 1); },
+            [&](const AscTrialTimes& times) {
+                insert_trial(database, times, session_time);
+                ++summary.trials;
+            });
+        AscParser parser(sink);
+        parse_asc_file(file, parser, part_of(options.progress, 1));
+        sink.end();
+    });
+    finish_imported_session(session_file.parent_path(), options.program);
+    if (by_place)
+        by_place->publish();
+    else
+        by_name->publish();
+    summary.session = by_place ? by_place->path() : by_name->path();
+    add_remarks(summary, header);
+    add_asc_remarks(summary);
+    return summary;
+}
+
+} // namespace overt

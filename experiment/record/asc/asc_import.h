@@ -1,0 +1,62 @@
+/// EyeLink recordings in their text form (ASC) made into sessions.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "experiment/record/asc/asc_survey.h"
+#include "experiment/record/session_directory.h"
+#include "experiment/record/session_header.h"
+
+namespace overt {
+
+struct AscImportOptions {
+    /// Whose session, and among which. The name of the protocol stands for the task.
+    SessionPlace place;
+    std::optional<int> session_number;
+    std::filesystem::path out;                 ///< the session's folder itself; empty: by `place`
+    std::optional<glm::dvec2> screen_mm;       ///< what the file says of it otherwise
+    std::optional<double> viewing_distance_mm; ///< the same
+    ProgramBuild program;                      ///< that imports
+    std::string now_utc;                       ///< for files without a date
+    AscReport report;                          ///< told each line that is skipped; may be empty
+    std::function<void(std::int64_t done, std::int64_t all)>
+        progress; ///< in bytes that are read; may be empty
+};
+
+struct AscImportSummary {
+    std::filesystem::path session;
+    AscSurvey survey;
+    int trials = 0;
+    std::vector<std::string> remarks; ///< whole sentences on what is not as in the file
+};
+
+/// Makes a session of a recording: its samples, its trials (see AscTrialCutter), its own events and messages.
+/// The session's clock begins with the file's first line. What the file does not say (sculptures, questions)
+/// stays empty; a viewing distance or screen size that nobody knows is 0. Memory does not grow with the file.
+///
+/// The session's directory appears when it is complete; nothing is overwritten. Throws InputError as
+/// survey_asc() does or if there is a session at that place, RecordError if it cannot be written.
+AscImportSummary import_asc(const std::filesystem::path& file, const AscImportOptions& options);
+
+/// Makes a copy of a session in which the gaze of one sitting is that of the file: that of the trials which
+/// messages TRIALID name, in the order of their attempts. The sitting is the one that most of them fit. Where
+/// the session's readings of the tracker's clock do not go with the file's times, the two are related by the
+/// messages that say when a trial's screens came (see asc_trial.h). The session itself is left as it is.
+///
+/// `options.out` names the copy, or else it lies beside the session as NAME_gaze. Throws InputError as above,
+/// or if no trial fits, or if nothing relates the clocks; RecordError.
+AscImportSummary import_asc_into(const std::filesystem::path& file, const std::filesystem::path& session,
+                                 const AscImportOptions& options);
+
+/// What every import keeps of its file besides rows.
+GazeSource gaze_source_of(const std::filesystem::path& file, const AscSurvey& survey);
+/// Remarks on what no import keeps.
+void add_asc_remarks(AscImportSummary& summary);
+
+} // namespace overt

@@ -1,0 +1,277 @@
+#include "experiment/record/asc/asc_parser.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "experiment/base/utf8_text.h"
+#include "experiment/record/asc/asc_place.h"
+#include "experiment/record/asc/asc_words.h"
+
+namespace overt {
+namespace {
+
+using Kind = GazeEvent::Kind;
+
+TrackerTime at(std::int64_t us) { return TrackerTime(TrackerClock::duration(us)); }
+
+std::optional<Eye> eye_of(std::string_view word) {
+    if (word == "L")
+        return Eye::left;
+    return word == "R" ? std::optional(Eye::right) : std::nullopt;
+}
+
+std::size_t slot(Kind kind, Eye eye) {
+    return 2 * static_cast<std::size_t>(kind) + (eye == Eye::left ? 0u : 1u);
+}
+
+} // namespace
+
+std::string AscParser::utf8(std::string_view text) {
+    if (is_utf8(text))
+        return std::string(text);
+    ++recoded_;
+    return utf8_of_latin1(text);
+}
+
+void AscParser::drop_open_events() {
+    unfinished_ += std::count(open_events_.begin(), open_events_.end(), true);
+    open_events_ = {};
+}
+
+void AscParser::line(std::string_view line) {
+    ++lines_;
+    if (!line.empty() && line.back() == '\r')
+        line.remove_suffix(1);
+    if (line.size() > longest_asc_line)
+        return bad("longer than any line of a recording", line.substr(0, 80));
+    if (line.find_first_not_of(" \t") == std::string_view::npos)
+        return;
+    if (is_digit(line.front()))
+        return sample_line(line);
+    if (line.starts_with("**")) {
+        format_.is_eyelinks = true;
+        return listener_.header(line);
+    }
+    if (line.starts_with(">>>"))
+        return note(line);
+    if (is_blank(line.front())) {
+        if (in_calibration_)
+            return note(line);
+        return bad("begins with a blank, and belongs to no calibration", line);
+    }
+    event_line(line);
+}
+
+void AscParser::note(std::string_view line) {
+    in_calibration_ = true;
+    GazeEvent event;
+    event.kind = Kind::note;
+    event.start = event.end = last_time_;
+    event.text = utf8(line);
+    listener_.event(event);
+}
+
+void AscParser::event_line(std::string_view line) {
+    Words words(line);
+    const std::string_view word = words.next();
+    if (word == "MSG")
+        return message_line(line);
+    in_calibration_ = false;
+    if (word == "SFIX" || word == "SSACC" || word == "SBLINK")
+        return eye_event_begin(line, word == "SFIX"    ? Kind::fixation
+                                     : word == "SSACC" ? Kind::saccade
+                                                       : Kind::blink);
+    if (word == "EFIX" || word == "ESACC" || word == "EBLINK")
+        return eye_event_end(line, word == "EFIX"    ? Kind::fixation
+                                   : word == "ESACC" ? Kind::saccade
+                                                     : Kind::blink);
+    if (word == "START" || word == "END")
+        return recording_line(line, word == "START");
+    if (word == "BUTTON" || word == "INPUT")
+        return port_line(line, word == "BUTTON" ? Kind::button : Kind::input);
+    if (word == "SAMPLES")
+        return samples_layout(line);
+    if (word == "PUPIL") {
+        format_.pupil_is_diameter = words.next() == "DIAMETER";
+        return;
+    }
+    if (word == "EVENTS") {
+        const std::string_view what = words.next();
+        format_.events_are_gaze = what != "HREF" && what != "PUPIL";
+        return;
+    }
+    // The prescalers are those of files of another kind.
+    if (word == "PRESCALER" || word == "VPRESCALER" || word == "FIXUPDATE")
+        return;
+    bad("begins with no known word", line);
+}
+
+void AscParser::message_line(std::string_view line) {
+    Words words(line);
+    words.next();
+    const std::optional<std::int64_t> us = asc_time_us(words.next());
+    if (!us)
+        return bad("a message without a time", line);
+    GazeEvent event;
+    settle_leap(at(*us));
+    event.start = event.end = last_time_ = at(*us);
+    event.text = utf8(words.rest());
+    in_calibration_ = event.text.starts_with("!CAL");
+    if (event.text.starts_with("RECCFG")) {
+        Words setup(event.text);
+        setup.next(), setup.next();
+        const std::optional<double> rate_hz = number_of(setup.next());
+        setup.next(), setup.next();
+        const std::string_view eyes = setup.next();
+        if (rate_hz)
+            take_rate(*rate_hz);
+        if (eyes == "L" || eyes == "R" || eyes == "LR") {
+            format_.has_left = eyes != "R";
+            format_.has_right = eyes != "L";
+            format_.eyes_are_known = true;
+        }
+    }
+    listener_.event(event);
+}
+
+void AscParser::eye_event_begin(std::string_view line, Kind kind) {
+    Words words(line);
+    words.next();
+    const std::optional<Eye> eye = eye_of(words.next());
+    if (!eye || !asc_time_us(words.next()))
+        return bad("the begin of an event without eye or time", line);
+    bool& is_open = open_events_[slot(kind, *eye)];
+    unfinished_ += is_open;
+    is_open = true;
+}
+
+void AscParser::eye_event_end(std::string_view line, Kind kind) {
+    Words words(line);
+    words.next();
+    const std::optional<Eye> eye = eye_of(words.next());
+    const std::optional<std::int64_t> start = asc_time_us(words.next()), end = asc_time_us(words.next()),
+                                      duration = asc_time_us(words.next());
+    if (!eye || !start || !end || !duration || *end < *start)
+        return bad("an event without eye, begin, end or duration", line);
+    GazeEvent event;
+    event.kind = kind;
+    event.eye = eye;
+    event.start = at(*start);
+    event.end = at(*end);
+    event.duration = TrackerClock::duration(*duration);
+    const auto take_place = [&](std::optional<ScreenPoint>& into) {
+        const std::string_view x = words.next(), y = words.next();
+        const Place place = place_of(x, y);
+        into = format_.events_are_gaze ? place.point : std::nullopt;
+        return place.is_valid;
+    };
+    // Nothing where it is missing.
+    const auto take_number = [&](std::optional<double>& into) {
+        const std::string_view word = words.next();
+        into = is_missing(word) ? std::nullopt : number_of(word);
+        return is_missing(word) || into.has_value();
+    };
+    bool is_whole = true;
+    if (kind == Kind::fixation)
+        is_whole = take_place(event.place) && take_number(event.pupil);
+    if (kind == Kind::saccade)
+        is_whole = take_place(event.place) && take_place(event.arrival) && take_number(event.amplitude_deg) &&
+                   take_number(event.peak_velocity_deg_s);
+    if (!is_whole)
+        return bad("an event without all its values", line);
+    open_events_[slot(kind, *eye)] = false;
+    no_gaze_events_ += !format_.events_are_gaze && kind != Kind::blink;
+    listener_.event(event);
+}
+
+void AscParser::recording_line(std::string_view line, bool begins) {
+    Words words(line);
+    words.next();
+    const std::optional<std::int64_t> us = asc_time_us(words.next());
+    if (!us)
+        return bad("the begin or end of a recording without a time", line);
+    drop_open_events();
+    GazeEvent event;
+    settle_leap(at(*us));
+    event.kind = begins ? Kind::started : Kind::ended;
+    event.start = event.end = last_time_ = at(*us);
+    bool left = false, right = false;
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+        left |= word == "LEFT";
+        right |= word == "RIGHT";
+        if (word == "RES") {
+            const std::string_view x = words.next(), y = words.next();
+            event.text = fmt::format("{} {}", number_of(x) ? x : ".", number_of(y) ? y : ".");
+        }
+    }
+    if (begins) {
+        if (left || right) {
+            format_.has_left = left;
+            format_.has_right = right;
+            format_.eyes_are_known = true;
+        }
+        event.text = left && right ? "LEFT RIGHT" : left ? "LEFT" : right ? "RIGHT" : "";
+        // A new recording may begin with the time of the last one's end.
+        last_sample_.reset();
+        stamps_ = {};
+    }
+    recording_start_ = begins ? std::optional(event.start) : std::nullopt;
+    listener_.event(event);
+}
+
+void AscParser::port_line(std::string_view line, Kind kind) {
+    Words words(line);
+    words.next();
+    const std::optional<std::int64_t> us = asc_time_us(words.next());
+    if (!us)
+        return bad("a button or input without a time", line);
+    GazeEvent event;
+    settle_leap(at(*us));
+    event.kind = kind;
+    event.start = event.end = last_time_ = at(*us);
+    for (std::string_view word = words.next(); !word.empty(); word = words.next())
+        event.text += (event.text.empty() ? "" : " ") + utf8(word);
+    listener_.event(event);
+}
+
+bool AscParser::take_rate(double rate_hz) {
+    if (!(rate_hz >= 1.0 && rate_hz <= 100'000.0))
+        return false;
+    format_.rate_hz = rate_hz;
+    format_.highest_rate_hz = std::max(format_.highest_rate_hz, rate_hz);
+    format_.lowest_rate_hz =
+        format_.lowest_rate_hz > 0.0 ? std::min(format_.lowest_rate_hz, rate_hz) : rate_hz;
+    return true;
+}
+
+void AscParser::samples_layout(std::string_view line) {
+    Words words(line);
+    words.next();
+    const std::string_view what = words.next();
+    format_.is_gaze = what == "GAZE";
+    bool left = false, right = false;
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+        left |= word == "LEFT";
+        right |= word == "RIGHT";
+        format_.has_head_target |= word == "HTARGET";
+        if (word != "RATE")
+            continue;
+        const std::optional<double> rate_hz = number_of(words.next());
+        if (!rate_hz || !take_rate(*rate_hz))
+            bad("a sampling rate that is none", line);
+    }
+    if (left || right) {
+        format_.has_left = left;
+        format_.has_right = right;
+        format_.eyes_are_known = true;
+    }
+}
+
+void AscParser::end() {
+    settle_leap(std::nullopt);
+    drop_open_events();
+}
+
+} // namespace overt

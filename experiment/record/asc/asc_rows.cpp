@@ -1,0 +1,97 @@
+#include "experiment/record/asc/asc_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <utility>
+
+#include "experiment/record/asc/asc_trial.h"
+#include "experiment/record/asc/asc_words.h"
+
+namespace overt {
+namespace {
+
+/// When the stimulus came, by a message «SYNCTIME». A whole number before it says by how many milliseconds
+/// the message came too late; less than 0: it was sent beforehand.
+std::optional<TrackerTime> synctime(const GazeEvent& message) {
+    Words words(message.text);
+    std::string_view word = words.next();
+    std::int64_t late_ms = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), late_ms);
+    constexpr std::int64_t most_ms = 60'000;
+    if (error == std::errc() && end == word.data() + word.size() && std::abs(late_ms) < most_ms)
+        word = words.next();
+    else
+        late_ms = 0;
+    return word == "SYNCTIME" ? std::optional(message.start - std::chrono::milliseconds(late_ms))
+                              : std::nullopt;
+}
+
+} // namespace
+
+AscRows::AscRows(GazeRows& rows, int sitting, AscTrialCutter::By cut_by, TrialId trial_id,
+                 std::function<void(const AscTrialTimes&)> trial_over)
+    : rows_(rows), sitting_(sitting), cutter_(cut_by), trial_id_(std::move(trial_id)),
+      trial_over_(std::move(trial_over)) {
+    rows_.begin_trial(0);
+}
+
+void AscRows::begin_trial() {
+    end();
+    times_ = {};
+    times_.trial = cutter_.trial();
+    has_time_ = false;
+    into_ = trial_id_(times_.trial);
+    if (into_)
+        rows_.begin_trial(*into_);
+}
+
+void AscRows::take_time(TrackerTime time) {
+    times_.first = has_time_ ? std::min(times_.first, time) : time;
+    times_.last = has_time_ ? std::max(times_.last, time) : time;
+    has_time_ = true;
+}
+
+void AscRows::samples(std::span<const GazeSample> samples) {
+    if (cutter_.take_sample())
+        begin_trial();
+    take_time(samples.front().sampled_at);
+    if (into_)
+        for (const GazeSample& sample : samples)
+            rows_.sample(sample);
+}
+
+void AscRows::event(const GazeEvent& event) {
+    if (cutter_.take(event))
+        begin_trial();
+    if (event.kind != GazeEvent::Kind::note)
+        take_time(event.start);
+    if (event.kind == GazeEvent::Kind::message) {
+        if (is_trial_id(event))
+            times_.number = asc_trial_number(event);
+        const std::string_view text = event.text;
+        const std::string_view word = text.substr(0, text.find(' '));
+        constexpr std::array words{task_screen_message, onset_message, end_message, response_screen_message,
+                                   response_message};
+        if (std::find(words.begin(), words.end(), word) != words.end())
+            times_.screens.emplace(word, event.start);
+        if (const std::optional<TrackerTime> onset = synctime(event))
+            times_.screens.emplace(onset_message, *onset);
+        times_.is_aborted |= text == "TRIAL_RESULT aborted" || text == "TRIAL_RESULT open";
+    }
+    if (into_)
+        rows_.event(event);
+}
+
+void AscRows::malformed(std::int64_t line, std::string_view why, std::string_view text) {
+    rows_.line_left_out(sitting_, skipped_line_text(line, why, text));
+}
+
+void AscRows::end() {
+    if (times_.trial >= 0 && trial_over_)
+        trial_over_(times_);
+    times_.trial = -1;
+}
+
+} // namespace overt

@@ -1,0 +1,245 @@
+#include "experiment/record/asc/asc_survey.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/base/utf8_text.h"
+#include "experiment/record/asc/asc_words.h"
+
+namespace overt {
+namespace {
+
+using Kind = GazeEvent::Kind;
+
+/// The numbers after a message's first word, up to four.
+std::vector<double> numbers_of(std::string_view text) {
+    Words words(text);
+    std::vector<double> numbers;
+    for (std::string_view word = words.next(); !word.empty() && numbers.size() < 4; word = words.next())
+        if (const std::optional<double> number = number_of(word))
+            numbers.push_back(*number);
+    return numbers;
+}
+
+class Surveyor final : public AscListener {
+  public:
+    Surveyor(AscSurvey& survey, const std::filesystem::path& file, const AscReport& report)
+        : survey_(survey), file_(file), report_(report) {}
+
+    void header(std::string_view line) override {
+        constexpr std::size_t longest_header = 65536;
+        if (survey_.header.size() + line.size() < longest_header)
+            survey_.header += (survey_.header.empty() ? "" : "\n") + ascii_of(line);
+    }
+    void samples(std::span<const GazeSample> samples) override;
+    void event(const GazeEvent& event) override;
+    void malformed(std::int64_t line, std::string_view why, std::string_view text) override;
+
+    bool has_trial_ids() const { return has_trial_ids_; }
+    int trials(AscTrialCutter::By by) const {
+        return 1 + (by == AscTrialCutter::By::trial_ids ? by_ids_ : by_recordings_).trial();
+    }
+    std::int64_t shortest_interval_us() const { return shortest_interval_us_; }
+    bool clock_began_anew() const { return clock_began_anew_; }
+    TrackerTime began_anew_at() const { return began_anew_at_; }
+
+  private:
+    void take_time(TrackerTime time);
+    void take_message(const GazeEvent& event);
+
+    AscSurvey& survey_;
+    const std::filesystem::path& file_;
+    const AscReport& report_;
+    AscTrialCutter by_ids_{AscTrialCutter::By::trial_ids}, by_recordings_{AscTrialCutter::By::recordings};
+    bool has_trial_ids_ = false, has_time_ = false, clock_began_anew_ = false;
+    TrackerTime began_anew_at_;
+    std::optional<TrackerTime> last_sample_;
+    std::int64_t shortest_interval_us_ = 0;
+};
+
+void Surveyor::take_time(TrackerTime time) {
+    survey_.first = has_time_ ? std::min(survey_.first, time) : time;
+    survey_.last = has_time_ ? std::max(survey_.last, time) : time;
+    has_time_ = true;
+}
+
+void Surveyor::samples(std::span<const GazeSample> samples) {
+    const TrackerTime time = samples.front().sampled_at;
+    take_time(time);
+    by_ids_.take_sample();
+    by_recordings_.take_sample();
+    if (last_sample_ && time < *last_sample_ && !clock_began_anew_) {
+        clock_began_anew_ = true;
+        began_anew_at_ = time;
+    }
+    if (last_sample_ && time > *last_sample_) {
+        const std::int64_t interval_us = (time - *last_sample_).count();
+        shortest_interval_us_ =
+            shortest_interval_us_ == 0 ? interval_us : std::min(shortest_interval_us_, interval_us);
+    }
+    last_sample_ = time;
+    for (const GazeSample& sample : samples) {
+        (sample.eye == Eye::left ? survey_.has_left : survey_.has_right) = true;
+        ++survey_.samples;
+        survey_.samples_without_gaze += !sample.gaze;
+    }
+}
+
+void Surveyor::event(const GazeEvent& event) {
+    by_ids_.take(event);
+    by_recordings_.take(event);
+    ++survey_.events;
+    if (event.kind == Kind::note)
+        return;
+    take_time(event.start);
+    take_time(event.end);
+    if (event.kind == Kind::message)
+        take_message(event);
+    if (event.kind == Kind::ended && !survey_.px_per_deg)
+        if (const std::vector<double> res = numbers_of(event.text);
+            res.size() == 2 && res[0] > 0.0 && res[1] > 0.0)
+            survey_.px_per_deg = glm::dvec2(res[0], res[1]);
+}
+
+void Surveyor::take_message(const GazeEvent& event) {
+    const std::string& text = event.text;
+    has_trial_ids_ |= is_trial_id(event);
+    if (text.starts_with("DISPLAY_COORDS") || (text.starts_with("GAZE_COORDS") && !survey_.screen_px)) {
+        const std::vector<double> edges = numbers_of(text);
+        constexpr double largest_px = 32768.0;
+        if (edges.size() == 4 && edges[2] > edges[0] && edges[3] > edges[1] &&
+            edges[2] - edges[0] < largest_px && edges[3] - edges[1] < largest_px)
+            survey_.screen_px =
+                glm::ivec2(std::lround(edges[2] - edges[0]) + 1, std::lround(edges[3] - edges[1]) + 1);
+    } else if (text.starts_with("SCREEN_PHYS_COORDS")) {
+        const std::vector<double> edges = numbers_of(text);
+        if (edges.size() == 4 && edges[2] > edges[0] && edges[1] > edges[3] && edges[2] - edges[0] < 1e5 &&
+            edges[1] - edges[3] < 1e5)
+            survey_.screen_mm = glm::dvec2(edges[2] - edges[0], edges[1] - edges[3]);
+    } else if (text.starts_with("SCREEN_DISTANCE")) {
+        const std::vector<double> distances = numbers_of(text);
+        if (!distances.empty() && distances[0] > 0.0 && distances[0] < 1e5)
+            survey_.viewing_distance_mm = distances[0];
+    } else if (text.starts_with("FRAMERATE") || text.starts_with("RETRACE_INTERVAL")) {
+        const std::vector<double> value = numbers_of(text);
+        if (value.empty() || value[0] <= 0.0)
+            return;
+        const double hz = text.starts_with("FRAMERATE") ? value[0] : 1000.0 / value[0];
+        if (hz > 1.0 && hz < 2000.0)
+            survey_.refresh_hz = hz;
+    }
+}
+
+void Surveyor::malformed(std::int64_t line, std::string_view why, std::string_view text) {
+    ++survey_.skipped_lines;
+    if (report_)
+        report_(fmt::format("{}:{}", file_.string(), skipped_line_text(line, why, text)));
+}
+
+} // namespace
+
+std::string skipped_line_text(std::int64_t line, std::string_view why, std::string_view text) {
+    constexpr std::size_t shown = 120;
+    return fmt::format("{}: {}: {}", line, why, ascii_of(text.substr(0, shown)));
+}
+
+bool is_trial_id(const GazeEvent& event) {
+    return event.kind == Kind::message && event.text.starts_with("TRIALID");
+}
+
+std::optional<int> asc_trial_number(const GazeEvent& event) {
+    if (!is_trial_id(event))
+        return std::nullopt;
+    const std::size_t begin = event.text.find_first_of("0123456789");
+    if (begin == std::string::npos)
+        return std::nullopt;
+    int number = 0;
+    const auto result =
+        std::from_chars(event.text.data() + begin, event.text.data() + event.text.size(), number);
+    return result.ec == std::errc() ? std::optional(number) : std::nullopt;
+}
+
+bool AscTrialCutter::begin() {
+    ++trial_;
+    return true;
+}
+
+bool AscTrialCutter::take(const GazeEvent& event) {
+    if (by_ == By::recordings)
+        return event.kind == Kind::started && begin();
+    if (event.kind == Kind::started && trial_ < 0) {
+        began_early_ = true;
+        return begin();
+    }
+    if (!is_trial_id(event))
+        return false;
+    if (began_early_) {
+        began_early_ = false;
+        return false;
+    }
+    return begin();
+}
+
+bool AscTrialCutter::take_sample() {
+    if (trial_ >= 0)
+        return false;
+    began_early_ = by_ == By::trial_ids;
+    return begin();
+}
+
+AscSurvey survey_asc(const std::filesystem::path& file, const AscReport& report,
+                     const std::function<void(std::int64_t, std::int64_t)>& progress) {
+    AscSurvey survey;
+    Surveyor surveyor(survey, file, report);
+    AscParser parser(surveyor);
+    parse_asc_file(file, parser, progress);
+    survey.format = parser.format();
+    survey.lines = parser.lines();
+    survey.unfinished_events = parser.unfinished_events();
+    survey.samples_that_are_no_gaze = parser.samples_that_are_no_gaze();
+    survey.events_that_are_no_gaze = parser.events_that_are_no_gaze();
+    survey.non_ascii_texts = parser.non_ascii_texts();
+    survey.cut_by = surveyor.has_trial_ids() ? AscTrialCutter::By::trial_ids : AscTrialCutter::By::recordings;
+    survey.trials = surveyor.trials(survey.cut_by);
+    survey.rate_hz = survey.format.highest_rate_hz;
+    if (survey.samples == 0) {
+        survey.has_left = survey.format.has_left;
+        survey.has_right = survey.format.has_right || !survey.has_left;
+    }
+    if (survey.rate_hz <= 0.0 && surveyor.shortest_interval_us() > 0)
+        survey.rate_hz = 1e6 / static_cast<double>(surveyor.shortest_interval_us());
+    if (survey.samples == 0 && survey.samples_that_are_no_gaze > 0)
+        throw InputError(
+            fmt::format("{}: its samples are of the pupil or in the head's frame (SAMPLES HREF or "
+                        "PUPIL), and no places on a screen. Convert the recording again with gaze.",
+                        file.string()));
+    if (survey.trials == 0)
+        throw InputError(
+            fmt::format("{}: no recording of an EyeLink was found in {} lines, {} of them could not "
+                        "be read. Give a file that edf2asc has written.",
+                        file.string(), survey.lines, survey.skipped_lines));
+    if (!survey.format.is_eyelinks && !survey.format.eyes_are_known && survey.events == 0)
+        throw InputError(fmt::format(
+            "{}: is a table of numbers, and nothing in it is as an EyeLink has it: no header, no message, "
+            "no event, no status after the values of a sample. Give a file that edf2asc has written.",
+            file.string()));
+    if (surveyor.clock_began_anew())
+        throw InputError(
+            fmt::format("{}: the tracker's clock began anew at time stamp {}: this is two recordings "
+                        "in one file. Cut it there and import both.",
+                        file.string(), surveyor.began_anew_at().time_since_epoch().count() / 1000));
+    return survey;
+}
+
+ByteProgress part_of(const ByteProgress& progress, int reading) {
+    if (!progress)
+        return {};
+    return
+        [progress, reading](std::int64_t done, std::int64_t all) { progress(done + reading * all, 2 * all); };
+}
+
+} // namespace overt

@@ -1,0 +1,201 @@
+#include "experiment/record/bids/bids_gaze.h"
+
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "experiment/base/error.h"
+#include "experiment/base/number_text.h"
+#include "experiment/record/bids/bids_gaze_events.h"
+#include "experiment/record/bids/bids_tracker.h"
+#include "experiment/record/tables/export_tables.h"
+#include "experiment/record/tables/joined_cells.h"
+#include "experiment/record/tables/sample_rows.h"
+
+namespace fs = std::filesystem;
+
+namespace overt {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// BIDS wants these three first, in this order.
+Table physio_table(bool pupil_is_diameter) {
+    return {"",
+            "",
+            {{"timestamp", "Time of the sample by the tracker's own clock", "us", {}},
+             {"x_coordinate",
+              "Gaze on the screen, to the right from its left edge, as the tracker gave it",
+              "pixel",
+              {}},
+             {"y_coordinate",
+              "Gaze on the screen, downwards from its top edge, as the tracker gave it",
+              "pixel",
+              {}},
+             {"pupil_size",
+              pupil_is_diameter ? "Pupil diameter, in the tracker's own unit"
+                                : "Pupil area, in the tracker's own unit",
+              "arbitrary",
+              {}}}};
+}
+
+Table surface_table(const SessionHeader& header, bool pupil_is_diameter) {
+    Table table = physio_table(pupil_is_diameter);
+    table.columns.pop_back();
+    for (const auto& columns : {time_columns(), place_columns(header)})
+        table.columns.insert(table.columns.end(), columns.begin(), columns.end());
+    return table;
+}
+
+/// The files of one eye.
+class EyeFiles {
+  public:
+    EyeFiles(const SessionRecord& record, Eye eye, int number, int run, bool pupil_is_diameter,
+             const fs::path& raw, const fs::path& derived)
+        : record_(record), eye_(eye), stem_(BidsNames(record.header()).eye_stem(run, number)), raw_(raw),
+          derived_(derived), physio_(physio_table(pupil_is_diameter)),
+          surface_(surface_table(record.header(), pupil_is_diameter)),
+          samples_(raw / (stem_ + "_physio.tsv.gz"), physio_, TableFormat::tsv, Packing::gzip,
+                   TableWriter::Header::none) {
+        if (!record.header().stimuli.empty())
+            places_ =
+                std::make_unique<TableWriter>(derived / (stem_ + "_desc-surface_physio.tsv.gz"), surface_,
+                                              TableFormat::tsv, Packing::gzip, TableWriter::Header::none);
+    }
+
+    Eye eye() const { return eye_; }
+    bool has_places() const { return places_ != nullptr; }
+
+    void sample(const GazeSample& sample) {
+        if (!first_)
+            first_ = sample.sampled_at;
+        gaze(samples_, sample);
+        sample.pupil_area > 0.0f ? samples_.fixed(shortest_decimal(sample.pupil_area), pupil_decimals)
+                                 : samples_.missing();
+        samples_.end_row();
+    }
+    void place(const GazeSample& sample, const JoinedSample& joined, const JoinedCells& cells) {
+        gaze(*places_, sample);
+        cells.time(*places_, joined);
+        cells.place(*places_, joined);
+        places_->end_row();
+    }
+
+    void close(const std::optional<ClockMap>& clock_map, std::optional<SessionTime> zero, int run,
+               BidsGazeCounts& counts);
+
+  private:
+    static void gaze(TableWriter& row, const GazeSample& sample) {
+        row.integer(sample.sampled_at.time_since_epoch().count());
+        if (sample.gaze)
+            row.fixed(sample.gaze->x_px, pixel_decimals).fixed(sample.gaze->y_px, pixel_decimals);
+        else
+            row.missing(2);
+    }
+    Json side_car(const Table& table, double start_s, int run) const;
+
+    const SessionRecord& record_;
+    Eye eye_;
+    std::string stem_;
+    fs::path raw_, derived_;
+    Table physio_, surface_;
+    TableWriter samples_;
+    std::unique_ptr<TableWriter> places_; ///< null: nothing was presented
+    std::optional<TrackerTime> first_;
+};
+
+Json EyeFiles::side_car(const Table& table, double start_s, int run) const {
+    Json json = bids_tracker(record_, run);
+    json["StartTime"] = start_s;
+    json["PhysioType"] = "eyetrack";
+    json["RecordedEye"] = eye_ == Eye::left ? "left" : "right";
+    json["SampleCoordinateSystem"] = "gaze-on-screen";
+    Json columns = Json::array();
+    for (const TableColumn& column : table.columns)
+        columns.push_back(column.name);
+    json["Columns"] = std::move(columns);
+    json.update(describe_columns(table.columns, TableFormat::tsv));
+    return json;
+}
+
+void EyeFiles::close(const std::optional<ClockMap>& clock_map, std::optional<SessionTime> zero, int run,
+                     BidsGazeCounts& counts) {
+    const double start_s =
+        clock_map && zero && first_ ? to_seconds(clock_map->to_session(*first_).time - *zero) : 0.0;
+    for (TableWriter* writer : {&samples_, places_.get()}) {
+        if (!writer)
+            continue;
+        counts.rows += writer->rows();
+        counts.bytes += writer->bytes();
+        writer->close();
+    }
+    write_text_file(raw_ / (stem_ + "_physio.json"), json_text(side_car(physio_, start_s, run)));
+    if (places_)
+        write_text_file(derived_ / (stem_ + "_desc-surface_physio.json"),
+                        json_text(side_car(surface_, start_s, run)));
+    counts.samples += samples_.rows();
+    ++counts.recordings;
+    write_bids_gaze_events(record_, run, eye_, raw_ / (stem_ + "_physioevents"));
+}
+
+} // namespace
+
+std::optional<SessionTime> bids_zero(const SessionRecord& record, int run) {
+    const std::optional<ClockMap> clock_map = record.clock_map(run);
+    if (!clock_map)
+        return std::nullopt;
+    for (const TrialRecord& trial : record.trials())
+        if (trial.sitting == run)
+            if (const auto span = record.sample_span(trial))
+                return clock_map->to_session(span->first).time;
+    return std::nullopt;
+}
+
+BidsGazeCounts write_bids_gaze(const SessionRecord& record, int run, const LookupFor& lookup_for,
+                               const fs::path& raw, const fs::path& derived) {
+    const SessionRecord::Eyes eyes = record.eyes(run);
+    const std::optional<GazeSource> source = record.gaze_source(run);
+    const bool pupil_is_diameter = source && source->pupil_is_diameter;
+    std::vector<std::unique_ptr<EyeFiles>> files;
+    for (const Eye eye : {Eye::left, Eye::right})
+        if (eye == Eye::left ? eyes.left : eyes.right)
+            files.push_back(std::make_unique<EyeFiles>(record, eye, static_cast<int>(files.size()) + 1, run,
+                                                       pupil_is_diameter, raw, derived));
+    std::vector<JoinedSample> joined;
+    for (const TrialRecord& trial : record.trials()) {
+        if (trial.sitting != run || files.empty())
+            continue;
+        const int sculpture = trial.trial.condition.sculpture;
+        const bool has_places = files.front()->has_places();
+        const SampleJoin join(record, trial, has_places ? lookup_for(sculpture) : nullptr);
+        const JoinedCells cells(record.header(), sculpture, TableFormat::tsv);
+        record.read_samples(trial, samples_at_a_time, [&](std::span<const GazeSample> samples) {
+            joined.resize(samples.size());
+            if (has_places)
+                join.join(samples, joined);
+            for (std::size_t i = 0; i < samples.size(); ++i) {
+                const auto of_eye = std::find_if(files.begin(), files.end(), [&](const auto& file) {
+                    return file->eye() == samples[i].eye;
+                });
+                if (of_eye == files.end())
+                    throw RecordError(
+                        fmt::format("{}: a sample is of an eye that no trial's samples are of: the "
+                                    "session file is damaged.",
+                                    record.directory().string()));
+                (*of_eye)->sample(samples[i]);
+                if (has_places)
+                    (*of_eye)->place(samples[i], joined[i], cells);
+            }
+        });
+    }
+    BidsGazeCounts counts;
+    const std::optional<ClockMap> clock_map = record.clock_map(run);
+    const std::optional<SessionTime> zero = bids_zero(record, run);
+    for (const auto& eye : files)
+        eye->close(clock_map, zero, run, counts);
+    return counts;
+}
+
+} // namespace overt

@@ -1,0 +1,72 @@
+/// What the record tells of the steps of a session, in their order.
+#include <algorithm>
+#include <tuple>
+
+#include "experiment/record/read/session_record.h"
+#include "experiment/record/session_file.h"
+#include "experiment/record/sql.h"
+
+namespace overt {
+namespace {
+
+AttemptFate fate_of(const TrialRecord& attempt) {
+    if (attempt.status == TrialRecord::Status::completed)
+        return AttemptFate::counted;
+    if (attempt.status != TrialRecord::Status::aborted)
+        return AttemptFate::interrupted;
+    switch (attempt.outcome.afterwards) {
+    case TrialOutcome::Afterwards::never:
+        return AttemptFate::given_up;
+    case TrialOutcome::Afterwards::now:
+        return AttemptFate::comes_again_now;
+    case TrialOutcome::Afterwards::end_of_block:
+        return AttemptFate::comes_again_at_end;
+    case TrialOutcome::Afterwards::undecided:
+        break;
+    }
+    return AttemptFate::interrupted;
+}
+
+ResumePolicy policy_called(const std::string& word) {
+    for (const auto policy : {ResumePolicy::skip, ResumePolicy::restart_block})
+        if (word == name_of(policy))
+            return policy;
+    return ResumePolicy::redo;
+}
+
+struct DatedStep {
+    int sitting;
+    SessionTime at;
+    PastStep step;
+};
+
+} // namespace
+
+SessionSoFar SessionRecord::so_far() const {
+    std::vector<DatedStep> dated;
+    for (const auto& [sitting, policy] : resumptions())
+        dated.push_back(
+            {sitting, SessionTime::min(), {PastStep::Kind::resumed, -1, {}, policy_called(policy)}});
+    for (const TrialRecord& trial : trials_)
+        dated.push_back(
+            {trial.sitting, trial.started, {PastStep::Kind::trial, trial.trial.index, fate_of(trial), {}}});
+    for (const RecordedEvent& event : events()) {
+        if (event.kind == practice_answered_event || event.kind == practice_skipped_event)
+            dated.push_back({event.sitting, event.at, {PastStep::Kind::practice, -1, {}, {}}});
+        if (event.kind == break_begins_event)
+            dated.push_back({event.sitting, event.at, {PastStep::Kind::pause, -1, {}, {}}});
+    }
+    std::stable_sort(dated.begin(), dated.end(), [](const DatedStep& a, const DatedStep& b) {
+        // In virtual time a trial begins at the very instant at which what was before it ended.
+        const auto rank = [](const DatedStep& entry) { return entry.step.kind == PastStep::Kind::trial; };
+        return std::tuple(a.sitting, a.at, rank(a)) < std::tuple(b.sitting, b.at, rank(b));
+    });
+    SessionSoFar so_far;
+    for (const DatedStep& entry : dated)
+        so_far.steps.push_back(entry.step);
+    so_far.counted_trials = static_cast<int>(
+        std::count_if(trials_.begin(), trials_.end(), [](const TrialRecord& trial) { return trial.counts; }));
+    return so_far;
+}
+
+} // namespace overt

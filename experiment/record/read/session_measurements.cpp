@@ -1,0 +1,217 @@
+/// What was measured in the trials of a session: refreshes, gaze and spoken answers.
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/record/gaze_rows.h"
+#include "experiment/record/read/session_record.h"
+#include "experiment/record/sql.h"
+
+namespace overt {
+namespace {
+
+FlipRecord read_flip(Query& row, int trial) {
+    FlipRecord flip;
+    flip.trial = trial;
+    flip.refresh_in_trial = row.small();
+    flip.report.refresh.value = row.integer();
+    flip.planned.value = row.small();
+    flip.shown.value = row.small();
+    flip.pose.value = row.small();
+    flip.report.requested = row.session_time();
+    flip.report.swapped = row.session_time();
+    flip.report.vertical_blank = row.session_time();
+    flip.report.source = static_cast<VblankSource>(row.small());
+    flip.report.missed_refreshes = row.small();
+    flip.report.uncertainty = SessionDuration(row.integer());
+    return flip;
+}
+
+GazeSample read_sample(Query& row) {
+    GazeSample sample;
+    sample.sampled_at = row.tracker_time();
+    sample.eye = row.small() == 0 ? Eye::left : Eye::right;
+    const auto x_px = row.optional_real(), y_px = row.optional_real();
+    if (x_px && y_px)
+        sample.gaze = ScreenPoint{*x_px, *y_px};
+    sample.pupil_area = static_cast<float>(row.real());
+    return sample;
+}
+
+RecordedAnswer read_answer(Query& row, int trial) {
+    RecordedAnswer answer;
+    answer.trial = trial;
+    answer.file = row.text();
+    answer.sha256 = row.text();
+    answer.device = row.text();
+    answer.sample_rate_hz = row.real();
+    answer.measured_rate_hz = row.real();
+    answer.bits = row.small();
+    answer.input_latency = SessionDuration(row.integer());
+    answer.samples = row.integer();
+    answer.onset_sample = row.real();
+    answer.onset_uncertainty = SessionDuration(row.integer());
+    answer.overruns = row.integer();
+    answer.lost_samples = row.integer();
+    answer.peak_dbfs = row.real();
+    answer.noise_dbfs = row.real();
+    answer.clipped_samples = row.integer();
+    answer.fault = row.text();
+    const auto time_or_nothing = [&]() -> std::optional<SessionDuration> {
+        const SessionDuration time(row.integer());
+        return row.integer() == 0 ? std::optional(time) : std::nullopt;
+    };
+    answer.voice_onset = time_or_nothing();
+    answer.voice_end = time_or_nothing();
+    return answer;
+}
+
+} // namespace
+
+std::vector<FlipRecord> SessionRecord::flips(const TrialRecord& trial) const {
+    std::vector<FlipRecord> rows = reading_session(file_, [&] {
+        return read_rows(
+            *database_,
+            fmt::format("SELECT refresh_in_trial, refresh, planned, shown, pose, requested_ns, swapped_ns, "
+                        "vertical_blank_ns, source, missed, {} FROM flip WHERE trial_id = ? ORDER BY n",
+                        has_column(*database_, "flip", "uncertainty_ns") ? "uncertainty_ns" : "0"),
+            [&](Query& row) { return read_flip(row, trial.trial.index); }, trial.id);
+    });
+    if (!rows.empty() && header_.display.refresh_hz == 0.0)
+        throw RecordError(
+            fmt::format("{}: trial {} has flips of a display that has no refresh rate: the file is "
+                        "damaged.",
+                        file_.string(), trial.trial.index + 1));
+    return rows;
+}
+
+std::vector<MissedRefresh> SessionRecord::missed_refreshes(const TrialRecord& trial) const {
+    return reading_session(file_, [&] {
+        return read_later_rows(
+            *database_, "missed_refresh",
+            "SELECT refresh_in_trial, refresh, planned, shown, pose, vertical_blank_ns, "
+            "uncertainty_ns FROM missed_refresh WHERE trial_id = ? ORDER BY refresh_in_trial",
+            [&](Query& row) {
+                return MissedRefresh{
+                    trial.trial.index, row.small(),   {row.integer()},    {row.small()},
+                    {row.small()},     {row.small()}, row.session_time(), SessionDuration(row.integer())};
+            },
+            trial.id);
+    });
+}
+
+std::vector<GazeSample> SessionRecord::samples(const TrialRecord& trial) const {
+    std::vector<GazeSample> samples;
+    read_samples(trial, 65536, [&](std::span<const GazeSample> piece) {
+        samples.insert(samples.end(), piece.begin(), piece.end());
+    });
+    return samples;
+}
+
+void SessionRecord::read_samples(const TrialRecord& trial, std::size_t most,
+                                 const std::function<void(std::span<const GazeSample>)>& take) const {
+    reading_session(file_, [&] {
+        std::vector<GazeSample> piece;
+        Query row(*database_,
+                  "SELECT tracker_us, eye, x_px, y_px, pupil_area FROM sample WHERE trial_id = ? ORDER BY n");
+        row.bind(1, trial.id);
+        while (row.step()) {
+            piece.push_back(read_sample(row));
+            if (piece.size() == most) {
+                take(piece);
+                piece.clear();
+            }
+        }
+        if (!piece.empty())
+            take(piece);
+    });
+}
+
+std::optional<std::pair<TrackerTime, TrackerTime>>
+SessionRecord::sample_span(const TrialRecord& trial) const {
+    return reading_session(file_, [&]() -> std::optional<std::pair<TrackerTime, TrackerTime>> {
+        Query row(*database_, "SELECT COUNT(*), COALESCE(MIN(tracker_us), 0), COALESCE(MAX(tracker_us), 0) "
+                              "FROM sample WHERE trial_id = ?");
+        row.bind(1, trial.id);
+        if (!row.step() || row.integer() == 0)
+            return std::nullopt;
+        const TrackerTime first = row.tracker_time();
+        return std::pair{first, row.tracker_time()};
+    });
+}
+
+void SessionRecord::read_gaze_events(const TrialRecord& trial,
+                                     const std::function<void(const GazeEvent&)>& take) const {
+    reading_session(file_, [&] {
+        if (has_table(*database_, "gaze_event"))
+            overt::read_gaze_events(*database_, trial.id, take);
+    });
+}
+
+void SessionRecord::read_gaze_events_outside(const std::function<void(const GazeEvent&)>& take) const {
+    reading_session(file_, [&] {
+        if (has_table(*database_, "gaze_event"))
+            overt::read_gaze_events(*database_, 0, take);
+    });
+}
+
+SessionRecord::Eyes SessionRecord::eyes(int sitting) const {
+    return reading_session(file_, [&] {
+        Query row(
+            *database_,
+            "SELECT COALESCE(MAX(eye = 0), 0), COALESCE(MAX(eye <> 0), 0) FROM sample WHERE trial_id IN "
+            "(SELECT trial_id FROM trial WHERE sitting = ?)");
+        row.bind(1, sitting);
+        row.step();
+        Eyes eyes;
+        eyes.left = row.integer() != 0;
+        eyes.right = row.integer() != 0;
+        return eyes;
+    });
+}
+
+std::optional<RecordedAnswer> SessionRecord::answer_recording(const TrialRecord& trial) const {
+    return reading_session(file_, [&] {
+        const std::vector<RecordedAnswer> answers = read_later_rows(
+            *database_, "answer_recording",
+            "SELECT file, sha256, device, sample_rate_hz, measured_rate_hz, bits, input_latency_ns, samples, "
+            "onset_sample, onset_uncertainty_ns, overruns, lost_samples, peak_dbfs, noise_dbfs, "
+            "clipped_samples, fault, COALESCE(voice_onset_ns, 0), voice_onset_ns IS NULL, "
+            "COALESCE(voice_end_ns, 0), voice_end_ns IS NULL FROM answer_recording WHERE trial_id = ?",
+            [&](Query& row) { return read_answer(row, trial.trial.index); }, trial.id);
+        return answers.empty() ? std::nullopt : std::optional(answers.front());
+    });
+}
+
+std::optional<KnownInterval> SessionRecord::refresh_interval(int sitting) const {
+    const auto known = intervals_.find(sitting);
+    if (known != intervals_.end())
+        return known->second;
+    std::vector<RefreshFit> lines;
+    for (const TrialRecord& trial : trials_) {
+        if (trial.sitting != sitting)
+            continue;
+        if (const std::vector<FlipRecord> rows = flips(trial); rows.size() >= 3)
+            lines.push_back(LedgerFit(rows, header_.display.refresh_hz).line());
+    }
+    return intervals_[sitting] = common_interval(lines);
+}
+
+std::optional<LedgerFit> SessionRecord::ledger_fit(const TrialRecord& trial) const {
+    const std::vector<FlipRecord> rows = flips(trial);
+    if (rows.empty())
+        return std::nullopt;
+    return LedgerFit(rows, header_.display.refresh_hz, refresh_interval(trial.sitting));
+}
+
+FlipHistory SessionRecord::flip_history(const TrialRecord& trial) const {
+    const RecordedDisplay& display = header_.display;
+    const std::optional<LedgerFit> fit = ledger_fit(trial);
+    // Of an imported session not even the refresh rate may be known.
+    if (!fit)
+        return FlipHistory({}, {{}, 1.0, 1.0}, {});
+    return FlipHistory(fit->flips(),
+                       {display.latency, display.refresh_hz, static_cast<double>(display.screen.screen_px.y)},
+                       make_page_cycle(header_.animation, display.refresh_hz));
+}
+
+} // namespace overt

@@ -1,0 +1,117 @@
+#include "experiment/record/read/session_record.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/record/header_checks.h"
+#include "experiment/record/header_rows.h"
+#include "experiment/record/read/trial_rows.h"
+#include "experiment/record/session_file.h"
+#include "experiment/record/session_schema.h"
+#include "experiment/record/sql.h"
+
+namespace overt {
+namespace {
+
+/// Indices that lead out of the header's lists would be undefined behaviour in every reader.
+void check_indices(const SessionHeader& header, const std::vector<TrialRecord>& trials,
+                   const std::filesystem::path& file) {
+    const auto within = [](int index, std::size_t count) {
+        return index >= 0 && static_cast<std::size_t>(index) < count;
+    };
+    for (const TrialRecord& record : trials) {
+        const Trial& trial = record.trial;
+        if (!within(trial.task, header.tasks.size()) ||
+            !within(trial.condition.sculpture, header.sculptures.size()) ||
+            !within(trial.condition.material, header.materials.size()))
+            throw RecordError(
+                fmt::format("{}: table trial, trial_id {}: it names a task, sculpture or material "
+                            "that the session does not have: the file is damaged.",
+                            file.string(), record.id));
+    }
+}
+
+} // namespace
+
+SessionRecord::SessionRecord(const std::filesystem::path& session)
+    : directory_(std::filesystem::is_directory(session) ? session : session.parent_path()),
+      file_(std::filesystem::is_directory(session) ? session / session_file_name : session),
+      database_(std::make_unique<SQLite::Database>(open_session_file(file_, SessionFileUse::read))) {
+    reading_session(file_, [&] {
+        header_ = read_session_header(*database_);
+        trials_ = read_trials(*database_);
+        for (TrialRecord& trial : trials_) {
+            const auto planned = static_cast<std::size_t>(trial.trial.index);
+            if (trial.trial.index >= 0 && planned < header_.schedule.trials.size())
+                trial.trial.block = header_.schedule.trials[planned].block;
+        }
+    });
+    check_header(header_, file_);
+    check_indices(header_, trials_, file_);
+}
+SessionRecord::~SessionRecord() = default;
+SessionRecord::SessionRecord(SessionRecord&&) noexcept = default;
+SessionRecord& SessionRecord::operator=(SessionRecord&&) noexcept = default;
+
+std::vector<RecordedEvent> SessionRecord::events() const {
+    std::vector<RecordedEvent> events;
+    read_events([&](const RecordedEvent& event) { events.push_back(event); });
+    return events;
+}
+
+void SessionRecord::read_events(const std::function<void(const RecordedEvent&)>& take) const {
+    reading_session(file_, [&] {
+        for (Query row(*database_, "SELECT sitting, at_ns, trial, kind, detail FROM event ORDER BY id");
+             row.step();)
+            take(
+                {row.small(), row.session_time(), row.optional_small().value_or(-1), row.text(), row.text()});
+    });
+}
+
+SessionTime SessionRecord::last_time() const {
+    return reading_session(file_, [&] {
+        Query row(*database_,
+                  "SELECT MAX((SELECT COALESCE(MAX(at_ns), 0) FROM event), "
+                  "(SELECT COALESCE(MAX(MAX(started_ns, COALESCE(responded_ns, 0))), 0) FROM trial), "
+                  "(SELECT COALESCE(MAX(after_ns), 0) FROM clock_pair), "
+                  "(SELECT COALESCE(MAX(vertical_blank_ns), 0) FROM flip))");
+        row.step();
+        SessionTime last = row.session_time();
+        for (const SessionTime of_box : read_later_rows(
+                 *database_, "box_clock_pair", "SELECT COALESCE(MAX(after_ns), 0) FROM box_clock_pair",
+                 [](Query& box) { return box.session_time(); }))
+            last = std::max(last, of_box);
+        return last;
+    });
+}
+
+bool SessionRecord::is_complete() const {
+    std::set<int> done;
+    for (const int trial : given_up())
+        done.insert(trial);
+    for (const TrialRecord& attempt : trials_)
+        if (attempt.counts || (attempt.status == TrialRecord::Status::aborted && !attempt.is_superseded &&
+                               attempt.outcome.afterwards == TrialOutcome::Afterwards::never))
+            done.insert(attempt.trial.index);
+    return done.size() == header_.schedule.trials.size() && closed_in_order();
+}
+
+std::vector<std::string> SessionRecord::damages() const {
+    std::vector<std::string> damages;
+    try {
+        for (Query row(*database_, "PRAGMA integrity_check"); row.step();)
+            if (const std::string finding = row.text(); finding != "ok")
+                damages.push_back(fmt::format("{}: {}", file_.string(), finding));
+    } catch (const SQLite::Exception& reason) {
+        damages.push_back(fmt::format("{}: {}", file_.string(), reason.what()));
+    }
+    if (hash_of_text(header_.protocol.text) != header_.protocol.sha256)
+        damages.push_back(
+            fmt::format("{}: the protocol's text does not have the hash recorded with it.", file_.string()));
+    return damages;
+}
+
+} // namespace overt

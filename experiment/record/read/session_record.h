@@ -1,0 +1,176 @@
+/// A recorded session as its readers see it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiment/analysis/flip_history.h"
+#include "experiment/clock_map.h"
+#include "experiment/gaze_event.h"
+#include "experiment/ports/past_step.h"
+#include "experiment/ports/ports.h"
+#include "experiment/record/recorded_box.h"
+#include "experiment/record/session_header.h"
+#include "experiment/timing/ledger_fit.h"
+
+namespace SQLite {
+class Database;
+}
+
+namespace overt {
+
+/// One attempt at a trial. The rows of interrupted attempts are kept beside those of the repetition.
+struct TrialRecord {
+    enum class Status : std::uint8_t {
+        open, ///< running, or cut off when the program was killed
+        completed,
+        aborted,
+        interrupted, ///< cut off, as a later sitting found
+    };
+    std::int64_t id = 0; ///< key of its flips and samples
+    int sitting = 1;
+    Trial trial;
+    int attempt = 1; ///< counts from 1
+    Status status = Status::open;
+    bool is_superseded = false; ///< its block was restarted later
+    bool counts = false;        ///< completed, and not superseded
+    SessionTime started;
+    TrialOutcome outcome; ///< meaningless while open, or interrupted
+    std::int64_t lost_flips = 0;
+    std::int64_t lost_samples = 0;
+
+    /// It came to its end, in order or not.
+    bool has_outcome() const { return status == Status::completed || status == Status::aborted; }
+};
+std::string_view name_of(TrialRecord::Status status);
+
+/// A SessionEvent that owns its words.
+struct RecordedEvent {
+    int sitting = 1;
+    SessionTime at;
+    int trial = -1; ///< -1: outside of trials
+    std::string kind;
+    std::string detail;
+};
+
+/// Reads a session and changes nothing in it, whether it was closed, is running, or was killed. Holds the
+/// header and the list of trials; flips and samples are read one trial at a time, so memory does not grow
+/// with the session. One thread at a time; each thread may open its own.
+///
+/// All functions throw RecordError if the file turns out to be damaged.
+class SessionRecord {
+  public:
+    /// A session's directory, or the session file itself.
+    explicit SessionRecord(const std::filesystem::path& session);
+    ~SessionRecord();
+    SessionRecord(SessionRecord&&) noexcept;
+    SessionRecord& operator=(SessionRecord&&) noexcept;
+
+    const std::filesystem::path& directory() const { return directory_; }
+    const SessionHeader& header() const { return header_; }
+
+    /// All attempts, in the order in which they were made.
+    const std::vector<TrialRecord>& trials() const { return trials_; }
+
+    /// In the order in which they were written.
+    std::vector<FlipRecord> flips(const TrialRecord& trial) const;
+    /// In the order of their refreshes. Sessions of earlier programs name none, and have them only as counts
+    /// in the flips.
+    std::vector<MissedRefresh> missed_refreshes(const TrialRecord& trial) const;
+    std::vector<GazeSample> samples(const TrialRecord& trial) const;
+    /// The same in pieces of at most `most` samples, so that memory does not grow with the trial.
+    void read_samples(const TrialRecord& trial, std::size_t most,
+                      const std::function<void(std::span<const GazeSample>)>& take) const;
+
+    /// Times of the earliest and the latest sample of a trial; nothing if it has none.
+    std::optional<std::pair<TrackerTime, TrackerTime>> sample_span(const TrialRecord& trial) const;
+
+    /// What the tracker itself said during a trial; sessions whose gaze came from no tracker's file have
+    /// none.
+    void read_gaze_events(const TrialRecord& trial, const std::function<void(const GazeEvent&)>& take) const;
+    /// The same outside of trials.
+    void read_gaze_events_outside(const std::function<void(const GazeEvent&)>& take) const;
+    /// The file that a sitting's gaze came from; nothing if it came from the tracker itself.
+    std::optional<GazeSource> gaze_source(int sitting) const;
+    /// Which eyes the samples of a sitting are of. Reads them all.
+    struct Eyes {
+        bool left = false, right = false;
+        bool both() const { return left && right; }
+        bool none() const { return !left && !right; }
+    };
+    Eyes eyes(int sitting) const;
+
+    std::vector<RecordedEvent> events() const;
+    /// The same one by one, so that memory does not grow with the session.
+    void read_events(const std::function<void(const RecordedEvent&)>& take) const;
+
+    /// Each time that somebody agreed to take part, or did not.
+    std::vector<RecordedConsent> consents() const;
+
+    /// The spoken answer of an attempt, if one was recorded. Its `trial` is the attempt's.
+    std::optional<RecordedAnswer> answer_recording(const TrialRecord& trial) const;
+
+    /// What the observer filled in, in the order of the form. Sessions of earlier programs have nothing.
+    std::vector<RecordedObserverField> observer_fields() const;
+
+    /// Readings of both clocks in one sitting: between sittings the tracker may have been restarted.
+    std::vector<ClockPair> clock_pairs(int sitting) const;
+
+    /// Nothing if that sitting read the clocks never.
+    std::optional<ClockMap> clock_map(int sitting) const;
+
+    /// What each sitting's display was sent through, by sitting. Sessions of earlier programs say nothing.
+    std::vector<std::pair<int, RecordedBox>> display_boxes() const;
+
+    /// Readings of the display box's clock in one sitting, in the order in which they were made.
+    std::vector<BoxClockReading> box_clock_readings(int sitting) const;
+
+    /// The line through the trial's time stamps, with the refresh interval that all trials of its sitting
+    /// have together; nothing of a trial without flips.
+    std::optional<LedgerFit> ledger_fit(const TrialRecord& trial) const;
+
+    /// The trial's frames as they were lit on this session's display, at the times of ledger_fit().
+    FlipHistory flip_history(const TrialRecord& trial) const;
+
+    /// The latest session time that any row names: from here on a resumed session's clock may go on.
+    SessionTime last_time() const;
+
+    /// The last sitting was closed in order: nothing was killed or failed since. False before the first.
+    bool closed_in_order() const;
+
+    /// How each sitting after the first took the session up, by the word of its resume policy; empty for
+    /// sessions of earlier programs.
+    std::vector<std::pair<int, std::string>> resumptions() const;
+
+    /// Indices of trials that were skipped when the session was taken up again.
+    std::vector<int> given_up() const;
+
+    /// Each trial has an attempt that counts or will not be attempted any more, and the session was closed in
+    /// order.
+    bool is_complete() const;
+
+    /// What was done, for a session that is taken up again, or to see whether it is complete.
+    SessionSoFar so_far() const;
+
+    /// Reads the whole file and gives a sentence for each thing that is wrong with it; empty if it is sound.
+    std::vector<std::string> damages() const;
+
+  private:
+    std::optional<KnownInterval> refresh_interval(int sitting) const;
+
+    std::filesystem::path directory_;
+    std::filesystem::path file_;
+    std::unique_ptr<SQLite::Database> database_;
+    SessionHeader header_;
+    std::vector<TrialRecord> trials_;
+    mutable std::map<int, std::optional<KnownInterval>> intervals_; ///< by sitting, once asked for
+};
+
+} // namespace overt

@@ -1,0 +1,121 @@
+/// What belongs to the sittings of a session: the observer's consent and form, clocks, display boxes, and how
+/// each sitting took the session up.
+#include "experiment/record/gaze_rows.h"
+#include "experiment/record/read/session_record.h"
+#include "experiment/record/sql.h"
+
+namespace overt {
+namespace {
+
+RecordedBox::Use use_from(const std::string& word) {
+    for (const auto use : {RecordedBox::Use::box, RecordedBox::Use::declined, RecordedBox::Use::simulated})
+        if (word == name_of(use))
+            return use;
+    return RecordedBox::Use::no_mode;
+}
+
+} // namespace
+
+std::vector<RecordedConsent> SessionRecord::consents() const {
+    return reading_session(file_, [&] {
+        return read_later_rows(
+            *database_, "consent",
+            "SELECT observer, accepted, at_ns, at_utc, text_sha256 FROM consent ORDER BY n", [](Query& row) {
+                return RecordedConsent{row.text(), row.integer() != 0, row.session_time(), row.text(),
+                                       row.text()};
+            });
+    });
+}
+
+std::vector<RecordedObserverField> SessionRecord::observer_fields() const {
+    return reading_session(file_, [&] {
+        return read_later_rows(*database_, "observer_field",
+                               "SELECT id, title, value FROM observer_field ORDER BY n", [](Query& row) {
+                                   RecordedObserverField field;
+                                   field.id = row.text();
+                                   field.title = row.text();
+                                   field.value = row.text();
+                                   return field;
+                               });
+    });
+}
+
+std::optional<GazeSource> SessionRecord::gaze_source(int sitting) const {
+    return reading_session(file_, [&] {
+        return has_table(*database_, "gaze_source") ? read_gaze_source(*database_, sitting) : std::nullopt;
+    });
+}
+
+std::vector<ClockPair> SessionRecord::clock_pairs(int sitting) const {
+    return reading_session(file_, [&] {
+        return read_rows(
+            *database_,
+            "SELECT before_ns, tracker_us, after_ns FROM clock_pair WHERE sitting = ? ORDER BY id",
+            [](Query& row) {
+                return ClockPair{row.session_time(), row.tracker_time(), row.session_time()};
+            },
+            sitting);
+    });
+}
+
+std::optional<ClockMap> SessionRecord::clock_map(int sitting) const {
+    const std::vector<ClockPair> pairs = clock_pairs(sitting);
+    return pairs.empty() ? std::nullopt : std::optional<ClockMap>(ClockMap(pairs));
+}
+
+std::vector<std::pair<int, RecordedBox>> SessionRecord::display_boxes() const {
+    return reading_session(file_, [&] {
+        return read_later_rows(
+            *database_, "display_box",
+            "SELECT sitting, use, port, product, serial_number, firmware_date, mode, gamma_table, "
+            "COALESCE(settled_after_ns, 0), COALESCE(video_rate_hz, 0.0) FROM display_box ORDER BY sitting",
+            [](Query& row) {
+                const int sitting = row.small();
+                return std::pair{sitting, RecordedBox{use_from(row.text()), row.text(), row.text(),
+                                                      row.text(), row.text(), row.text(), row.text(),
+                                                      SessionDuration(row.integer()), row.real()}};
+            });
+    });
+}
+
+std::vector<BoxClockReading> SessionRecord::box_clock_readings(int sitting) const {
+    return reading_session(file_, [&] {
+        return read_later_rows(
+            *database_, "box_clock_pair",
+            "SELECT before_ns, box_us, after_ns FROM box_clock_pair WHERE sitting = ? ORDER BY id",
+            [](Query& row) {
+                return BoxClockReading{row.session_time(), row.integer(), row.session_time()};
+            },
+            sitting);
+    });
+}
+
+std::vector<std::pair<int, std::string>> SessionRecord::resumptions() const {
+    return reading_session(file_, [&] {
+        const bool tells_policy = has_column(*database_, "sitting", "resumed");
+        return read_rows(*database_,
+                         tells_policy
+                             ? "SELECT sitting, resumed FROM sitting WHERE sitting > 1 ORDER BY sitting"
+                             : "SELECT sitting, NULL FROM sitting WHERE sitting > 1 ORDER BY sitting",
+                         [](Query& row) {
+                             const int sitting = row.small();
+                             return std::pair{sitting, row.text()};
+                         });
+    });
+}
+
+std::vector<int> SessionRecord::given_up() const {
+    return reading_session(file_, [&] {
+        return read_later_rows(*database_, "given_up", "SELECT trial FROM given_up ORDER BY trial",
+                               [](Query& row) { return row.small(); });
+    });
+}
+
+bool SessionRecord::closed_in_order() const {
+    return reading_session(file_, [&] {
+        Query row(*database_, "SELECT closed FROM sitting ORDER BY sitting DESC LIMIT 1");
+        return row.step() && row.integer() != 0;
+    });
+}
+
+} // namespace overt

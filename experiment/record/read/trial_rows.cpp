@@ -1,0 +1,95 @@
+#include "experiment/record/read/trial_rows.h"
+
+#include <fmt/format.h>
+
+#include "experiment/record/sql.h"
+
+namespace overt {
+namespace {
+
+TrialRecord::Status status_from(const std::string& word) {
+    for (const auto status :
+         {TrialRecord::Status::completed, TrialRecord::Status::aborted, TrialRecord::Status::interrupted})
+        if (word == name_of(status))
+            return status;
+    return TrialRecord::Status::open;
+}
+
+TrialOutcome::Afterwards afterwards_from(const std::string& word) {
+    using enum TrialOutcome::Afterwards;
+    for (const auto afterwards : {never, now, end_of_block})
+        if (word == name_of(afterwards))
+            return afterwards;
+    return undecided;
+}
+
+TrialRecord read_trial(Query& row) {
+    TrialRecord record;
+    record.id = row.integer();
+    record.sitting = row.small();
+    record.trial.index = row.small();
+    record.attempt = row.small();
+    record.trial.task = row.small();
+    record.trial.condition.sculpture = row.small();
+    record.trial.condition.material = row.small();
+    record.status = status_from(row.text());
+    record.started = row.session_time();
+    TrialOutcome& outcome = record.outcome;
+    outcome.status = record.status == TrialRecord::Status::completed ? TrialOutcome::Status::completed
+                                                                     : TrialOutcome::Status::aborted;
+    outcome.task_screen_onset = row.session_time();
+    outcome.presentation_onset = row.session_time();
+    outcome.presentation_end = row.session_time();
+    outcome.response_screen_onset = row.session_time();
+    outcome.responded_at = row.session_time();
+    outcome.shown_refreshes = row.small();
+    outcome.missed_refreshes = row.small();
+    if (const auto drift_deg = row.optional_real())
+        outcome.drift = Degrees{*drift_deg};
+    outcome.answer = row.text();
+    record.lost_flips = row.integer();
+    record.lost_samples = row.integer();
+    outcome.failure = row.text();
+    outcome.afterwards = afterwards_from(row.text());
+    record.is_superseded = row.integer() != 0;
+    record.counts = record.status == TrialRecord::Status::completed && !record.is_superseded;
+    return record;
+}
+
+} // namespace
+
+std::string_view name_of(TrialOutcome::Afterwards afterwards) {
+    constexpr std::string_view names[] = {"", "never", "now", "end-of-block"};
+    return names[static_cast<int>(afterwards)];
+}
+
+std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
+    // Sessions of earlier programs know of nothing that was completed and does not count.
+    const bool tells_fates = has_column(database, "trial", "comes_again");
+    return read_rows(
+        database,
+        fmt::format(
+            "SELECT trial_id, sitting, trial, attempt, task, sculpture, material, status, started_ns, "
+            "task_screen_onset_ns, presentation_onset_ns, presentation_end_ns, "
+            "response_screen_onset_ns, responded_ns, shown_refreshes, missed_refreshes, drift_deg, "
+            "answer, lost_flips, lost_samples, {} FROM trial ORDER BY trial_id",
+            tells_fates ? "failure, comes_again, trial_id IN (SELECT attempt_id FROM superseded)"
+                        : "NULL, NULL, 0"),
+        read_trial);
+}
+
+std::string_view name_of(TrialRecord::Status status) {
+    switch (status) {
+    case TrialRecord::Status::open:
+        return "open";
+    case TrialRecord::Status::completed:
+        return "completed";
+    case TrialRecord::Status::aborted:
+        return "aborted";
+    case TrialRecord::Status::interrupted:
+        return "interrupted";
+    }
+    return "unknown";
+}
+
+} // namespace overt

@@ -1,0 +1,48 @@
+/// A session as tables for everyone else's tools.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "experiment/maps/surface_point.h"
+#include "experiment/record/read/session_record.h"
+#include "experiment/record/tables/table_writer.h"
+
+namespace overt {
+
+struct TableExportOptions {
+    TableFormat format = TableFormat::tsv;
+    bool overwrite = false;                          ///< replace an earlier export
+    std::function<void(int done, int all)> progress; ///< told after each trial; may be empty
+    /// Adds columns with the probabilities of a gaze cone (see GazeCone) of this accuracy to the samples.
+    std::optional<Degrees> cone_accuracy = {};
+};
+
+/// What was written.
+struct TableExportCounts {
+    std::int64_t trials = 0; ///< completed ones
+    std::int64_t flips = 0;
+    std::int64_t samples = 0;
+    std::int64_t samples_without_gaze = 0;
+    std::int64_t samples_on_object = 0;
+    std::int64_t samples_off_plan = 0; ///< that the planned frame times would have put on another frame
+    std::int64_t rows = 0, bytes = 0;  ///< of all tables
+};
+
+/// Gives the lookup for a sculpture, or null if there is none. Called once for each trial.
+using LookupFor = std::function<const SurfaceLookup*(int sculpture)>;
+
+/// Writes trials, flips, samples, the tracker's own events, events, responses and stimuli with a
+/// dictionary.json that explains each column. The same session gives the same bytes, on every machine and at
+/// any time: nothing of the wall clock is in them. Flips, samples and responses are those of completed
+/// trials. Memory does not grow with the session.
+///
+/// The directory appears when it is complete. Throws InputError if it exists and is not to be overwritten, or
+/// is no earlier export; RecordError for a damaged session or a full disk.
+TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lookup_for,
+                                const std::filesystem::path& directory,
+                                const TableExportOptions& options = {});
+
+} // namespace overt

@@ -1,0 +1,188 @@
+#include "experiment/record/tables/table_writer.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "experiment/base/error.h"
+#include "experiment/base/number_text.h"
+
+namespace overt {
+namespace {
+
+std::string escaped(std::string_view text) {
+    std::string cell;
+    for (const char c : text) {
+        switch (c) {
+        case '\t':
+            cell += "\\t";
+            break;
+        case '\n':
+            cell += "\\n";
+            break;
+        case '\r':
+            cell += "\\r";
+            break;
+        case '\\':
+            cell += "\\\\";
+            break;
+        default:
+            cell += c;
+        }
+    }
+    return cell;
+}
+
+/// Blanks at the ends are quoted, too: some readers take them away otherwise.
+std::string quoted(std::string_view text) {
+    const bool is_plain =
+        text.find_first_of(",\"\r\n") == std::string_view::npos && text.front() != ' ' && text.back() != ' ';
+    if (is_plain)
+        return std::string(text);
+    std::string cell = "\"";
+    for (const char c : text) {
+        if (c == '"')
+            cell += '"';
+        cell += c;
+    }
+    return cell + '"';
+}
+
+std::string json_string(std::string_view text) {
+    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string_view separator_of(TableFormat format) {
+    return format == TableFormat::tsv ? "\t" : format == TableFormat::csv ? "," : "";
+}
+
+std::string_view missing_in(TableFormat format) { return format == TableFormat::jsonl ? "null" : "n/a"; }
+
+/// What a row has before each of its cells.
+std::vector<std::string> befores(const Table& table, TableFormat format) {
+    std::vector<std::string> list;
+    for (const TableColumn& column : table.columns) {
+        const bool is_first = list.empty();
+        if (format == TableFormat::jsonl)
+            list.push_back((is_first ? '{' : ',') + json_string(column.name) + ':');
+        else
+            list.emplace_back(is_first ? "" : separator_of(format));
+    }
+    return list;
+}
+
+} // namespace
+
+std::string_view ending_of(TableFormat format) {
+    return format == TableFormat::tsv ? "tsv" : format == TableFormat::csv ? "csv" : "jsonl";
+}
+
+std::string text_cell(std::string_view text, TableFormat format) {
+    if (text.empty())
+        return std::string(missing_in(format));
+    switch (format) {
+    case TableFormat::tsv:
+        return escaped(text);
+    case TableFormat::csv:
+        return quoted(text);
+    case TableFormat::jsonl:
+        break;
+    }
+    return json_string(text);
+}
+
+PreparedCells prepare_cells(std::initializer_list<std::string_view> texts, TableFormat format) {
+    PreparedCells cells;
+    for (const std::string_view text : texts) {
+        if (!cells.ends.empty())
+            cells.text += separator_of(format);
+        cells.text += text_cell(text, format);
+        cells.ends.push_back(cells.text.size());
+    }
+    return cells;
+}
+
+TableWriter::TableWriter(const std::filesystem::path& directory, const Table& table, TableFormat format)
+    : TableWriter(directory / fmt::format("{}.{}", table.name, ending_of(format)), table, format,
+                  Packing::none, format == TableFormat::jsonl ? Header::none : Header::names) {}
+
+TableWriter::TableWriter(const std::filesystem::path& file, const Table& table, TableFormat format,
+                         Packing packing, Header header)
+    : file_(file, packing), format_(format), before_(befores(table, format)) {
+    if (header == Header::none)
+        return;
+    for (const TableColumn& column : table.columns)
+        text(column.name);
+    end_row();
+    rows_ = 0;
+}
+
+std::string& TableWriter::begin_cell() {
+    OVERT_EXPECTS(cells_ < before_.size());
+    return file_.text() += before_[cells_++];
+}
+
+TableWriter& TableWriter::text(std::string_view text) {
+    begin_cell() += text_cell(text, format_);
+    return *this;
+}
+
+TableWriter& TableWriter::prepared(const PreparedCells& cells) {
+    if (format_ != TableFormat::jsonl) {
+        begin_cell() += cells.text;
+        cells_ += cells.ends.size() - 1;
+        return *this;
+    }
+    std::size_t begin = 0;
+    for (const std::size_t end : cells.ends) {
+        begin_cell().append(cells.text, begin, end - begin);
+        begin = end;
+    }
+    return *this;
+}
+
+TableWriter& TableWriter::word(std::string_view word) {
+    std::string& text = begin_cell();
+    if (format_ != TableFormat::jsonl) {
+        text += word;
+        return *this;
+    }
+    text += '"';
+    text += word;
+    text += '"';
+    return *this;
+}
+
+TableWriter& TableWriter::integer(std::int64_t number) {
+    append_scaled(begin_cell(), number, 0);
+    return *this;
+}
+
+TableWriter& TableWriter::fixed(double number, int decimals) {
+    if (!std::isfinite(number))
+        return missing();
+    append_fixed(begin_cell(), number, decimals);
+    return *this;
+}
+
+TableWriter& TableWriter::seconds(SessionDuration duration) {
+    append_scaled(begin_cell(), duration.count(), 9);
+    return *this;
+}
+
+TableWriter& TableWriter::missing(int cells) {
+    for (int i = 0; i < cells; ++i)
+        begin_cell() += missing_in(format_);
+    return *this;
+}
+
+void TableWriter::end_row() {
+    OVERT_EXPECTS(cells_ == before_.size());
+    file_.text() += format_ == TableFormat::jsonl ? "}\n" : "\n";
+    cells_ = 0;
+    ++rows_;
+    file_.flush_if_full();
+}
+
+} // namespace overt

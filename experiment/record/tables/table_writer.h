@@ -1,0 +1,98 @@
+/// Tables as text with separated cells, the same bytes on every machine, and fast.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "experiment/base/output_file.h"
+#include "experiment/session_time.h"
+
+namespace overt {
+
+struct TableColumn {
+    std::string name;
+    std::string meaning;
+    std::string unit;                                        ///< empty: none
+    std::vector<std::pair<std::string, std::string>> levels; ///< value and what it means; empty: any value
+};
+
+/// One file of an export, and what stands in it.
+struct Table {
+    std::string name; ///< of the file, without its ending
+    std::string description;
+    std::vector<TableColumn> columns;
+};
+
+/// How cells become lines, each with a newline at its end. Missing values and empty texts are n/a or null.
+enum class TableFormat : std::uint8_t {
+    tsv,   ///< tabs between cells; in texts tab, newline, carriage return and backslash become \t, \n, \r and
+           ///< \\.
+    csv,   ///< commas between cells; texts with a comma, quote or line break stand in quotes (RFC 4180)
+    jsonl, ///< each row a JSON object with the columns' names; numbers are numbers
+};
+
+/// What file names end with: "tsv", "csv" or "jsonl".
+std::string_view ending_of(TableFormat format);
+
+/// A text as a cell.
+std::string text_cell(std::string_view text, TableFormat format);
+
+/// Cells that are the same in many rows, made once.
+struct PreparedCells {
+    std::string text;              ///< with what separates them
+    std::vector<std::size_t> ends; ///< of each cell, in text
+};
+PreparedCells prepare_cells(std::initializer_list<std::string_view> texts, TableFormat format);
+
+/// Writes the rows of one table, cell by cell from left to right. Nothing depends on a locale.
+class TableWriter {
+  public:
+    enum class Header : std::uint8_t { names, none };
+
+    /// Makes the table's NAME with the format's ending, and the line of column names where the format has
+    /// one. Throws RecordError.
+    TableWriter(const std::filesystem::path& directory, const Table& table, TableFormat format);
+
+    /// Makes a file of any name. Throws RecordError.
+    TableWriter(const std::filesystem::path& file, const Table& table, TableFormat format, Packing packing,
+                Header header);
+
+    TableWriter& text(std::string_view text);
+    TableWriter& prepared(const PreparedCells& cells);
+    /// A word that needs no escaping in any format.
+    TableWriter& word(std::string_view word);
+    TableWriter& integer(std::int64_t number);
+    /// With that many decimals (0 … 9), half away from zero; missing if it is no finite number.
+    TableWriter& fixed(double number, int decimals);
+    /// Seconds with nine decimals: each nanosecond is kept.
+    TableWriter& seconds(SessionDuration duration);
+    TableWriter& seconds(SessionTime time) { return seconds(time.time_since_epoch()); }
+    TableWriter& missing(int cells = 1);
+
+    /// Each column must have got its cell. Throws RecordError.
+    void end_row();
+
+    TableFormat format() const { return format_; }
+    std::int64_t rows() const { return rows_; }
+    std::int64_t bytes() const { return file_.size(); } ///< of text, before packing
+
+    /// Brings the rest to the file. Throws RecordError.
+    void close() { file_.close(); }
+
+  private:
+    /// The file's text, with all that stands before the cell.
+    std::string& begin_cell();
+
+    OutputFile file_;
+    TableFormat format_;
+    std::vector<std::string> before_; ///< what stands before the cell of each column
+    std::size_t cells_ = 0;           ///< in the row so far
+    std::int64_t rows_ = 0;
+};
+
+} // namespace overt

@@ -1,0 +1,317 @@
+#include "experiment/record/write/row_writer.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include "experiment/base/error.h"
+#include "experiment/base/number_text.h"
+#include "experiment/record/file_hash.h"
+#include "experiment/record/read/trial_rows.h"
+#include "experiment/record/schema_migration.h"
+#include "experiment/record/session_file.h"
+#include "experiment/record/session_schema.h"
+#include "experiment/record/sql.h"
+
+namespace overt {
+namespace {
+
+/// Write-ahead log: a transaction costs a write to the end of a file and no wait for the disk. Checkpoints
+/// never happen by themselves (they flush the disk): the end of a trial is the time for them.
+SQLite::Database open_for_rows(const std::filesystem::path& file) {
+    migrate_session_file(file);
+    SQLite::Database database = open_session_file(file, SessionFileUse::write);
+    try {
+        database.exec(
+            "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 0");
+    } catch (const SQLite::Exception& reason) {
+        throw_record_error(file, "opening the session for writing", reason);
+    }
+    return database;
+}
+
+std::int64_t number(const SQLite::Database& database, const char* sql, std::int64_t parameter = 0) {
+    Query query(database, sql);
+    query.bind(1, parameter);
+    return query.step() ? query.integer() : 0;
+}
+
+} // namespace
+
+SessionLock::SessionLock(const std::filesystem::path& directory)
+    : lock_(directory, FolderLock::Patience::none) {
+    if (!lock_.has_folder())
+        throw RecordError(fmt::format("{}: there is no session here.", directory.string()));
+    if (lock_.is_refused())
+        throw RecordError(fmt::format("{}: another program is running this session: wait until it has ended.",
+                                      directory.string()));
+}
+
+RowWriter::RowWriter(const std::filesystem::path& session_file, const Sitting& sitting) try
+    : lock_(session_file.parent_path()), database_(open_for_rows(session_file)),
+      insert_flip_(database_,
+                   "INSERT INTO flip (trial_id, n, refresh_in_trial, refresh, planned, shown, pose, "
+                   "requested_ns, swapped_ns, vertical_blank_ns, source, missed, uncertainty_ns) "
+                   "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?)"),
+      insert_missed_(database_,
+                     "INSERT OR REPLACE INTO missed_refresh (trial_id, refresh_in_trial, refresh, planned, "
+                     "shown, pose, vertical_blank_ns, uncertainty_ns) VALUES (?,?,?,?,?,?,?,?)"),
+      insert_sample_(database_, "INSERT INTO sample VALUES (?,?,?,?,?,?,?)"),
+      insert_clock_pair_(database_, "INSERT INTO clock_pair VALUES (NULL,?,?,?,?)"),
+      insert_event_(database_, "INSERT INTO event VALUES (NULL,?,?,?,?,?)"),
+      insert_map_(database_,
+                  "INSERT OR REPLACE INTO map (sculpture, pose, file, sha256, made) VALUES (?,?,?,?,?)"),
+      insert_trial_(database_,
+                    "INSERT INTO trial (trial_id, sitting, trial, attempt, task, sculpture, material, "
+                    "status, started_ns) VALUES (?,?,?,?,?,?,?,'open',?)"),
+      finish_trial_(
+          database_,
+          "UPDATE trial SET status = ?, task_screen_onset_ns = ?, presentation_onset_ns = ?, "
+          "presentation_end_ns = ?, response_screen_onset_ns = ?, responded_ns = ?, shown_refreshes = ?, "
+          "missed_refreshes = ?, drift_deg = ?, answer = ?, lost_flips = ?, lost_samples = ?, "
+          "failure = ?, comes_again = ? WHERE trial_id = ?"),
+      outside_counts_(counts_so_far(0)), seals_(database_) {
+    begin_sitting(sitting);
+    checkpoint();
+} catch (const SQLite::Exception& reason) {
+    throw_record_error(session_file, "opening the session for writing", reason);
+}
+
+RowWriter::Counts RowWriter::counts_so_far(std::int64_t trial_id) {
+    return {trial_id,
+            number(database_, "SELECT COALESCE(MAX(n) + 1, 0) FROM flip WHERE trial_id = ?1", trial_id),
+            number(database_, "SELECT COALESCE(MAX(n) + 1, 0) FROM sample WHERE trial_id = ?1", trial_id)};
+}
+
+void RowWriter::begin_sitting(const Sitting& sitting) {
+    SQLite::Transaction transaction(database_);
+    sitting_ = static_cast<int>(number(database_, "SELECT COALESCE(MAX(sitting), 0) + 1 + ?1 FROM sitting"));
+    if (seals_.is_new())
+        seals_.begin(sitting_);
+    // Whatever is still open was left by a program that has ended: the lock says so.
+    std::vector<std::int64_t> left_open;
+    for (Query row(database_, "SELECT trial_id FROM trial WHERE status = 'open' ORDER BY trial_id");
+         row.step();)
+        left_open.push_back(row.integer());
+    database_.exec("UPDATE trial SET status = 'interrupted' WHERE status = 'open'");
+    for (const std::int64_t trial_id : left_open)
+        seals_.seal_trial(sitting_, trial_id);
+
+    const std::optional<Resumption>& resumed = sitting.resumption;
+    SQLite::Statement insert_sitting(
+        database_, "INSERT INTO sitting (sitting, started_utc, closed, resumed, program_version, "
+                   "program_sha256) VALUES (?,?,0,?,?,?)");
+    run_statement(insert_sitting, sitting_, sitting.started_utc,
+                  resumed ? std::optional(std::string(name_of(resumed->policy))) : std::nullopt,
+                  sitting.program_version, sitting.program_sha256);
+    if (resumed) {
+        SQLite::Statement supersede(database_, "INSERT OR IGNORE INTO superseded VALUES (?,?,?)");
+        for (const std::int64_t attempt_id : resumed->superseded)
+            run_statement(supersede, attempt_id, sitting_, "the block was restarted");
+        SQLite::Statement take_back(database_, "DELETE FROM given_up WHERE trial = ?");
+        for (const int trial : resumed->restarted)
+            run_statement(take_back, trial);
+        SQLite::Statement give_up(database_, "INSERT OR REPLACE INTO given_up VALUES (?,?,?)");
+        if (resumed->given_up)
+            run_statement(give_up, *resumed->given_up, sitting_, "interrupted, and skipped");
+    }
+    forget_file_hash(database_);
+    seals_.seal_rest(SealKind::sitting, sitting_);
+    transaction.commit();
+}
+
+void RowWriter::begin() {
+    if (in_transaction_)
+        return;
+    database_.exec("BEGIN");
+    in_transaction_ = true;
+    if (!file_hash_.empty())
+        note_file_hash(database_, std::exchange(file_hash_, {}));
+}
+
+void RowWriter::commit() {
+    if (!in_transaction_)
+        return;
+    if (needs_seal_)
+        seals_.seal_rest(SealKind::other, sitting_);
+    needs_seal_ = false;
+    database_.exec("COMMIT");
+    in_transaction_ = false;
+}
+
+void RowWriter::roll_back() noexcept {
+    database_.tryExec("ROLLBACK");
+    in_transaction_ = false;
+}
+
+void RowWriter::commit_to_disk() {
+    commit();
+    database_.exec("PRAGMA synchronous = NORMAL");
+}
+
+void RowWriter::flip(const FlipRecord& flip) {
+    begin();
+    Counts& counts = counts_of(flip.trial);
+    const FlipReport& report = flip.report;
+    run_statement(insert_flip_, counts.trial_id, counts.flips++, flip.refresh_in_trial, report.refresh.value,
+                  flip.planned.value, flip.shown.value, flip.pose.value, report.requested, report.swapped,
+                  report.vertical_blank, static_cast<int>(report.source), report.missed_refreshes,
+                  static_cast<std::int64_t>(report.uncertainty.count()));
+}
+
+void RowWriter::missed(const MissedRefresh& refresh) {
+    begin();
+    run_statement(insert_missed_, counts_of(refresh.trial).trial_id, refresh.refresh_in_trial,
+                  refresh.refresh.value, refresh.planned.value, refresh.shown.value, refresh.pose.value,
+                  refresh.vertical_blank, static_cast<std::int64_t>(refresh.uncertainty.count()));
+}
+
+void RowWriter::sample(int trial, const GazeSample& sample) {
+    begin();
+    Counts& counts = counts_of(trial);
+    using Pixels = std::optional<double>;
+    run_statement(insert_sample_, counts.trial_id, counts.samples++,
+                  static_cast<std::int64_t>(sample.sampled_at.time_since_epoch().count()),
+                  static_cast<int>(sample.eye), sample.gaze ? Pixels(sample.gaze->x_px) : std::nullopt,
+                  sample.gaze ? Pixels(sample.gaze->y_px) : std::nullopt,
+                  shortest_decimal(sample.pupil_area));
+}
+
+void RowWriter::clock_pair(const ClockPair& pair) {
+    begin();
+    run_statement(insert_clock_pair_, sitting_, pair.before,
+                  static_cast<std::int64_t>(pair.tracker.time_since_epoch().count()), pair.after);
+}
+
+void RowWriter::event(SessionTime at, int trial, const std::string& kind, const std::string& detail) {
+    begin();
+    run_statement(insert_event_, sitting_, at, trial < 0 ? std::nullopt : std::optional(trial), kind, detail);
+}
+
+void RowWriter::map(const RecordedMap& map) {
+    begin_sealed();
+    run_statement(insert_map_, map.sculpture, map.pose.value, map.file, map.sha256,
+                  map.made == RecordedMap::Made::prepared ? "prepared" : "live");
+}
+
+void RowWriter::display_box(const RecordedBox& box) {
+    begin_sealed();
+    database_.exec(box_tables_sql);
+    SQLite::Statement insert(
+        database_, "INSERT OR REPLACE INTO display_box (sitting, use, port, product, serial_number, "
+                   "firmware_date, mode, gamma_table, settled_after_ns, video_rate_hz) "
+                   "VALUES (?,?,?,?,?,?,?,?,?,?)");
+    const bool is_there = box.use == RecordedBox::Use::box;
+    run_statement(insert, sitting_, std::string(name_of(box.use)), box.port, box.product, box.serial_number,
+                  box.firmware_date, box.mode, box.gamma_table,
+                  is_there ? std::optional<std::int64_t>(box.settled_after.count()) : std::nullopt,
+                  is_there ? std::optional(box.video_rate_hz) : std::nullopt);
+}
+
+void RowWriter::box_clock(const std::vector<BoxClockReading>& readings) {
+    begin();
+    database_.exec(box_tables_sql);
+    SQLite::Statement insert(
+        database_, "INSERT INTO box_clock_pair (sitting, before_ns, box_us, after_ns) VALUES (?,?,?,?)");
+    for (const BoxClockReading& reading : readings)
+        run_statement(insert, sitting_, reading.before, reading.box_us, reading.after);
+}
+
+void RowWriter::consent(const RecordedConsent& consent) {
+    begin_sealed();
+    database_.exec(observer_tables_sql);
+    SQLite::Statement insert(database_, "INSERT INTO consent (sitting, observer, accepted, at_ns, at_utc, "
+                                        "text_sha256) VALUES (?,?,?,?,?,?)");
+    run_statement(insert, sitting_, consent.observer, consent.accepted ? 1 : 0, consent.at, consent.utc,
+                  consent.text_sha256);
+}
+
+void RowWriter::answer(const RecordedAnswer& answer) {
+    begin();
+    database_.exec(observer_tables_sql);
+    SQLite::Statement insert(
+        database_, "INSERT OR REPLACE INTO answer_recording (trial_id, file, sha256, device, sample_rate_hz, "
+                   "measured_rate_hz, bits, input_latency_ns, samples, onset_sample, onset_uncertainty_ns, "
+                   "overruns, lost_samples, peak_dbfs, noise_dbfs, clipped_samples, voice_onset_ns, "
+                   "voice_end_ns, fault) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+    const auto ns = [](const std::optional<SessionDuration>& time) {
+        return time ? std::optional<std::int64_t>(time->count()) : std::nullopt;
+    };
+    run_statement(insert, trial_counts_.trial_id, answer.file, answer.sha256, answer.device,
+                  answer.sample_rate_hz, answer.measured_rate_hz, answer.bits,
+                  static_cast<std::int64_t>(answer.input_latency.count()), answer.samples,
+                  answer.onset_sample, static_cast<std::int64_t>(answer.onset_uncertainty.count()),
+                  answer.overruns, answer.lost_samples, answer.peak_dbfs, answer.noise_dbfs,
+                  answer.clipped_samples, ns(answer.voice_onset), ns(answer.voice_end), answer.fault);
+}
+
+void RowWriter::observer_fields(const std::vector<RecordedObserverField>& fields) {
+    begin_sealed();
+    database_.exec(observer_tables_sql);
+    database_.exec("DELETE FROM observer_field");
+    SQLite::Statement insert(database_, "INSERT INTO observer_field (id, title, value) VALUES (?,?,?)");
+    for (const RecordedObserverField& field : fields)
+        run_statement(insert, field.id, field.title, field.value);
+}
+
+void RowWriter::start_trial(const Trial& trial, SessionTime at) {
+    begin();
+    trial_counts_ = {number(database_, "SELECT COALESCE(MAX(trial_id), 0) + 1 + ?1 FROM trial"), 0, 0};
+    open_trial_ = trial.index;
+    const std::int64_t attempt =
+        1 + number(database_, "SELECT COUNT(*) FROM trial WHERE trial = ?1", trial.index);
+    run_statement(insert_trial_, trial_counts_.trial_id, sitting_, trial.index, attempt, trial.task,
+                  trial.condition.sculpture, trial.condition.material, at);
+}
+
+void RowWriter::finish_trial(const Trial& trial, const TrialOutcome& outcome, std::int64_t lost_flips,
+                             std::int64_t lost_samples) {
+    OVERT_EXPECTS(trial.index == open_trial_);
+    commit();
+    database_.exec("PRAGMA synchronous = FULL"); // makes the next commit flush the whole log
+    begin();
+    const std::string_view afterwards = name_of(outcome.afterwards);
+    run_statement(
+        finish_trial_, outcome.status == TrialOutcome::Status::completed ? "completed" : "aborted",
+        outcome.task_screen_onset, outcome.presentation_onset, outcome.presentation_end,
+        outcome.response_screen_onset, outcome.responded_at, outcome.shown_refreshes,
+        outcome.missed_refreshes, outcome.drift ? std::optional(outcome.drift->value) : std::nullopt,
+        outcome.answer, lost_flips, lost_samples,
+        outcome.failure.empty() ? std::nullopt : std::optional(outcome.failure),
+        afterwards.empty() ? std::nullopt : std::optional(std::string(afterwards)), trial_counts_.trial_id);
+    seals_.seal_trial(sitting_, trial_counts_.trial_id);
+    forget_file_hash(database_);
+    commit_to_disk();
+}
+
+void RowWriter::checkpoint() noexcept {
+    // Nobody is waited for who reads the session just now.
+    sqlite3_busy_timeout(database_.getHandle(), 0);
+    try {
+        Query refused(database_, "PRAGMA wal_checkpoint(TRUNCATE)");
+        if (refused.step() && refused.integer() == 0)
+            file_hash_ = hash_of_folded_rows(database_);
+    } catch (const SQLite::Exception&) {
+        file_hash_.clear();
+    }
+    sqlite3_busy_timeout(database_.getHandle(), writer_patience_ms);
+}
+
+void RowWriter::close() {
+    commit();
+    database_.exec("PRAGMA synchronous = FULL");
+    begin();
+    SQLite::Statement close_sitting(database_, "UPDATE sitting SET closed = 1 WHERE sitting = ?");
+    run_statement(close_sitting, sitting_);
+    seals_.seal_rest(SealKind::end, sitting_);
+    forget_file_hash(database_);
+    commit_to_disk();
+    try {
+        static_cast<void>(fold_log(database_));
+    } catch (const SQLite::Exception&) {
+        // All is recorded; what is left to do needs more room on the disk.
+    }
+}
+
+} // namespace overt

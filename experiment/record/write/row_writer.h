@@ -1,0 +1,101 @@
+/// The session file as the writer's thread sees it: rows in, transactions out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "experiment/base/folder_lock.h"
+#include "experiment/ports/ports.h"
+#include "experiment/record/recorded_box.h"
+#include "experiment/record/resumption.h"
+#include "experiment/record/seal_chain.h"
+#include "experiment/record/session_header.h"
+
+namespace overt {
+
+/// Keeps others from writing to the same session: a lock on its directory that ends with the process.
+class SessionLock {
+  public:
+    /// Throws RecordError if another program holds it.
+    explicit SessionLock(const std::filesystem::path& directory);
+
+  private:
+    FolderLock lock_;
+};
+
+/// Inserts the rows of one sitting. One thread. All but the constructor throw SQLite::Exception; the caller
+/// then rolls back and writes no more.
+class RowWriter {
+  public:
+    /// Opens the file, locks it and notes a new sitting. A session of an earlier version is brought to this
+    /// one; an attempt that was running when the program was killed is noted as interrupted. Throws
+    /// RecordError.
+    RowWriter(const std::filesystem::path& session_file, const Sitting& sitting);
+
+    // The transaction begins by itself with the first row.
+    void flip(const FlipRecord& flip);
+    void missed(const MissedRefresh& refresh);
+    void sample(int trial, const GazeSample& sample);
+    void clock_pair(const ClockPair& pair);
+    void event(SessionTime at, int trial, const std::string& kind, const std::string& detail);
+    void map(const RecordedMap& map);
+    void display_box(const RecordedBox& box);
+    void box_clock(const std::vector<BoxClockReading>& readings);
+    void consent(const RecordedConsent& consent);
+    void answer(const RecordedAnswer& answer);
+    void observer_fields(const std::vector<RecordedObserverField>& fields);
+    void start_trial(const Trial& trial, SessionTime at);
+
+    /// Commits what is open, then the outcome and the seal over the trial's rows in a transaction of their
+    /// own that is on the disk, with everything before it, when this returns.
+    void finish_trial(const Trial& trial, const TrialOutcome& outcome, std::int64_t lost_flips,
+                      std::int64_t lost_samples);
+
+    /// Ends the open transaction, if there is one, without waiting for the disk.
+    void commit();
+    void roll_back() noexcept;
+
+    /// Moves the write-ahead log's pages to the file and empties the log, so that a log only ever grows: what
+    /// does not fit in it is damage, and no remnant. The next transaction notes the file's hash
+    /// (file_hash.h). A failure does no harm: the log stays the truth.
+    void checkpoint() noexcept;
+
+    /// Commits, syncs, notes that the sitting ended in order, and leaves one file without a log.
+    void close();
+
+  private:
+    struct Counts {
+        std::int64_t trial_id = 0;
+        std::int64_t flips = 0;
+        std::int64_t samples = 0;
+    };
+    void begin();
+    /// For rows of tables that may be replaced: the transaction will end with a seal over them.
+    void begin_sealed() {
+        begin();
+        needs_seal_ = true;
+    }
+    void begin_sitting(const Sitting& sitting);
+    void commit_to_disk();
+    Counts& counts_of(int trial) {
+        return trial >= 0 && trial == open_trial_ ? trial_counts_ : outside_counts_;
+    }
+    Counts counts_so_far(std::int64_t trial_id);
+
+    SessionLock lock_;
+    SQLite::Database database_;
+    SQLite::Statement insert_flip_, insert_missed_, insert_sample_, insert_clock_pair_, insert_event_,
+        insert_map_, insert_trial_, finish_trial_;
+    int sitting_ = 0;
+    int open_trial_ = -1; ///< index of the trial whose rows come in
+    Counts trial_counts_;
+    Counts outside_counts_; ///< of rows that belong to no started trial: trial_id 0
+    SealWriter seals_;
+    bool in_transaction_ = false;
+    bool needs_seal_ = false;
+    ContentHash file_hash_; ///< to be noted by the next transaction; empty: none
+};
+
+} // namespace overt

@@ -1,0 +1,188 @@
+#include "experiment/session/session.h"
+
+#include <fmt/format.h>
+
+#include "experiment/session/session_opening.h"
+
+namespace overt {
+
+namespace {
+
+/// Nobody rests for longer without meaning to leave.
+constexpr double longest_break_s = 3600.0;
+
+TrialOutcome::Afterwards afterwards_of(const AttemptVerdict& verdict) {
+    using enum TrialOutcome::Afterwards;
+    if (verdict.failure == TrialFailure::none)
+        return never;
+    constexpr TrialOutcome::Afterwards of[] = {never, now, end_of_block};
+    return of[static_cast<int>(verdict.comes_again)];
+}
+
+/// Practice has no end of a block to come again at.
+bool comes_again(const AttemptResult& practice, const RepeatSettings& repeats) {
+    return practice.is_repeated || (practice.is_rejected && repeats.rejected != RepeatWhen::never);
+}
+
+/// Of practice, events alone are kept: rows of flips and samples are of trials that count.
+class PracticeLog final : public SessionLog {
+  public:
+    explicit PracticeLog(SessionLog& record) : record_(record) {}
+    void flip(const FlipRecord&) noexcept override {}
+    void missed(const MissedRefresh&) noexcept override {}
+    void sample(int, const GazeSample&) noexcept override {}
+    void clock_pair(const ClockPair& pair) noexcept override { record_.clock_pair(pair); }
+    void event(const SessionEvent& event) override {
+        record_.event({event.at, -1, event.kind,
+                       event.detail.empty() ? "in practice" : event.detail + ", in practice"});
+    }
+    void trial_started(const Trial&, SessionTime) override {}
+    void trial_finished(const Trial&, const TrialOutcome&) override {}
+
+  private:
+    SessionLog& record_;
+};
+
+} // namespace
+
+Session::Session(const Protocol& protocol, const Schedule& schedule, const ScreenPoint& screen_centre,
+                 SessionPorts ports, FieldValues fields)
+    : schedule_(schedule), ports_(std::move(ports)), stage_(protocol, ports_), desk_(stage_),
+      trials_(stage_, desk_, screen_centre), fields_(std::move(fields)) {
+    fields_.resize(protocol.observer_fields.size());
+}
+
+SessionResult Session::run(const TrialDone& trial_done, const SessionSoFar& so_far) {
+    SessionResult result;
+    result.completed_trials = so_far.counted_trials;
+    stage_.note(phase_event, std::string(name_of(SessionPhase::set_up)));
+    ports_.panel.entered(SessionPhase::set_up, -1);
+    SessionOpening(stage_, desk_, fields_).run(so_far.is_opened);
+    if (!stage_.is_over()) {
+        result.is_opened = true;
+        desk_.calibrate();
+        TrialQueue queue(stage_.protocol, schedule_);
+        queue.go_through(so_far.steps);
+        while (!stage_.is_over()) {
+            const std::optional<SessionStep> step = queue.next();
+            if (!step)
+                break;
+            run_step(queue, *step, result, trial_done);
+        }
+    }
+    result.aborted = stage_.is_over();
+    result.reason = stage_.why_over();
+    stage_.enter(SessionPhase::end);
+    // Closing the farewell's window ends nothing that was not already done.
+    if (!result.aborted)
+        farewell();
+    stage_.note(result.aborted ? "session aborted" : "session completed", result.reason);
+    return result;
+}
+
+void Session::farewell() {
+    const Screen screen{Screen::Kind::text, stage_.protocol.screens.farewell_text};
+    if (screen.text.empty())
+        return;
+    const SessionTime onset = stage_.show(screen);
+    stage_.note(text_shown_event, "farewell");
+    ports_.panel.await_key(onset);
+    const SessionTime latest = onset + from_seconds(stage_.protocol.screens.response_max_s);
+    // Any key will do, the operator's as well: there is nothing left to lead.
+    while (stage_.now() < latest && !ports_.panel.poll() && !stage_.went_away())
+        ports_.clock.wait_until(stage_.now() + std::chrono::milliseconds(4));
+}
+
+void Session::run_step(TrialQueue& queue, const SessionStep& step, SessionResult& result,
+                       const TrialDone& trial_done) {
+    switch (step.kind) {
+    case SessionStep::Kind::instructions:
+        run_instructions(step);
+        return;
+    case SessionStep::Kind::practice:
+        run_practice(step, queue.expected());
+        return;
+    case SessionStep::Kind::pause:
+        run_break();
+        return;
+    case SessionStep::Kind::trial:
+        break;
+    }
+    TrialRun::Attempt attempt = trials_.run(step.trial, queue.expected(), false);
+    judge(queue, step.trial, attempt);
+    ports_.log.trial_finished(step.trial, attempt.outcome);
+    result.missed_refreshes += attempt.outcome.missed_refreshes;
+    if (attempt.outcome.status == TrialOutcome::Status::completed)
+        ++result.completed_trials;
+    if (trial_done)
+        trial_done(step.trial, attempt.outcome, result.completed_trials);
+}
+
+/// Whether an attempt counts. One that the whole session ended in does not, and nothing comes after it.
+void Session::judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& attempt) {
+    if (stage_.is_over())
+        return;
+    const AttemptVerdict verdict = queue.tell(attempt.result);
+    attempt.outcome.status = verdict.counts ? TrialOutcome::Status::completed : TrialOutcome::Status::aborted;
+    attempt.outcome.afterwards = afterwards_of(verdict);
+    if (verdict.failure == TrialFailure::none)
+        return;
+    attempt.outcome.failure = name_of(verdict.failure);
+    constexpr std::string_view afterwards[] = {"does not come again", "comes again now",
+                                               "comes again at the end of the block"};
+    const std::string& why = desk_.decision().why;
+    ports_.log.event({stage_.now(), trial.index, "trial failed",
+                      fmt::format("{}{}{} ({} refreshes missed, {:.1f} % of samples without gaze): {}{}",
+                                  name_of(verdict.failure), why.empty() ? "" : ": ", why,
+                                  attempt.result.missed_refreshes, 100.0 * attempt.result.gaze_lost_share,
+                                  afterwards[static_cast<int>(verdict.comes_again)],
+                                  verdict.counts ? ", and counts as it is" : "")});
+}
+
+void Session::run_instructions(const SessionStep& step) {
+    stage_.enter(SessionPhase::block);
+    const BlockSettings& block = stage_.protocol.blocks[static_cast<std::size_t>(step.block)];
+    read_text(stage_, desk_, block.instructions, "instructions of block " + block.id);
+}
+
+void Session::run_practice(const SessionStep& step, const std::optional<Condition>& next) {
+    const Trial& trial = step.trial;
+    const PracticeSettings& practice = stage_.protocol.practice[static_cast<std::size_t>(trial.index)];
+    PracticeLog log(ports_.log);
+    TrialRun::Attempt attempt;
+    do {
+        ports_.log.event({stage_.now(), -1, "practice",
+                          fmt::format("{}: {}, {}, {}", trial.index + 1, practice.task, practice.sculpture,
+                                      practice.material)});
+        stage_.log_to(log);
+        attempt = trials_.run(trial, next, true);
+        stage_.log_to(ports_.log);
+        if (stage_.is_over())
+            return;
+    } while (comes_again(attempt.result, stage_.protocol.repeat));
+    if (attempt.result.is_skipped || attempt.result.is_rejected) {
+        ports_.log.event({stage_.now(), -1, practice_skipped_event, desk_.decision().why});
+        return;
+    }
+    ports_.log.event({stage_.now(), -1, practice_answered_event, attempt.outcome.answer});
+    if (practice.feedback.empty() || stage_.phase() != SessionPhase::response_screen)
+        return;
+    stage_.enter(SessionPhase::feedback);
+    read_text(stage_, desk_, practice.feedback, "feedback");
+}
+
+void Session::run_break() {
+    const BreakSettings& breaks = stage_.protocol.breaks;
+    stage_.enter(SessionPhase::rest);
+    stage_.note(break_begins_event);
+    const Screen screen{Screen::Kind::text, breaks.text};
+    const bool is_timed = breaks.pace == BreakPace::timed;
+    desk_.wait({.screen = screen,
+                .onset = stage_.show(screen),
+                .min_s = is_timed ? breaks.duration_s : breaks.min_s,
+                .max_s = is_timed ? breaks.duration_s : longest_break_s,
+                .takes_keys = !is_timed});
+    stage_.note("break ends");
+}
+
+} // namespace overt

@@ -1,0 +1,152 @@
+#include "experiment/stimulus/sculpture.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/scene/mesh_reader.h"
+#include "experiment/scene/ply_writer.h"
+#include "experiment/scene/ray_caster.h"
+#include "experiment/scene/sculptures/sculptures.h"
+#include "experiment/scene/triangle_order.h"
+
+namespace overt {
+
+namespace {
+
+/// Changes whenever a sculpture comes out differently, so that an older one in the cache is not taken.
+constexpr int sculpture_version = 1;
+
+/// Millimetres in a unit by its name; 1 for a file's own.
+double mm_of(std::string_view unit) {
+    if (unit == "cm")
+        return 10.0;
+    if (unit == "m")
+        return 1000.0;
+    return unit == "in" ? 25.4 : 1.0;
+}
+
+MeshImport import_of(const SculptureSettings& settings) {
+    MeshImport import;
+    import.up = up_axis_named(settings.up);
+    import.scale = settings.scale * mm_of(settings.unit);
+    import.labels = settings.labels;
+    if (auto head = head_region(settings))
+        import.regions.push_back(*std::move(head));
+    return import;
+}
+
+Mesh shipped_sculpture(const std::string& name, const std::filesystem::path& cache) {
+    const std::filesystem::path kept = cache / fmt::format("sculpture-{}-v{}.ply", name, sculpture_version);
+    if (std::filesystem::exists(kept)) {
+        MeshCleaningReport unused;
+        return import_mesh(kept, {}, unused);
+    }
+    Mesh mesh = make_sculpture(name);
+    order_for_drawing(mesh);
+    std::filesystem::create_directories(cache);
+    write_ply(kept, mesh);
+    return mesh;
+}
+
+Camera camera_of(const ViewSettings& settings, const Protocol& protocol, const Mesh& mesh) {
+    const glm::ivec2 image_px(settings.width_px, settings.height_px);
+    const double mm_per_px = protocol.display.height_mm / protocol.display.height_px;
+    // Seen from the observer's place, the picture then has the perspective of the object itself.
+    const Degrees natural =
+        to_degrees({2.0 * std::atan(0.5 * image_px.y * mm_per_px / protocol.display.viewing_distance_mm)});
+    const Degrees field = settings.vertical_fov_deg ? Degrees{*settings.vertical_fov_deg} : natural;
+    if (!settings.camera_position)
+        return fit_camera(mesh, field, image_px, protocol.animation.amplitude, settings.margin);
+    return {*settings.camera_position, settings.camera_target.value_or(mesh.bounds().centre()), field};
+}
+
+} // namespace
+
+std::optional<PartRegion> head_region(const SculptureSettings& settings) {
+    if (settings.head_spheres.empty() && settings.head_planes.empty())
+        return std::nullopt;
+    PartRegion head{"head", {}, {}};
+    for (const auto& [x, y, z, radius] : settings.head_spheres)
+        head.spheres.emplace_back(x, y, z, radius);
+    for (const auto& plane : settings.head_planes)
+        head.half_spaces.push_back({{plane[0], plane[1], plane[2]}, {plane[3], plane[4], plane[5]}});
+    return head;
+}
+
+ContentHash hash_of_mesh(const Mesh& mesh) {
+    ContentHasher hasher;
+    hasher.add(mesh.positions).add(mesh.triangles).add(mesh.triangle_parts);
+    for (const std::string& name : mesh.part_names)
+        hasher.add(std::string_view(name));
+    return hasher.finish();
+}
+
+Sculpture load_sculpture(const SculptureSettings& settings, const Protocol& protocol,
+                         const std::filesystem::path& cache) {
+    Sculpture sculpture;
+    sculpture.id = settings.id;
+    if (!settings.shipped.empty()) {
+        sculpture.mesh = shipped_sculpture(settings.shipped, cache);
+    } else if (!settings.mesh.empty()) {
+        MeshCleaningReport report;
+        sculpture.mesh = import_mesh(settings.mesh, import_of(settings), report);
+        sculpture.remarks = describe(report);
+        order_for_drawing(sculpture.mesh);
+    } else {
+        if (!settings.lut.empty()) {
+            sculpture.mesh.part_names = {"body"};
+            if (head_region(settings))
+                sculpture.mesh.part_names.emplace_back("head");
+        }
+        return sculpture;
+    }
+    sculpture.mesh_hash = hash_of_mesh(sculpture.mesh);
+    sculpture.scene.view.image_px = {protocol.view.width_px, protocol.view.height_px};
+    sculpture.scene.bounds = sculpture.mesh.bounds();
+    sculpture.scene.view.camera = camera_of(protocol.view, protocol, sculpture.mesh);
+    try {
+        depth_range(sculpture.scene.bounds, sculpture.scene.view);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("sculpture «{}»: {}", settings.id, error.what()));
+    }
+    return sculpture;
+}
+
+bool is_in_picture(const Sculpture& sculpture, Degrees angle) {
+    const View& view = sculpture.scene.view;
+    const TurntablePose pose = sculpture.scene.pose_at(angle);
+    const glm::dmat4 world_from_object = pose.world_from_object();
+    const glm::dvec2 size(view.image_px);
+    const bool has_vertex = std::any_of(sculpture.mesh.positions.begin(), sculpture.mesh.positions.end(),
+                                        [&](const glm::vec3& p) {
+                                            const glm::dvec3 world(world_from_object * glm::dvec4(p, 1.0));
+                                            if (view.depth_of(world) <= 0.0)
+                                                return false;
+                                            const glm::dvec2 place = view.project(world);
+                                            return glm::all(glm::greaterThanEqual(place, glm::dvec2(0.0))) &&
+                                                   glm::all(glm::lessThan(place, size));
+                                        });
+    if (has_vertex)
+        return true;
+    // Seen from very near, one triangle may fill the picture with its corners outside.
+    constexpr int rays_each_way = 32;
+    const RayCaster caster(sculpture.mesh);
+    for (int i = 0; i < rays_each_way * rays_each_way; ++i) {
+        const glm::dvec2 place = (glm::dvec2(i % rays_each_way, i / rays_each_way) + 0.5) * size /
+                                 static_cast<double>(rays_each_way);
+        if (caster.first_hit(to_object(view.ray_through(place), pose)))
+            return true;
+    }
+    return false;
+}
+
+std::vector<Sculpture> load_sculptures(const Protocol& protocol, const std::filesystem::path& cache) {
+    std::vector<Sculpture> sculptures;
+    for (const SculptureSettings& settings : protocol.sculptures)
+        sculptures.push_back(load_sculpture(settings, protocol, cache));
+    return sculptures;
+}
+
+} // namespace overt

@@ -1,0 +1,306 @@
+#include "render/presenter/page_presenter.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/protocol/protocol_keys.h"
+#include "render/presenter/screen_text.h"
+
+namespace overt {
+
+namespace {
+
+/// 0.6 degrees: the disc of the fixation target (Thaler et al. 2013).
+constexpr double fixation_target_deg = 0.6;
+
+/// Long enough for a recorder that samples at 1 kHz.
+constexpr double onset_pulse_ms = 5.0;
+
+/// Copies a rectangle that begins at `from_px` to `to_px`, pixel by pixel.
+void blit(const GladGLContext& gl, const Framebuffer& from, glm::ivec2 from_px, const Framebuffer& to,
+          glm::ivec2 to_px, glm::ivec2 size_px) noexcept {
+    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, from.name());
+    gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, to.name());
+    gl.BlitFramebuffer(from_px.x, from_px.y, from_px.x + size_px.x, from_px.y + size_px.y, to_px.x, to_px.y,
+                       to_px.x + size_px.x, to_px.y + size_px.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+std::size_t bytes_in(glm::ivec2 size_px, PixelFormat format) {
+    return static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y) *
+           bytes_per_pixel(format);
+}
+
+bool has_psync(OutputMode mode) { return mode == OutputMode::vpixx_m16 || mode == OutputMode::vpixx_c48; }
+
+} // namespace
+
+PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, const FrameSource& frames,
+                             const ScreenGeometry& geometry, const DisplaySettings& display,
+                             const ScreenSettings& screens)
+    : context_(&context), surface_(&surface), geometry_(geometry), display_(display), screens_(screens),
+      encoder_([&] {
+          DisplaySettings here = display;
+          here.width_px = geometry.screen_px.x;
+          here.height_px = geometry.screen_px.y;
+          return here;
+      }()),
+      background_(context, geometry.screen_px, encoder_.format()),
+      background_target_(context, {&background_}, false),
+      picture_(context, geometry.screen_px, encoder_.format()), picture_target_(context, {&picture_}, false),
+      store_(context, frames, encoder_, geometry.image_origin_px, geometry.image_px,
+             static_cast<std::size_t>(display.frame_store_mb * 1e6)),
+      page_target_(context) {
+    check_depth();
+    // Where a driver dithers at all, it must not when bytes are to arrive as they are.
+    context.gl().Disable(GL_DITHER);
+    std::vector<std::byte> bytes(bytes_in(geometry.screen_px, encoder_.format()));
+    encoder_.encode_background(geometry.screen_px, bytes);
+    if (has_psync(display.output)) {
+        // PSYNC stands on black.
+        const std::array<std::byte, 4> black{{{}, {}, {}, std::byte{255}}};
+        for (std::size_t i = 0; i < 4 * static_cast<std::size_t>(geometry.screen_px.x); ++i)
+            bytes[i] = black[i % 4];
+    }
+    background_.upload(bytes);
+    if (encoder_.leaves_last_step()) {
+        last_step_.emplace(context, display_);
+        wire_.emplace(context, geometry.screen_px, last_step_->format());
+        wire_target_.emplace(context, std::initializer_list<const Texture2D*>{&*wire_}, false);
+    }
+    if (display.output == OutputMode::bits_plus_plus)
+        colour_table_row_ = t_lock::row_of(encoder_.colour_table());
+    onset_packet_ = t_lock::pulse(static_cast<std::uint16_t>(display.onset_trigger), 0.0, onset_pulse_ms);
+    make_patch();
+    clear_picture();
+}
+
+std::string PagePresenter::why_closed() const {
+    return is_interrupted() ? "interrupted by a signal" : surface_->why_closed();
+}
+
+void PagePresenter::check_depth() const {
+    const int has = surface_->bits_per_channel();
+    const int needs = display_.output == OutputMode::native_10bit ? 10 : 8;
+    if (has != needs) {
+        throw GraphicsError(
+            fmt::format("{} sends {} bits per channel, but the framebuffer of {} has {}: {}",
+                        name_of(display_.output), needs, context_->description().platform, has,
+                        needs == 10 ? "set the screen to a depth of 30 bits, or take another output"
+                                    : "set the screen to a depth of 24 bits"));
+    }
+    const glm::ivec2 screen = geometry_.screen_px;
+    if (joins_pixels_in_pairs(display_.output) && screen.x % 2 != 0) {
+        throw GraphicsError(fmt::format("{} joins pixels in pairs, which a screen of {} columns cannot hold",
+                                        name_of(display_.output), screen.x));
+    }
+    if (has_t_lock(display_.output) && screen.x < static_cast<int>(colour_table_row_.size())) {
+        throw GraphicsError(fmt::format("{} sends messages in rows of {} pixels, the screen has only {}",
+                                        name_of(display_.output), colour_table_row_.size(), screen.x));
+    }
+    const glm::ivec2 first = geometry_.image_origin_px, end = first + geometry_.image_px;
+    if (first.x < 0 || first.y < reserved_rows(display_.output) || end.x > screen.x || end.y > screen.y) {
+        throw GraphicsError(
+            fmt::format("a stimulus in columns {} to {} and rows {} to {} leaves the screen of {} x {}, or "
+                        "covers the {} rows at its top that {} reserves",
+                        first.x, end.x - 1, first.y, end.y - 1, screen.x, screen.y,
+                        reserved_rows(display_.output), name_of(display_.output)));
+    }
+}
+
+void PagePresenter::load_frames(const Condition& condition) {
+    if (loaded_ && loaded_->condition == condition)
+        return;
+    loaded_ = nullptr;
+    loaded_ = &store_.load(condition);
+    clear_picture();
+}
+
+void PagePresenter::clear_picture() noexcept {
+    blit(context_->gl(), background_target_, {0, 0}, picture_target_, {0, 0}, geometry_.screen_px);
+    page_on_canvas_ = -1;
+}
+
+void PagePresenter::put_page(int page) noexcept {
+    // A frame is held for several refreshes: what is there need not be drawn again.
+    if (page == page_on_canvas_)
+        return;
+    if (page_on_canvas_ < 0)
+        clear_picture();
+    page_target_.attach_layer(*loaded_->textures, page);
+    blit(context_->gl(), page_target_, {0, 0}, picture_target_, store_.patch().origin_px,
+         store_.patch().size_px);
+    page_on_canvas_ = page;
+}
+
+void PagePresenter::make_patch() {
+    const std::optional<PatchPlace> place = photodiode_patch_of([this] {
+        DisplaySettings here = display_;
+        here.width_px = geometry_.screen_px.x;
+        here.height_px = geometry_.screen_px.y;
+        return here;
+    }());
+    if (!place)
+        return;
+    const auto square = [&](float light) {
+        LinearImage picture(place->size_px);
+        std::ranges::fill(picture.pixels, glm::vec4(light, light, light, 1.0f));
+        const ScreenPatch around = encoder_.patch_of(place->origin_px, place->size_px);
+        std::vector<std::byte> bytes(bytes_in(around.size_px, encoder_.format()));
+        encoder_.encode(picture, place->origin_px, bytes);
+        Texture2D encoded(*context_, around.size_px, encoder_.format());
+        encoded.upload(bytes);
+        return encoded;
+    };
+    const ScreenPatch around = encoder_.patch_of(place->origin_px, place->size_px);
+    Texture2D black = square(0.0f), white = square(1.0f);
+    Framebuffer black_source(*context_, {&black}, false), white_source(*context_, {&white}, false);
+    patch_.emplace(Patch{{around.origin_px, around.size_px},
+                         std::move(black),
+                         std::move(white),
+                         std::move(black_source),
+                         std::move(white_source)});
+}
+
+void PagePresenter::put_patch(bool white) noexcept {
+    if (patch_)
+        blit(context_->gl(), white ? patch_->white_source : patch_->black_source, {0, 0}, picture_target_,
+             patch_->place.origin_px, patch_->place.size_px);
+}
+
+void PagePresenter::put_picture(const LinearImage& picture, glm::ivec2 origin) {
+    const ScreenPatch patch = encoder_.patch_of(origin, picture.size_px);
+    std::vector<std::byte> bytes(bytes_in(patch.size_px, encoder_.format()));
+    encoder_.encode(picture, origin, bytes);
+    Texture2D encoded(*context_, patch.size_px, encoder_.format());
+    encoded.upload(bytes);
+    const Framebuffer source(*context_, {&encoded}, false);
+    blit(context_->gl(), source, {0, 0}, picture_target_, patch.origin_px, patch.size_px);
+}
+
+FlipReport PagePresenter::show(const Screen& screen) {
+    clear_picture();
+    const double px_per_deg = geometry_.px_per_deg_at_centre();
+    const float background = static_cast<float>(display_.background),
+                grey = static_cast<float>(screens_.text_grey);
+    LinearImage picture;
+    const bool is_form = screen.kind == Screen::Kind::form;
+    if ((screen.kind == Screen::Kind::text || is_form) && !screen.text.empty()) {
+        picture = draw_screen_text(screen.text, is_form, geometry_, screens_, display_.background);
+    } else if (screen.kind == Screen::Kind::drift_target) {
+        picture = draw_fixation_target(fixation_target_deg * px_per_deg, grey, background);
+    }
+    if (!picture.pixels.empty()) {
+        // It stands on the background already.
+        for (glm::vec4& pixel : picture.pixels)
+            pixel.w = 1.0f;
+        put_picture(picture, centred_origin_px(geometry_.screen_px, picture.size_px));
+    }
+    put_patch(false);
+    throw_on_gl_error(*context_, "drawing a screen");
+    return present();
+}
+
+void PagePresenter::show_level(const LevelBar& bar) {
+    LinearImage picture = draw_level_bar(bar, geometry_, screens_, display_.background);
+    put_picture(picture, level_bar_origin(geometry_, picture.size_px));
+    put_patch(false);
+    throw_on_gl_error(*context_, "drawing a level meter");
+    present();
+}
+
+FlipReport PagePresenter::flip(AnimationFrameIndex frame) noexcept {
+    OVERT_EXPECTS(loaded_ && frame.value >= 0 &&
+                  static_cast<std::size_t>(frame.value) < loaded_->page_of_frame.size());
+    const bool is_onset = page_on_canvas_ < 0;
+    if (is_onset && display_.onset_trigger != 0) {
+        if (has_t_lock(display_.output))
+            send_with_next_flip(t_lock::outputs_row, onset_packet_);
+        else
+            outputs_ = display_.onset_trigger;
+    }
+    put_page(loaded_->page_of_frame[static_cast<std::size_t>(frame.value)]);
+    if (is_onset || frame.value != frame_on_canvas_) {
+        patch_is_white_ = is_onset || !patch_is_white_;
+        put_patch(patch_is_white_);
+        frame_on_canvas_ = frame.value;
+    }
+    return present();
+}
+
+FlipReport PagePresenter::present() noexcept {
+    compose();
+    put_messages();
+    ++refreshes_;
+    return surface_->present(canvas());
+}
+
+void PagePresenter::compose() noexcept {
+    if (last_step_)
+        last_step_->draw(picture_, *wire_target_, refreshes_);
+}
+
+void PagePresenter::send_with_next_flip(int row, const t_lock::Packet& packet) noexcept {
+    OVERT_EXPECTS(has_t_lock(display_.output) && row >= 0 && row < reserved_rows(display_.output));
+    for (std::optional<Message>& message : messages_) {
+        if (!message || message->row == row) {
+            message = {row, t_lock::row_of(packet)};
+            return;
+        }
+    }
+    OVERT_EXPECTS(false);
+}
+
+void PagePresenter::put_row(int row, int first_px, std::span<const WirePixel> pixels) noexcept {
+    const GladGLContext& gl = context_->gl();
+    gl.BindTexture(GL_TEXTURE_2D, final_texture().name());
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl.TexSubImage2D(GL_TEXTURE_2D, 0, first_px, row, static_cast<GLsizei>(pixels.size()), 1, GL_RGBA,
+                     GL_UNSIGNED_BYTE, pixels.data());
+}
+
+void PagePresenter::put_messages() noexcept {
+    const int rows = reserved_rows(display_.output);
+    if (rows_are_dirty_) {
+        blit(context_->gl(), background_target_, {0, 0}, picture_target_, {0, 0},
+             {geometry_.screen_px.x, rows});
+        rows_are_dirty_ = false;
+    }
+    if (display_.output == OutputMode::bits_plus_plus)
+        put_row(t_lock::colour_table_row, 0, colour_table_row_);
+    if (has_psync(display_.output)) {
+        const std::array<WirePixel, 1> outputs{psync::outputs_pixel(outputs_)};
+        put_row(psync::row, 0, outputs);
+        put_row(psync::row, psync::first_px, psync::pixels_of(static_cast<std::uint8_t>(refreshes_ + 1)));
+        outputs_ = 0;
+    }
+    for (std::optional<Message>& message : messages_) {
+        if (message) {
+            put_row(message->row, 0, message->pixels);
+            rows_are_dirty_ = true;
+            message.reset();
+        }
+    }
+}
+
+std::vector<std::byte> PagePresenter::read_canvas() const {
+    const PixelFormat format = last_step_ ? last_step_->format() : PixelFormat::rgba8;
+    std::vector<std::byte> bytes(bytes_in(geometry_.screen_px, format));
+    surface_->read(canvas(), format, bytes);
+    return bytes;
+}
+
+std::vector<std::byte> PagePresenter::read_page(int page) {
+    OVERT_EXPECTS(loaded_ && page >= 0 && page < loaded_->pages);
+    // Alone on the background, without the square for a photodiode.
+    if (patch_)
+        page_on_canvas_ = -1;
+    put_page(page);
+    compose();
+    put_messages();
+    return read_canvas();
+}
+
+} // namespace overt

@@ -1,0 +1,113 @@
+/// The presenter: a frame store of ready-encoded pages, and a canvas that is what the display shows.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+
+#include "experiment/ports/ports.h"
+#include "experiment/screen_geometry.h"
+#include "experiment/stimulus/photodiode_patch.h"
+#include "render/image/linear_image.h"
+#include "render/presenter/frame_store.h"
+#include "render/signal/display_encoder.h"
+#include "render/signal/t_lock.h"
+#include "render/signal/wire_pass.h"
+#include "render/vblank/display_surface.h"
+
+namespace overt {
+
+class PagePresenter final : public Presenter {
+  public:
+    /// All references must outlive the presenter. Throws GraphicsError, also if the display's framebuffer has
+    /// other bits per channel than the output mode sends.
+    PagePresenter(const GlContext& context, DisplaySurface& surface, const FrameSource& frames,
+                  const ScreenGeometry& geometry, const DisplaySettings& display,
+                  const ScreenSettings& screens);
+
+    DisplayTiming timing() const override { return surface_->timing(); }
+    void load_frames(const Condition& condition) override;
+    void expect_frames(const Condition& condition) noexcept override { store_.expect(condition); }
+    void use_spare_time() noexcept override { store_.use_spare_time(); }
+    FlipReport show(const Screen& screen) override;
+    void show_level(const LevelBar& bar) override;
+    FlipReport flip(AnimationFrameIndex frame) noexcept override;
+    bool closed() const noexcept override { return surface_->closed() || is_interrupted(); }
+    std::string why_closed() const override;
+
+    /// Counts as closed once this is set, by whatever thread or signal handler. It must outlive the
+    /// presenter.
+    void close_on(const std::atomic<bool>& flag) noexcept { interrupted_ = &flag; }
+
+    /// Sends a message to a Display++ in this row with the next refresh that flip() or show() lights, and
+    /// with that one only; what the message asks for happens at the refresh after it. Only in the modes with
+    /// T-Lock.
+    void send_with_next_flip(int row, const t_lock::Packet& packet) noexcept;
+
+    /// The bytes of the screen as they go to the display, read back from where it takes them: top row first,
+    /// four to a pixel, red first, or words of ten bits per channel in native_10bit.
+    std::vector<std::byte> read_canvas() const;
+
+    /// Draws a page of the loaded stimulus as flip() does, without showing it, and reads it.
+    std::vector<std::byte> read_page(int page);
+
+    /// Pages of the loaded stimulus.
+    int pages() const { return loaded_ ? loaded_->pages : 0; }
+
+  private:
+    bool is_interrupted() const noexcept { return interrupted_ && interrupted_->load(); }
+    const Texture2D& final_texture() const { return wire_ ? *wire_ : picture_; }
+    const Framebuffer& canvas() const { return wire_ ? *wire_target_ : picture_target_; }
+    void check_depth() const;
+    void clear_picture() noexcept;
+    void put_page(int page) noexcept;
+    void put_picture(const LinearImage& picture, glm::ivec2 origin);
+    void make_patch();
+    void put_patch(bool white) noexcept;
+    void compose() noexcept;
+    FlipReport present() noexcept;
+    void put_row(int row, int first_px, std::span<const WirePixel> pixels) noexcept;
+    void put_messages() noexcept;
+
+    const GlContext* context_;
+    DisplaySurface* surface_;
+    ScreenGeometry geometry_;
+    DisplaySettings display_;
+    ScreenSettings screens_;
+    DisplayEncoder encoder_;
+    Texture2D background_;
+    Framebuffer background_target_;
+    // What is shown, as the encoder writes it; where the encoder leaves the last step, what becomes of it.
+    Texture2D picture_;
+    Framebuffer picture_target_;
+    std::optional<WirePass> last_step_;
+    std::optional<Texture2D> wire_;
+    std::optional<Framebuffer> wire_target_;
+    FrameStore store_;
+    Framebuffer page_target_;
+    const StoredStimulus* loaded_ = nullptr; ///< null: nothing
+    int page_on_canvas_ = -1;                ///< -1: another screen
+    // Messages to the display.
+    struct Message {
+        int row;
+        t_lock::PacketRow pixels;
+    };
+    std::array<std::optional<Message>, 2> messages_;
+    bool rows_are_dirty_ = false;
+    t_lock::ColourTableRow colour_table_row_{};
+    t_lock::Packet onset_packet_;
+    int outputs_ = 0; ///< of a VPixx device, with the next flip
+    // The square for a photodiode.
+    struct Patch {
+        PatchPlace place;
+        Texture2D black, white;
+        Framebuffer black_source, white_source;
+    };
+    std::optional<Patch> patch_;
+    bool patch_is_white_ = false;
+    int frame_on_canvas_ = -1;
+    std::int64_t refreshes_ = 0; ///< presented so far
+    const std::atomic<bool>* interrupted_ = nullptr;
+};
+
+} // namespace overt

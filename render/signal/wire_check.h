@@ -1,0 +1,27 @@
+/// Whether a display receives what it should: decoded bytes against the prediction.
+#pragma once
+
+#include <string>
+
+#include "render/signal/wire_decoder.h"
+#include "render/signal/wire_prediction.h"
+
+namespace overt {
+
+struct WireFindings {
+    std::int64_t compared = 0;  ///< values: three for each pixel or pair, one in grey modes
+    std::int64_t different = 0; ///< from the predicted level, or with dithering from both levels around it
+    int largest_difference = 0; ///< in levels of the mode
+    std::string first;          ///< where the first difference is, and what was received there
+    /// With dithering, over 64 x 64 patches in which the light is the same everywhere: the largest difference
+    /// between the mean that was received and the light's code of 16 bits, in such codes.
+    double largest_mean_error = 0.0;
+
+    WireFindings& operator+=(const WireFindings& other);
+};
+
+/// Compares all of a screen but the rows reserved for messages. Throws GraphicsError if the bytes cannot be
+/// decoded in the display's mode.
+WireFindings check_wire(const WireScreen& screen, const DisplaySettings& display, const ShownPicture& shown);
+
+} // namespace overt

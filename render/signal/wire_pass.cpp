@@ -1,0 +1,39 @@
+#include "render/signal/wire_pass.h"
+
+#include "experiment/base/error.h"
+#include "render/signal/dither_tile.h"
+#include "signal_shaders.h"
+
+namespace overt {
+
+WirePass::WirePass(const GlContext& context, const DisplaySettings& display)
+    : context_(&context), program_(context, "last step", embedded::encode_vert, embedded::wire_frag),
+      no_attributes_(context), ranks_(context, glm::ivec2(dither_tile_px), PixelFormat::r32ui),
+      levels_(display.output == OutputMode::native_10bit ? 1023 : 255),
+      dithered_(display.dither != Dithering::none) {
+    if (dithered_) {
+        const std::vector<std::uint32_t> tile = make_dither_tile(display.dither);
+        ranks_.upload(std::as_bytes(std::span(tile)));
+    }
+}
+
+void WirePass::draw(const Texture2D& codes, const Framebuffer& target, std::int64_t refresh) const noexcept {
+    OVERT_EXPECTS(codes.size_px() == target.size_px());
+    const GladGLContext& gl = context_->gl();
+    target.bind();
+    for (const GLenum state :
+         {GL_BLEND, GL_DITHER, GL_MULTISAMPLE, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST})
+        gl.Disable(state);
+    program_.use();
+    program_.set("codes", 0);
+    program_.set("ranks", 1);
+    program_.set("levels", levels_);
+    program_.set("dithered", dithered_ ? 1 : 0);
+    program_.set("refresh", static_cast<int>(refresh & 4095));
+    codes.bind(0);
+    ranks_.bind(1);
+    no_attributes_.bind();
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+} // namespace overt

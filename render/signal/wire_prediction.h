@@ -1,0 +1,46 @@
+/// What a display should receive for a picture, by definition: computed in double precision, pixel by pixel,
+/// without tables of levels and without anything of the encoder.
+#pragma once
+
+#include <array>
+
+#include "experiment/protocol/protocol.h"
+#include "render/image/linear_image.h"
+#include "render/signal/predicted_curve.h"
+
+namespace overt {
+
+/// A picture on the background of a screen.
+struct ShownPicture {
+    const LinearImage* picture = nullptr; ///< null: the background alone. Multiplied by its alpha
+    glm::ivec2 origin_px{0};
+};
+
+class WirePrediction {
+  public:
+    /// `display` says mode, size, background, gamma, dithering and filter; it must outlive the prediction.
+    WirePrediction(const DisplaySettings& display, const ShownPicture& shown);
+
+    /// Linear light of red, green and blue at a pixel of the screen; beyond its edges, the background.
+    std::array<double, 3> light_at(int x, int y) const;
+
+    /// What the display should light at pixel, or pair, (x, y): linear light, clipped to 0 … 1. Grey modes
+    /// have three times the luminance (of the channels as measured, or by Rec. 709); Bits++ the light of the
+    /// nearest of 256 indices.
+    std::array<double, 3> shown_light_at(int x, int y) const;
+
+    /// The smallest signal that makes this light of a channel, or in a grey mode this luminance, in levels of
+    /// 0 … `highest`, before rounding.
+    double signal_of(std::size_t channel, double light, int highest) const;
+
+  private:
+    double grey_signal_of(double light) const;
+    std::array<double, 3> pair_light_at(int pair, int y) const;
+
+    const DisplaySettings* display_;
+    ShownPicture shown_;
+    std::array<double, 3> luminance_shares_{0.2126, 0.7152, 0.0722}; ///< Rec. 709, if not measured
+    std::array<PredictedCurve, 3> curves_;                           ///< of a characterised display
+};
+
+} // namespace overt

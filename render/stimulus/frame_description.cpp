@@ -1,0 +1,64 @@
+#include "render/stimulus/frame_description.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiment/protocol/protocol_keys.h"
+#include "render/bake/frame_baker.h"
+
+namespace overt {
+
+namespace {
+
+std::string text_of(glm::dvec3 vector) { return fmt::format("{} {} {}", vector.x, vector.y, vector.z); }
+
+std::string text_of(const MaterialSettings& material) {
+    std::string text = fmt::format("kind = {}", name_of(material.kind));
+    if (material.kind == MaterialKind::diffuse)
+        return text + fmt::format(", reflectance = [{}]", fmt::join(material.reflectance, ", "));
+    text += fmt::format(", metal = {}", material.metal);
+    if (material.kind == MaterialKind::rough_conductor)
+        text += fmt::format(", roughness = {}", material.roughness);
+    if (material.kind == MaterialKind::coated_conductor)
+        text +=
+            fmt::format(", coat_ior = {}, coat_absorbance = [{}], coat_thickness = {}, coat_bump = {}, "
+                        "coat_bump_width = {}, coat_seed = {}",
+                        material.coat_ior, fmt::join(material.coat_absorbance, ", "), material.coat_thickness,
+                        material.coat_bump, material.coat_bump_width, material.coat_seed);
+    return text;
+}
+
+} // namespace
+
+ImageAttributes describe_stimulus(const Protocol& protocol, const Sculpture& sculpture,
+                                  const MaterialSettings& material, Degrees angle) {
+    const Camera& camera = sculpture.scene.view.camera;
+    return {{"overt:protocol", protocol.name},
+            {"overt:sculpture", sculpture.id},
+            {"overt:mesh_sha256", sculpture.mesh_hash},
+            {"overt:material", material.id},
+            {"overt:material_settings", text_of(material)},
+            {"overt:angle_deg", fmt::format("{}", angle.value)},
+            {"overt:camera_position", text_of(camera.position)},
+            {"overt:camera_target", text_of(camera.target)},
+            {"overt:camera_vertical_fov_deg", fmt::format("{}", camera.vertical_fov.value)},
+            {"overt:light", protocol.light.probe},
+            {"overt:light_rotation_deg", fmt::format("{}", protocol.light.rotation_deg)}};
+}
+
+ImageAttributes describe_tracing(const FrameGrade& grade, const Protocol& protocol, MaterialKind material) {
+    const BakeSettings settings = bake_settings(grade, protocol.bake, material);
+    ImageAttributes attributes{{"overt:renderer", fmt::format("path tracer {}", frame_baker_version)},
+                               {"overt:quality", std::string(name_of(grade.quality))},
+                               {"overt:samples", fmt::format("{}", settings.samples)},
+                               {"overt:pixel_step", fmt::format("{}", settings.pixel_step)},
+                               {"overt:filter", std::string(name_of(settings.filter))},
+                               {"overt:filter_width_px", fmt::format("{}", settings.filter_width_px)},
+                               {"overt:seed", fmt::format("{}", settings.seed)},
+                               {"overt:observer", std::string(name_of(protocol.bake.observer))}};
+    if (settings.target_error_de > 0.0)
+        attributes.emplace_back("overt:target_error_de", fmt::format("{}", settings.target_error_de));
+    return attributes;
+}
+
+} // namespace overt

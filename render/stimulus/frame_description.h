@@ -1,0 +1,17 @@
+/// What made a frame, in words that go with it.
+#pragma once
+
+#include "experiment/stimulus/sculpture.h"
+#include "render/image/linear_image.h"
+#include "render/stimulus/frame_grade.h"
+
+namespace overt {
+
+/// Sculpture, material, camera, angle, and the surroundings without their exposure.
+ImageAttributes describe_stimulus(const Protocol& protocol, const Sculpture& sculpture,
+                                  const MaterialSettings& material, Degrees angle);
+
+/// Quality, samples, filter, seed, observer and the tracer's version.
+ImageAttributes describe_tracing(const FrameGrade& grade, const Protocol& protocol, MaterialKind material);
+
+} // namespace overt

@@ -1,0 +1,63 @@
+#include "render/stimulus/frame_grade.h"
+
+#include <fmt/format.h>
+
+#include "experiment/protocol/protocol_keys.h"
+
+namespace overt {
+
+namespace {
+
+/// Time of a path, that of a smooth metal being 1.
+double path_cost(MaterialKind material) {
+    switch (material) {
+    case MaterialKind::smooth_conductor:
+        return 1.0;
+    case MaterialKind::rough_conductor:
+        return 1.5;
+    case MaterialKind::coated_conductor:
+        return 7.8;
+    case MaterialKind::diffuse:
+        return 1.6;
+    }
+    return 1.0;
+}
+
+/// Compressing and writing a pixel, by the same measure.
+constexpr double writing_cost = 0.8;
+
+} // namespace
+
+FrameGrade grade_of(BakeQuality quality, const BakingSettings& baking) {
+    if (quality != baking.quality)
+        return {quality, {}, {}};
+    return {quality, baking.samples, baking.target_error_de};
+}
+
+std::string describe(const FrameGrade& grade) {
+    std::string text(name_of(grade.quality));
+    if (grade.samples)
+        text += fmt::format(" with {} samples", *grade.samples);
+    if (grade.target_error_de)
+        text += fmt::format("{} to {} Delta-E", grade.samples ? "," : "", *grade.target_error_de);
+    return text;
+}
+
+BakeSettings bake_settings(const FrameGrade& grade, const BakingSettings& baking, MaterialKind material) {
+    BakeSettings settings = settings_of(grade.quality, material);
+    settings.samples = grade.samples.value_or(settings.samples);
+    settings.target_error_de = grade.target_error_de.value_or(0.0);
+    settings.filter = baking.filter;
+    settings.filter_width_px = baking.filter_width_px;
+    settings.seed = baking.seed.value_or(0);
+    return settings;
+}
+
+double expected_cost(const FrameGrade& grade, const Protocol& protocol, MaterialKind material) {
+    const BakeSettings settings = bake_settings(grade, protocol.bake, material);
+    const double pixels = static_cast<double>(protocol.view.width_px) * protocol.view.height_px;
+    const double paths = settings.samples / static_cast<double>(settings.pixel_step * settings.pixel_step);
+    return pixels * (paths * path_cost(material) + writing_cost);
+}
+
+} // namespace overt

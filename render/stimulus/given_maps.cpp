@@ -1,0 +1,139 @@
+#include "render/stimulus/given_maps.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/base/parallel.h"
+#include "experiment/stimulus/sculpture.h"
+
+namespace overt {
+
+namespace {
+
+/// Changes whenever the same files would be read differently.
+constexpr int given_map_version = 1;
+
+/// Angles are written with few digits by some programs.
+constexpr double same_angle_deg = 1e-3;
+
+MapDescription known_of(const SculptureSettings& settings) {
+    MapDescription known;
+    known.scale = settings.lut_scale;
+    if (settings.lut_min && settings.lut_max)
+        known.bounds = Bounds{*settings.lut_min, *settings.lut_max};
+    return known;
+}
+
+/// Where the protocol says that the camera stands; nothing if it leaves that open.
+std::optional<Camera> camera_of(const Protocol& protocol, const std::optional<Bounds>& bounds) {
+    const ViewSettings& view = protocol.view;
+    if (!view.camera_position || !view.vertical_fov_deg || !(view.camera_target || bounds))
+        return std::nullopt;
+    return Camera{*view.camera_position,
+                  view.camera_target ? *view.camera_target : bounds->centre(),
+                  {*view.vertical_fov_deg}};
+}
+
+void label_head(CoordinateImage& image, const PartRegion& head) {
+    image.parts.assign(image.pixels.size(), PartIndex{0});
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        if (image.pixels[i].w != 0.0f && head.contains(glm::dvec3(image.pixels[i])))
+            image.parts[i] = PartIndex{1};
+    }
+}
+
+} // namespace
+
+AnimationFrameIndex first_frame_of(const PoseTable& poses, PoseIndex pose) {
+    const auto found = std::find(poses.of_frame.begin(), poses.of_frame.end(), pose);
+    OVERT_EXPECTS(found != poses.of_frame.end());
+    return {static_cast<int>(found - poses.of_frame.begin())};
+}
+
+CoordinateImageFile read_given_map(const Protocol& protocol, int sculpture, AnimationFrameIndex frame) {
+    const SculptureSettings& settings = protocol.sculptures[static_cast<std::size_t>(sculpture)];
+    const std::filesystem::path file = lut_file(settings, frame);
+    CoordinateImageFile map = read_coordinate_image(file, known_of(settings));
+    const glm::ivec2 wanted(protocol.view.width_px, protocol.view.height_px);
+    if (map.image.size_px != wanted) {
+        throw InputError(
+            fmt::format("{}: is a map of {} x {} pixels, but [view] asks for {} x {}: a map has the size of "
+                        "its frame, and is never resized",
+                        file.string(), map.image.size_px.x, map.image.size_px.y, wanted.x, wanted.y));
+    }
+    const Degrees angle = protocol.animation.angle_of(frame);
+    MapDescription& description = map.description;
+    if (description.angle && std::abs(description.angle->value - angle.value) > same_angle_deg) {
+        throw InputError(fmt::format("{}: was made of the object turned by {} degrees, but frame {} shows it "
+                                     "turned by {:.6g}: correct [animation], or lut_first_number",
+                                     file.string(), description.angle->value, frame.value, angle.value));
+    }
+    description.angle = angle;
+    description.sculpture = settings.id;
+    description.frame = frame.value;
+    if (!description.camera)
+        description.camera = camera_of(protocol, description.bounds);
+    if (const auto head = head_region(settings))
+        label_head(map.image, *head);
+    return map;
+}
+
+ContentHash hash_of_given_map(const Protocol& protocol, int sculpture, AnimationFrameIndex frame) {
+    const SculptureSettings& settings = protocol.sculptures[static_cast<std::size_t>(sculpture)];
+    const std::filesystem::path file = lut_file(settings, frame);
+    const std::filesystem::path sidecar = sidecar_of(file);
+    ContentHasher hasher;
+    hasher.add(given_map_version).add(std::string_view(hash_of_file(file)));
+    hasher.add(std::string_view(std::filesystem::exists(sidecar) ? hash_of_file(sidecar) : ""));
+    const MapDescription known = known_of(settings);
+    hasher.add(known.scale.value_or(0));
+    const auto add = [&](const std::optional<glm::dvec3>& vector) {
+        const glm::dvec3 numbers = vector.value_or(glm::dvec3(0.0));
+        hasher.add(vector.has_value()).add(numbers.x).add(numbers.y).add(numbers.z);
+    };
+    add(settings.lut_min);
+    add(settings.lut_max);
+    add(protocol.view.camera_position);
+    add(protocol.view.camera_target);
+    hasher.add(protocol.view.vertical_fov_deg.value_or(0.0)).add(protocol.animation.angle_of(frame).value);
+    hasher.add(settings.head_spheres).add(settings.head_planes).add(std::string_view(settings.id));
+    return hasher.finish();
+}
+
+std::vector<std::string> check_given_maps(const Protocol& protocol, int sculpture) {
+    const PoseTable poses = distinct_poses(protocol.animation);
+    std::atomic<int> mixed_maps{0}, unknown_cameras{0};
+    std::atomic<bool> head_seen{false};
+    parallel_for(static_cast<int>(poses.angles.size()), [&](int pose) {
+        const CoordinateImageFile map =
+            read_given_map(protocol, sculpture, first_frame_of(poses, PoseIndex{pose}));
+        mixed_maps += map.mixed_px > 0;
+        unknown_cameras += !map.description.camera || !map.description.bounds;
+        if (std::find(map.image.parts.begin(), map.image.parts.end(), PartIndex{1}) != map.image.parts.end())
+            head_seen = true;
+    });
+    const SculptureSettings& settings = protocol.sculptures[static_cast<std::size_t>(sculpture)];
+    if (head_region(settings) && !head_seen) {
+        throw InputError(fmt::format("sculpture «{}»: no pixel of its maps lies in the head that is "
+                                     "described; its coordinates must be those of the maps",
+                                     settings.id));
+    }
+    std::vector<std::string> remarks;
+    if (mixed_maps > 0) {
+        remarks.push_back(fmt::format(
+            "{} of {} maps have pixels that are partly covered, taken as background: they were filtered, and "
+            "such pixels mix places; render maps with one sample in the middle of each pixel",
+            mixed_maps.load(), poses.angles.size()));
+    }
+    if (unknown_cameras > 0) {
+        remarks.push_back("depth and incidence will be missing, for the maps do not say where the camera "
+                          "stood; a file beside each map, or [view], can");
+    }
+    return remarks;
+}
+
+} // namespace overt

@@ -1,0 +1,91 @@
+#include "render/stimulus/live_maps.h"
+
+#include "render/stimulus/scene_view.h"
+
+namespace overt {
+
+namespace {
+
+/// Reads under way at once: a new pose comes every 33 ms, so a few cover a tenth of a second of delay.
+constexpr int reads_at_once = 4;
+
+} // namespace
+
+LiveMaps::LiveMaps(const GlContext& context, std::span<const Sculpture> sculptures, const PoseTable& poses,
+                   glm::ivec2 image_px)
+    : image_px_(image_px), pass_(context, image_px) {
+    for (const Sculpture& sculpture : sculptures) {
+        Figure& figure = figures_.emplace_back();
+        if (!sculpture.has_mesh())
+            continue;
+        figure.buffers = std::make_unique<MeshBuffers>(context, sculpture.mesh);
+        for (const Degrees angle : poses.angles)
+            figure.clip_from_object.push_back(clip_from_centred_object(sculpture.scene, angle));
+        figure.states.assign(poses.angles.size(), State::missing);
+        figure.maps.resize(poses.angles.size());
+    }
+    for (int i = 0; i < reads_at_once; ++i)
+        reads_.push_back({std::make_unique<PixelReadback>(context, image_px, PixelFormat::r32ui)});
+}
+
+void LiveMaps::presentation_begins(const Trial& trial) noexcept {
+    current_ = trial.condition.sculpture;
+    Figure& figure = figures_[static_cast<std::size_t>(current_)];
+    for (std::size_t pose = 0; pose < figure.states.size(); ++pose) {
+        if (figure.states[pose] != State::missing)
+            continue;
+        figure.maps[pose].size_px = image_px_;
+        figure.maps[pose].codes.resize(static_cast<std::size_t>(image_px_.x) *
+                                       static_cast<std::size_t>(image_px_.y));
+    }
+}
+
+void LiveMaps::saw(const FlipRecord& flip) noexcept {
+    collect(false);
+    Figure& figure = figures_[static_cast<std::size_t>(current_)];
+    const auto pose = static_cast<std::size_t>(flip.pose.value);
+    if (!figure.buffers || figure.states[pose] != State::missing)
+        return;
+    for (Read& read : reads_) {
+        if (read.pixels->under_way())
+            continue;
+        pass_.render(*figure.buffers, figure.clip_from_object[pose]);
+        read.pixels->start(pass_.target());
+        read.pose = flip.pose.value;
+        figure.states[pose] = State::under_way;
+        return;
+    }
+    // All reads are under way: the pose is lit for several refreshes and comes again in the next period.
+}
+
+void LiveMaps::collect(bool wait) noexcept {
+    if (current_ < 0)
+        return;
+    Figure& figure = figures_[static_cast<std::size_t>(current_)];
+    for (Read& read : reads_) {
+        if (!read.pixels->under_way())
+            continue;
+        const auto pose = static_cast<std::size_t>(read.pose);
+        if (read.pixels->finish(std::as_writable_bytes(std::span(figure.maps[pose].codes)), wait))
+            figure.states[pose] = State::done;
+    }
+}
+
+void LiveMaps::saw_screen(const Screen&, SessionTime) noexcept { collect(true); }
+
+std::vector<LiveMap> LiveMaps::take_finished() {
+    std::vector<LiveMap> finished;
+    for (std::size_t sculpture = 0; sculpture < figures_.size(); ++sculpture) {
+        Figure& figure = figures_[sculpture];
+        for (std::size_t pose = 0; pose < figure.states.size(); ++pose) {
+            if (figure.states[pose] != State::done || figure.maps[pose].codes.empty())
+                continue;
+            finished.push_back(
+                {static_cast<int>(sculpture), {static_cast<int>(pose)}, std::move(figure.maps[pose])});
+            figure.maps[pose] = {};
+        }
+    }
+    return finished;
+}
+
+} // namespace overt

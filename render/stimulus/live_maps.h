@@ -1,0 +1,61 @@
+/// The hidden pass while the stimulus is on the screen: each pose that is lit for the first time is drawn
+/// once more, out of sight, and read back without waiting.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "experiment/maps/triangle_map.h"
+#include "experiment/ports/ports.h"
+#include "experiment/stimulus/sculpture.h"
+#include "render/gl/pixel_readback.h"
+#include "render/stimulus/coordinate_pass.h"
+
+namespace overt {
+
+/// A map that was made while its frame was shown.
+struct LiveMap {
+    int sculpture = 0;
+    PoseIndex pose;
+    TriangleMap map;
+};
+
+/// Used on the session's thread, where the context is current. Between a presentation's first and last flip
+/// it allocates and throws nothing, and never waits for the card.
+class LiveMaps final : public DisplayWitness {
+  public:
+    /// `sculptures` must outlive this. Uploads all meshes. Throws GraphicsError, or InputError as depth_range
+    /// does.
+    LiveMaps(const GlContext& context, std::span<const Sculpture> sculptures, const PoseTable& poses,
+             glm::ivec2 image_px);
+
+    void presentation_begins(const Trial& trial) noexcept override;
+    void saw(const FlipRecord& flip) noexcept override;
+    /// Ends a presentation: waits for what is still under way.
+    void saw_screen(const Screen& screen, SessionTime onset) noexcept override;
+
+    /// The maps finished since the last call, to be written down. Each pose of a sculpture comes once.
+    std::vector<LiveMap> take_finished();
+
+  private:
+    enum class State : std::uint8_t { missing, under_way, done };
+    struct Figure {
+        std::unique_ptr<MeshBuffers> buffers;    ///< null without a mesh
+        std::vector<glm::mat4> clip_from_object; ///< by pose
+        std::vector<State> states;               ///< by pose
+        std::vector<TriangleMap> maps;           ///< by pose; memory only while the sculpture is being mapped
+    };
+    struct Read {
+        std::unique_ptr<PixelReadback> pixels;
+        int pose = 0;
+    };
+    void collect(bool wait) noexcept;
+
+    glm::ivec2 image_px_;
+    CoordinatePass pass_;
+    std::vector<Figure> figures_;
+    std::vector<Read> reads_;
+    int current_ = -1; ///< sculpture on the screen
+};
+
+} // namespace overt

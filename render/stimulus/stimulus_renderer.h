@@ -1,0 +1,53 @@
+/// Sculptures in metal under a light probe, drawn by OpenGL: an approximation for a first look and for quick
+/// protocols. It knows no interreflection but one guessed bounce, and no spectra.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "experiment/protocol/protocol.h"
+#include "render/gl/shader_program.h"
+#include "render/image/light_probe.h"
+#include "render/image/linear_image.h"
+#include "render/stimulus/mesh_buffers.h"
+#include "render/stimulus/scene_view.h"
+
+namespace overt {
+
+/// Changes whenever the same inputs would give other pixels: part of the key under which frames are kept.
+constexpr int stimulus_renderer_version = 4;
+
+/// One light for all stimuli of a protocol.
+class StimulusRenderer {
+  public:
+    /// Throws InputError for the light probe, GraphicsError for the context.
+    StimulusRenderer(const GlContext& context, const LightSettings& light, glm::ivec2 image_px);
+
+    /// Prepares the probe as this material mirrors it, for the draws that follow. Throws InputError for an
+    /// unknown metal.
+    void set_material(const MaterialSettings& material);
+
+    /// Linear display RGB, alpha = share of each pixel that the object covers. 2 x 2 samples a pixel, box
+    /// filter.
+    LinearImage draw(const MeshBuffers& mesh, const SceneView& scene, Degrees angle);
+
+  private:
+    static constexpr int samples_per_side = 2;
+    const GlContext* context_;
+    LightSettings light_;
+    LightProbe probe_;
+    glm::ivec2 image_px_;
+    ShaderProgram program_;
+    Texture2D sharp_;
+    Texture2D soft_;
+    std::optional<Texture2D> mirrored_;
+    MaterialSettings material_;
+    Texture2D samples_;
+    Framebuffer target_;
+    ShaderProgram resolve_;
+    VertexArray no_attributes_;
+    Texture2D image_;
+    Framebuffer image_target_;
+};
+
+} // namespace overt

@@ -1,0 +1,126 @@
+#include "render/vblank/timing_check.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace overt {
+namespace {
+
+using Weight = ScreenFinding::Weight;
+
+/// A screen with a fixed refresh keeps its intervals to a microsecond; how late the system tells scatters by
+/// far less than this share of one.
+constexpr double regular_share = 0.05;
+
+/// Of all stamps, or refreshes: more are a machine that is busy with something else.
+constexpr double tolerable_share = 0.01;
+
+bool knows_swaps(VblankSource source) {
+    return source == VblankSource::glx_sync_control || source == VblankSource::egl_sync_control ||
+           source == VblankSource::present_swap;
+}
+
+ScreenFinding source_finding(const TimingFacts& facts) {
+    const std::string refused = facts.refused_sources.empty()
+                                    ? std::string()
+                                    : fmt::format(" (not {})", fmt::join(facts.refused_sources, "; not "));
+    const std::string source(name_of(facts.measured.source));
+    if (facts.measured.source == VblankSource::swap_return)
+        return {Weight::risk, "vertical blank",
+                fmt::format("nobody tells when it begins, times are those of the {}{}", source, refused)};
+    if (!facts.blanks_are_real)
+        return {Weight::risk, "vertical blank",
+                fmt::format("{}: not a real one, the server counts by a timer{}", source, refused)};
+    return {Weight::good, "vertical blank", source + refused};
+}
+
+ScreenFinding rate_finding(const TimingFacts& facts, double nominal_hz, std::string_view nominal_from) {
+    const RefreshMeasurement& measured = facts.measured;
+    if (measured.mean_hz <= 0.0)
+        return {Weight::refusal, "measured refresh", "the screen showed no pictures"};
+    if (std::abs(measured.mean_hz / nominal_hz - 1.0) <= largest_rate_deviation)
+        return {Weight::good, "measured refresh", describe(measured)};
+    return {
+        Weight::refusal, "measured refresh",
+        fmt::format("{}, where {} says {} Hz: frames would be lit for another time; set the screen's mode "
+                    "(xrandr --output NAME --rate {}), or correct [display] refresh_hz",
+                    describe(measured), nominal_from, nominal_hz, nominal_hz)};
+}
+
+ScreenFinding regularity_finding(const RefreshMeasurement& measured) {
+    const double interval_ms = measured.mean_hz > 0.0 ? 1e3 / measured.mean_hz : 0.0;
+    const double flips = measured.flips;
+    if (measured.interval_sd_ms > regular_share * interval_ms)
+        return {Weight::risk, "regularity",
+                fmt::format("intervals of {:.3f} ms scatter by {:.3f} ms: the refresh varies (FreeSync, "
+                            "G-Sync), or the machine is busy",
+                            interval_ms, measured.interval_sd_ms)};
+    if (measured.missed > tolerable_share * flips || measured.outliers > tolerable_share * flips)
+        return {
+            Weight::risk, "regularity",
+            fmt::format("of {} flips of an empty picture {} came late: the machine is busy with something "
+                        "else",
+                        measured.flips, std::max(measured.missed, measured.outliers))};
+    return {Weight::good, "regularity",
+            fmt::format("intervals scatter by {:.3f} ms", measured.interval_sd_ms)};
+}
+
+ScreenFinding swap_finding(const TimingFacts& facts) {
+    const SwapBehaviour& swaps = facts.swaps;
+    if (!swaps.wait)
+        return {Weight::risk, "swaps",
+                "return without waiting for the display: pictures may tear; switch the driver's "
+                "synchronisation with the vertical blank on"};
+    if (swaps.at_once <= 1)
+        return {Weight::good, "swaps", "wait for the display, two buffers"};
+    const std::string found =
+        fmt::format("{} pictures are queued before one waits (triple buffering)", swaps.at_once);
+    if (knows_swaps(facts.measured.source))
+        return {Weight::good, "swaps", found + "; each is waited for"};
+    return {Weight::risk, "swaps",
+            found + ": they are lit later than their swap returns; switch the driver's triple buffering, or "
+                    "the compositor, off"};
+}
+
+void add_output_findings(std::vector<ScreenFinding>& findings, const TimingFacts& facts) {
+    if (facts.output.may_vary_its_refresh)
+        findings.push_back(
+            *facts.output.may_vary_its_refresh
+                ? ScreenFinding{Weight::risk, "variable refresh",
+                                "the screen can wait for late pictures: switch VariableRefresh (FreeSync, "
+                                "G-Sync, Adaptive-Sync) off, in the driver or in the screen's own menu"}
+                : ScreenFinding{Weight::good, "variable refresh", "not offered by the screen"});
+    const double measured_hz = facts.measured.mean_hz;
+    if (!facts.output.refresh_hz || measured_hz <= 0.0)
+        return;
+    const double mode_hz = *facts.output.refresh_hz;
+    if (std::abs(measured_hz / mode_hz - 1.0) <= largest_rate_deviation)
+        findings.push_back({Weight::good, "screen", fmt::format("its mode has {:.3f} Hz", mode_hz)});
+    else
+        findings.push_back({Weight::risk, "screen",
+                            fmt::format("its mode has {:.3f} Hz, the window is shown at {:.3f}: by another "
+                                        "screen's refreshes, or a compositor's; switch other screens off, or "
+                                        "make this one the primary",
+                                        mode_hz, measured_hz)});
+}
+
+} // namespace
+
+std::string describe(const RefreshMeasurement& measured) {
+    return fmt::format("{:.3f} Hz ± {:.3f}, intervals scatter by {:.3f} ms, {} of {} stamps off the line, {} "
+                       "refreshes missed",
+                       measured.mean_hz, measured.mean_se_hz, measured.interval_sd_ms, measured.outliers,
+                       measured.flips, measured.missed);
+}
+
+std::vector<ScreenFinding> judge_timing(const TimingFacts& facts, double nominal_hz,
+                                        std::string_view nominal_from) {
+    std::vector<ScreenFinding> findings{source_finding(facts), rate_finding(facts, nominal_hz, nominal_from),
+                                        regularity_finding(facts.measured), swap_finding(facts)};
+    add_output_findings(findings, facts);
+    return findings;
+}
+
+} // namespace overt

@@ -1,0 +1,26 @@
+/// The sources of vertical blanks there are for a window. Each open_… throws GraphicsError with the reason if
+/// its source is not there.
+#pragma once
+
+#include <memory>
+
+#include "render/vblank/vblank_clock.h"
+#include "render/window/native_window.h"
+
+namespace overt {
+
+/// GLX_OML_sync_control: the server's count and time, and which refresh a swap was lit at.
+std::unique_ptr<VblankClock> open_glx_sync_control(const NativeWindow& window, const Clock& clock);
+
+/// EGL_CHROMIUM_sync_control: the same where the context is EGL's.
+std::unique_ptr<VblankClock> open_egl_sync_control(const NativeWindow& window, const Clock& clock);
+
+/// The Present extension of X: counts the refreshes of the window's screen. A driver that shows swaps through
+/// it (DRI3) tells at which refresh each was lit, whoever asks.
+std::unique_ptr<VblankClock> open_x_present(const NativeWindow& window, const Clock& clock);
+
+/// The kernel's own count for the screen that shows the window. Cards must be readable by the user (group
+/// video), and the server must say which connector of the kernel its output is.
+std::unique_ptr<VblankClock> open_drm_vblank(const NativeWindow& window, const Clock& clock);
+
+} // namespace overt

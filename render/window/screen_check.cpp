@@ -1,0 +1,161 @@
+#include "render/window/screen_check.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/protocol/protocol_keys.h"
+
+namespace overt {
+namespace {
+
+using Weight = ScreenFinding::Weight;
+
+/// GLFW rounds rates to whole hertz: 59.94 Hz may be 59 or 60.
+constexpr double rate_tolerance_hz = 1.0;
+
+/// Where each bit of the signal is read as it is.
+bool is_code(OutputMode mode) { return mode != OutputMode::native_8bit && mode != OutputMode::native_10bit; }
+
+/// The value an entry of 16 bits stands for in a table of so many entries.
+std::size_t level_of(std::uint16_t entry, std::size_t entries) {
+    return static_cast<std::size_t>(entry) * entries / 65536;
+}
+
+ScreenFinding gamma_finding(const ScreenFacts& facts, const DisplaySettings& display) {
+    const GammaRamp& ramp = facts.gamma_ramp;
+    const std::string found = describe(ramp);
+    if (ramp.red.empty())
+        return {Weight::risk, "gamma table", found};
+    if (is_identity(ramp.red) && is_identity(ramp.green) && is_identity(ramp.blue))
+        return {Weight::good, "gamma table", found};
+    return {is_code(display.output) ? Weight::refusal : Weight::risk, "gamma table",
+            found + ": take the colour profile and the night light off this screen "
+                    "(xrandr --output NAME --gamma 1:1:1)"};
+}
+
+ScreenFinding depth_finding(const ScreenFacts& facts, const DisplaySettings& display) {
+    const int needed = display.output == OutputMode::native_10bit ? 10 : 8;
+    const std::string found = fmt::format("{} bits per channel", facts.bits_per_channel);
+    if (facts.bits_per_channel == needed)
+        return {Weight::good, "depth", found};
+    return {Weight::refusal, "depth",
+            fmt::format("{}, where {} sends {}: set the screen to a depth of {} bits", found,
+                        name_of(display.output), needed, 3 * needed)};
+}
+
+ScreenFinding size_finding(const ScreenFacts& facts, const DisplaySettings& display) {
+    const glm::ivec2 wanted(display.width_px, display.height_px);
+    if (facts.monitor.size_px == wanted)
+        return {Weight::good, "resolution", fmt::format("{} x {} px", wanted.x, wanted.y)};
+    const std::string found =
+        fmt::format("the screen has {} x {} px, the protocol says {} x {}", facts.monitor.size_px.x,
+                    facts.monitor.size_px.y, wanted.x, wanted.y);
+    // A window that is asked for as one is a part of the screen.
+    return {facts.is_fullscreen ? Weight::refusal : Weight::risk, "resolution", found};
+}
+
+ScreenFinding scaling_finding(const ScreenFacts& facts) {
+    if (facts.window_size != facts.framebuffer_px)
+        return {Weight::refusal, "scaling",
+                fmt::format("a window of {} x {} shows {} x {} pixels: the desktop scales it, which "
+                            "resamples every stimulus; set its scaling to 100 %",
+                            facts.window_size.x, facts.window_size.y, facts.framebuffer_px.x,
+                            facts.framebuffer_px.y)};
+    const glm::vec2 scale = facts.monitor.content_scale;
+    const bool is_whole = scale == glm::vec2(1.0f);
+    // Under X11 the scale is advice on the size of text and changes no pixel.
+    if (is_whole || (facts.system.is_x11 && !facts.system.is_wayland))
+        return {Weight::good, "scaling", "pixel for pixel"};
+    return {Weight::refusal, "scaling",
+            fmt::format("the desktop enlarges by {:.0f} %: set its scaling to 100 %",
+                        100.0 * static_cast<double>(scale.x))};
+}
+
+ScreenFinding rate_finding(const ScreenFacts& facts, const DisplaySettings& display) {
+    const int has = facts.monitor.refresh_hz;
+    if (has == 0)
+        return {Weight::risk, "refresh rate",
+                fmt::format("the screen does not say its own; the protocol says {} Hz", display.refresh_hz)};
+    if (std::abs(has - display.refresh_hz) <= rate_tolerance_hz)
+        return {Weight::good, "refresh rate", fmt::format("{} Hz", has)};
+    return {Weight::refusal, "refresh rate",
+            fmt::format("the screen runs at {} Hz, the protocol says {} Hz: frames would be lit for another "
+                        "time; set its mode, or correct [display] refresh_hz",
+                        has, display.refresh_hz)};
+}
+
+ScreenFinding system_finding(const ScreenFacts& facts) {
+    const WindowSystem& system = facts.system;
+    if (system.is_wayland)
+        return {Weight::risk, "window system",
+                system.description() +
+                    ": its compositor decides when and how a window is shown; take an X11 session"};
+    if (system.has_compositor)
+        return {Weight::risk, "window system",
+                system.description() + ": pictures may be delayed by a refresh; switch compositing off"};
+    return {Weight::good, "window system", system.description()};
+}
+
+ScreenFinding place_finding(const ScreenFacts& facts, const DisplaySettings& display) {
+    if (facts.is_fullscreen)
+        return {Weight::good, "place", "the whole of " + describe(facts.monitor)};
+    return {Weight::risk, "place",
+            fmt::format("a window on {}, not the whole screen{}", describe(facts.monitor),
+                        has_t_lock(display.output)
+                            ? ": messages to the display box work only if it begins at the left edge"
+                            : "")};
+}
+
+} // namespace
+
+ScreenFacts facts_of(const WindowContext& window) {
+    return {examine_window_system(), window.monitor(),          window.gamma_ramp(),   window.window_size(),
+            window.framebuffer_px(), window.bits_per_channel(), window.is_fullscreen()};
+}
+
+ScreenFacts facts_at(const MonitorInfo& monitor, int bits_per_channel) {
+    return {examine_window_system(), monitor, gamma_ramp_of(monitor.number), monitor.size_px, monitor.size_px,
+            bits_per_channel,        true};
+}
+
+bool is_identity(const std::vector<std::uint16_t>& ramp) {
+    for (std::size_t i = 0; i < ramp.size(); ++i)
+        if (level_of(ramp[i], ramp.size()) != i)
+            return false;
+    return !ramp.empty();
+}
+
+std::string describe(const GammaRamp& ramp) {
+    if (ramp.red.empty())
+        return "cannot be read here";
+    const std::pair<const char*, const std::vector<std::uint16_t>*> channels[] = {
+        {"red", &ramp.red}, {"green", &ramp.green}, {"blue", &ramp.blue}};
+    for (const auto& [name, channel] : channels)
+        for (std::size_t i = 0; i < channel->size(); ++i)
+            if (const std::size_t sent = level_of((*channel)[i], channel->size()); sent != i)
+                return fmt::format("not the identity: of {}, {} becomes {} of {}", name, i, sent,
+                                   channel->size() - 1);
+    return fmt::format("the identity, {} entries", ramp.red.size());
+}
+
+std::vector<ScreenFinding> judge_screen(const ScreenFacts& facts, const DisplaySettings& display) {
+    return {place_finding(facts, display), size_finding(facts, display), rate_finding(facts, display),
+            depth_finding(facts, display), scaling_finding(facts),       gamma_finding(facts, display),
+            system_finding(facts)};
+}
+
+void refuse_spoilt_screen(const std::vector<ScreenFinding>& findings) {
+    std::string refusals;
+    for (const ScreenFinding& finding : findings)
+        if (finding.weight == Weight::refusal)
+            refusals += fmt::format("\n  {}: {}", finding.what, finding.finding);
+    if (!refusals.empty())
+        throw GraphicsError(
+            fmt::format("the screen would not show what the protocol says:{}\nA rehearsal that shows "
+                        "nothing in time needs none of this: --virtual-time",
+                        refusals));
+}
+
+} // namespace overt

@@ -1,0 +1,79 @@
+#include "render/window/screen_output.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <string_view>
+
+#include <xcb/randr.h>
+
+namespace overt {
+namespace {
+
+template <class T> using Reply = std::unique_ptr<T, decltype(&std::free)>;
+template <class T> Reply<T> owned(T* reply) { return {reply, &std::free}; }
+
+/// The first 32 bits of a property of an output.
+std::optional<std::uint32_t> property_of(xcb_connection_t* link, std::uint32_t output,
+                                         std::string_view name) {
+    const auto atom = owned(xcb_intern_atom_reply(
+        link, xcb_intern_atom(link, 1, static_cast<std::uint16_t>(name.size()), name.data()), nullptr));
+    if (!atom || atom->atom == XCB_ATOM_NONE)
+        return std::nullopt;
+    const auto value = owned(xcb_randr_get_output_property_reply(
+        link, xcb_randr_get_output_property(link, output, atom->atom, XCB_ATOM_ANY, 0, 1, 0, 0), nullptr));
+    if (!value || value->format != 32 || value->num_items < 1)
+        return std::nullopt;
+    std::uint32_t number = 0;
+    std::memcpy(&number, xcb_randr_get_output_property_data(value.get()), sizeof number);
+    return number;
+}
+
+/// Pixel clock over pixels of a refresh, borders included; interlaced modes light half of the rows at a time,
+/// doubled ones all of them twice.
+std::optional<double> rate_of(const xcb_randr_mode_info_t& mode) {
+    double rows = mode.vtotal;
+    if (mode.mode_flags & XCB_RANDR_MODE_FLAG_INTERLACE)
+        rows /= 2.0;
+    if (mode.mode_flags & XCB_RANDR_MODE_FLAG_DOUBLE_SCAN)
+        rows *= 2.0;
+    const double pixels = rows * mode.htotal;
+    return pixels > 0.0 && mode.dot_clock > 0 ? std::optional(mode.dot_clock / pixels) : std::nullopt;
+}
+
+std::optional<double> rate_of_crtc(xcb_connection_t* link, const NativeWindow& window) {
+    const auto resources = owned(xcb_randr_get_screen_resources_current_reply(
+        link, xcb_randr_get_screen_resources_current(link, window.x11_window), nullptr));
+    const auto crtc = owned(xcb_randr_get_crtc_info_reply(
+        link, xcb_randr_get_crtc_info(link, window.randr_crtc, XCB_CURRENT_TIME), nullptr));
+    if (!resources || !crtc)
+        return std::nullopt;
+    const xcb_randr_mode_info_t* const modes = xcb_randr_get_screen_resources_current_modes(resources.get());
+    for (int i = 0; i < xcb_randr_get_screen_resources_current_modes_length(resources.get()); ++i)
+        if (modes[i].id == crtc->mode)
+            return rate_of(modes[i]);
+    return std::nullopt;
+}
+
+} // namespace
+
+ScreenOutput examine_output(const NativeWindow& window) {
+    ScreenOutput output;
+    if (window.x11_server.empty() || window.randr_output == 0)
+        return output;
+    const std::unique_ptr<xcb_connection_t, decltype(&xcb_disconnect)> link(
+        xcb_connect(window.x11_server.c_str(), nullptr), &xcb_disconnect);
+    const xcb_query_extension_reply_t* const extension =
+        xcb_connection_has_error(link.get()) ? nullptr : xcb_get_extension_data(link.get(), &xcb_randr_id);
+    if (!extension || !extension->present)
+        return output;
+    // A server answers in the version that it has been told, and with none as if it had none.
+    owned(xcb_randr_query_version_reply(link.get(), xcb_randr_query_version(link.get(), 1, 3), nullptr));
+    output.refresh_hz = rate_of_crtc(link.get(), window);
+    output.connector = property_of(link.get(), window.randr_output, "CONNECTOR_ID");
+    if (const auto capable = property_of(link.get(), window.randr_output, "vrr_capable"))
+        output.may_vary_its_refresh = *capable != 0;
+    return output;
+}
+
+} // namespace overt

@@ -1,0 +1,21 @@
+/// The output of the graphics card that feeds a window's screen, as the RandR extension tells of it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "render/window/native_window.h"
+
+namespace overt {
+
+/// What the server does not say is empty.
+struct ScreenOutput {
+    std::optional<double> refresh_hz;         ///< of the mode, from its pixel clock and totals
+    std::optional<std::uint32_t> connector;   ///< the kernel's number of it (property CONNECTOR_ID)
+    std::optional<bool> may_vary_its_refresh; ///< property vrr_capable: the screen waits for late pictures
+};
+
+/// Asks the server over a connection of its own. Never throws.
+ScreenOutput examine_output(const NativeWindow& window);
+
+} // namespace overt

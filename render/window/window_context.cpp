@@ -1,0 +1,215 @@
+#include "render/window/window_context.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "render/window/glfw_monitors.h"
+#include "render/window/window_keys.h"
+
+namespace overt {
+
+struct WindowContext::State {
+    GlfwLibrary library;
+    GLFWwindow* window = nullptr;
+    // A ring, so that a key pressed in the middle of a presentation allocates nothing.
+    std::array<WindowKeyPress, 64> presses{};
+    std::size_t first = 0, count = 0;
+    glm::dvec2 pointer_px{0.0};
+    Dragging dragging;
+    // What is held still, and what became of it.
+    bool held = false;
+    glm::ivec2 held_framebuffer_px{0};
+    GLFWmonitor* held_monitor = nullptr;
+    WindowDisturbance disturbance = WindowDisturbance::none;
+    ~State() {
+        if (window)
+            glfwDestroyWindow(window);
+    }
+
+    void disturb(WindowDisturbance what) {
+        if (held && disturbance == WindowDisturbance::none)
+            disturbance = what;
+    }
+
+    static void on_size(GLFWwindow* window, int width, int height) {
+        auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+        if (glm::ivec2(width, height) != state.held_framebuffer_px)
+            state.disturb(WindowDisturbance::resized);
+    }
+
+    static void on_position(GLFWwindow* window, int x, int y) {
+        auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+        if (!state.held || state.disturbance != WindowDisturbance::none)
+            return;
+        if (all_monitors().empty() || !monitor_is_there(state.held_monitor)) {
+            state.disturb(WindowDisturbance::screen_lost);
+            return;
+        }
+        if (GLFWmonitor* const filled = glfwGetWindowMonitor(window)) {
+            if (info_of(filled, 1).position_px != glm::ivec2(x, y))
+                state.disturb(WindowDisturbance::moved);
+        } else if (monitor_under(window) != state.held_monitor) {
+            state.disturb(WindowDisturbance::moved);
+        }
+    }
+
+    static bool monitor_is_there(GLFWmonitor* monitor) {
+        const std::vector<GLFWmonitor*> monitors = all_monitors();
+        return std::find(monitors.begin(), monitors.end(), monitor) != monitors.end();
+    }
+
+    static void on_pointer(GLFWwindow* window, double x, double y) {
+        auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+        if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS)
+            state.dragging.by_px += glm::dvec2(x, y) - state.pointer_px;
+        state.pointer_px = {x, y};
+    }
+
+    static void on_wheel(GLFWwindow* window, double, double steps) {
+        static_cast<State*>(glfwGetWindowUserPointer(window))->dragging.wheel_steps += steps;
+    }
+
+    void push(const WindowKeyPress& press) {
+        if (count < presses.size())
+            presses[(first + count++) % presses.size()] = press;
+    }
+
+    static void on_key(GLFWwindow* window, int key, int, int action, int modifiers) {
+        if (action != GLFW_RELEASE)
+            static_cast<State*>(glfwGetWindowUserPointer(window))
+                ->push({window_key_of(key, modifiers), 0, action == GLFW_REPEAT});
+    }
+
+    static void on_character(GLFWwindow* window, unsigned character) {
+        static_cast<State*>(glfwGetWindowUserPointer(window))
+            ->push({WindowKey::character, static_cast<char32_t>(character)});
+    }
+};
+
+WindowContext::WindowContext(const WindowRequest& request) : state_(std::make_unique<State>()) {
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_RESIZABLE, GLFW_FALSE);
+    glfwWindowHint(GLFW_VISIBLE, request.visible ? GLFW_TRUE : GLFW_FALSE);
+    glfwWindowHint(GLFW_DECORATED, GLFW_FALSE);
+    glfwWindowHint(GLFW_SAMPLES, 0);
+    for (const int channel : {GLFW_RED_BITS, GLFW_GREEN_BITS, GLFW_BLUE_BITS})
+        glfwWindowHint(channel, request.bits_per_channel);
+    glfwWindowHint(GLFW_ALPHA_BITS, request.bits_per_channel == 10 ? 2 : 8);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_FALSE);
+    // An operator who clicks on another screen must not make the observer's vanish.
+    glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
+    GLFWmonitor* monitor = request.fullscreen ? monitor_to_fill(request) : nullptr;
+    GLFWmonitor* const corner = request.monitor ? monitor_numbered(*request.monitor) : nullptr;
+    // Put into its place before it is seen.
+    if (corner && !request.fullscreen)
+        glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    state_->window =
+        glfwCreateWindow(request.size_px.x, request.size_px.y, request.title.c_str(), monitor, nullptr);
+    if (!state_->window)
+        throw GraphicsError(fmt::format("GLFW: {}", last_glfw_error()));
+    if (corner && !request.fullscreen) {
+        const glm::ivec2 place = info_of(corner, 1).position_px;
+        glfwSetWindowPos(state_->window, place.x, place.y);
+        if (request.visible)
+            glfwShowWindow(state_->window);
+    }
+    glfwSetWindowUserPointer(state_->window, state_.get());
+    glfwSetFramebufferSizeCallback(state_->window, &State::on_size);
+    glfwSetWindowPosCallback(state_->window, &State::on_position);
+    glfwSetKeyCallback(state_->window, &State::on_key);
+    glfwSetCharCallback(state_->window, &State::on_character);
+    glfwGetCursorPos(state_->window, &state_->pointer_px.x, &state_->pointer_px.y);
+    glfwSetCursorPosCallback(state_->window, &State::on_pointer);
+    glfwSetScrollCallback(state_->window, &State::on_wheel);
+    if (request.fullscreen)
+        glfwSetInputMode(state_->window, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
+    make_current();
+    load_functions(glfwGetProcAddress, ContextKind::window, "GLFW window");
+    if (framebuffer_px() != request.size_px) {
+        throw GraphicsError(
+            fmt::format("the window shows {} x {} pixels where {} x {} were asked for: the desktop scales "
+                        "it, which would resample every stimulus; set the scaling to 100 %",
+                        framebuffer_px().x, framebuffer_px().y, request.size_px.x, request.size_px.y));
+    }
+}
+
+WindowContext::~WindowContext() = default;
+
+void WindowContext::make_current() { glfwMakeContextCurrent(state_->window); }
+
+glm::ivec2 WindowContext::framebuffer_px() const {
+    glm::ivec2 size(0);
+    glfwGetFramebufferSize(state_->window, &size.x, &size.y);
+    return size;
+}
+
+int WindowContext::bits_per_channel() const {
+    GLint bits = 0;
+    gl().BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    gl().GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, GL_BACK_LEFT,
+                                             GL_FRAMEBUFFER_ATTACHMENT_RED_SIZE, &bits);
+    return bits;
+}
+
+void WindowContext::set_swap_interval(int refreshes) { glfwSwapInterval(refreshes); }
+
+void WindowContext::swap_buffers() noexcept { glfwSwapBuffers(state_->window); }
+
+void WindowContext::poll_events() noexcept { glfwPollEvents(); }
+
+bool WindowContext::next_key_press(WindowKeyPress& press) noexcept {
+    if (state_->count == 0)
+        return false;
+    press = state_->presses[state_->first];
+    state_->first = (state_->first + 1) % state_->presses.size();
+    --state_->count;
+    return true;
+}
+
+WindowContext::Dragging WindowContext::take_dragging() noexcept {
+    return std::exchange(state_->dragging, {});
+}
+
+bool WindowContext::close_requested() const noexcept { return glfwWindowShouldClose(state_->window) != 0; }
+
+glm::ivec2 WindowContext::window_size() const {
+    glm::ivec2 size(0);
+    glfwGetWindowSize(state_->window, &size.x, &size.y);
+    return size;
+}
+
+MonitorInfo WindowContext::monitor() const {
+    GLFWmonitor* const monitor = monitor_under(state_->window);
+    if (!monitor)
+        throw GraphicsError("the window is on no monitor: the window system has none");
+    const std::vector<GLFWmonitor*> monitors = all_monitors();
+    const auto at = std::find(monitors.begin(), monitors.end(), monitor);
+    return info_of(monitor, 1 + static_cast<int>(at - monitors.begin()));
+}
+
+GammaRamp WindowContext::gamma_ramp() const { return ramp_of(monitor_under(state_->window)); }
+
+bool WindowContext::is_fullscreen() const noexcept { return glfwGetWindowMonitor(state_->window) != nullptr; }
+
+NativeWindow WindowContext::native() const {
+    return native_window_of(state_->window, monitor_under(state_->window));
+}
+
+void WindowContext::hold_still() {
+    poll_events(); // what was under way
+    state_->held_framebuffer_px = framebuffer_px();
+    state_->held_monitor = monitor_under(state_->window);
+    state_->disturbance = WindowDisturbance::none;
+    state_->held = true;
+}
+
+WindowDisturbance WindowContext::disturbance() const noexcept { return state_->disturbance; }
+
+} // namespace overt

@@ -1,0 +1,159 @@
+#include "render/window/window_response_panel.h"
+
+#include <algorithm>
+
+namespace overt {
+
+namespace {
+using Key = ResponsePress::Key;
+}
+
+bool NamedKey::is(const WindowKeyPress& press) const noexcept {
+    if (press.is_repeated || press.key != key)
+        return false;
+    if (key != WindowKey::character)
+        return true;
+    const char32_t lower =
+        press.character >= U'A' && press.character <= U'Z' ? press.character - U'A' + U'a' : press.character;
+    return lower == character;
+}
+
+NamedKey key_called(const std::string& name) {
+    if (name == "escape")
+        return {WindowKey::escape};
+    if (name == "pause")
+        return {WindowKey::pause};
+    if (name.size() == 1)
+        return {WindowKey::character, static_cast<char32_t>(name[0])};
+    return {static_cast<WindowKey>(static_cast<int>(WindowKey::f1) + std::stoi(name.substr(1)) - 1)};
+}
+
+WindowResponsePanel::WindowResponsePanel(WindowContext& window, const Clock& clock,
+                                         const OperatorSettings& operators, const ConsentSettings& consent,
+                                         ResponsePanel* answering)
+    : window_(&window), clock_(&clock),
+      answering_(answering), operators_{{{key_called(operators.pause), Key::pause},
+                                         {key_called(operators.recalibrate), Key::recalibrate},
+                                         {key_called(operators.repeat), Key::repeat},
+                                         {key_called(operators.reject), Key::reject},
+                                         {key_called(operators.skip), Key::skip},
+                                         {key_called(operators.abort), Key::abort}}},
+      yes_(key_called(operators.yes)), no_(key_called(operators.no)), accept_(key_called(consent.accept_key)),
+      decline_(key_called(consent.decline_key)) {}
+
+std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPress& press) const noexcept {
+    // GLFW's events carry no times of their own; this is within one polling interval of the press.
+    const SessionTime now = clock_->now();
+    const bool is_character = press.key == WindowKey::character;
+    const bool is_held = press.is_repeated;
+    // Where one writes or decides by letters, they are no keys of the operator.
+    if (!is_character || mode_ == Mode::reading)
+        for (const auto& [key, meaning] : operators_)
+            if (key.is(press))
+                return ResponsePress{meaning, now};
+    const auto meant = [&](Key key) { return std::optional(ResponsePress{key, now, press.character}); };
+    switch (mode_) {
+    case Mode::reading:
+        if (is_held)
+            return std::nullopt;
+        switch (press.key) {
+        case WindowKey::space:
+        case WindowKey::enter:
+            return meant(Key::next);
+        case WindowKey::character: // response boxes type digits; the space bar was a key already
+            return press.character == U' ' ? std::nullopt : meant(Key::next);
+        case WindowKey::backspace:
+            return meant(Key::back);
+        case WindowKey::left:
+            return meant(Key::left);
+        case WindowKey::right:
+            return meant(Key::right);
+        default:
+            return std::nullopt;
+        }
+    case Mode::consent:
+    case Mode::confirmation: {
+        const bool is_consent = mode_ == Mode::consent;
+        if ((is_consent ? accept_ : yes_).is(press))
+            return meant(Key::yes);
+        if ((is_consent ? decline_ : no_).is(press))
+            return meant(Key::no);
+        return is_character && !is_consent ? meant(Key::character) : std::nullopt;
+    }
+    case Mode::entry:
+        switch (press.key) {
+        case WindowKey::character:
+            return meant(Key::character);
+        case WindowKey::backspace:
+            return meant(Key::erase);
+        case WindowKey::left:
+            return meant(Key::left);
+        case WindowKey::right:
+            return meant(Key::right);
+        case WindowKey::up:
+        case WindowKey::back_tab:
+            return meant(Key::up);
+        case WindowKey::down:
+        case WindowKey::tab:
+            return meant(Key::down);
+        case WindowKey::enter:
+            return is_held ? std::nullopt : meant(Key::next);
+        default:
+            return std::nullopt;
+        }
+    }
+    return std::nullopt;
+}
+
+/// The operator's stay: they may have been pressed while something was prepared.
+void WindowResponsePanel::forget_presses(Mode mode) noexcept {
+    window_->poll_events();
+    WindowKeyPress press{};
+    while (window_->next_key_press(press)) {
+        const std::optional<ResponsePress> meant = meaning_of(press);
+        if (meant && is_operators(meant->key) && kept_count_ < kept_.size())
+            kept_[kept_count_++] = *meant;
+    }
+    mode_ = mode;
+}
+
+void WindowResponsePanel::await_key(SessionTime since) {
+    forget_presses(Mode::reading);
+    if (answering_)
+        answering_->await_key(since);
+}
+
+void WindowResponsePanel::await_response(const Trial& trial, SessionTime since) {
+    forget_presses(Mode::reading);
+    if (answering_)
+        answering_->await_response(trial, since);
+}
+
+void WindowResponsePanel::await_decision(bool is_consent, SessionTime since) {
+    forget_presses(is_consent ? Mode::consent : Mode::confirmation);
+    if (answering_)
+        answering_->await_decision(is_consent, since);
+}
+
+void WindowResponsePanel::await_entry(SessionTime since) {
+    forget_presses(Mode::entry);
+    if (answering_)
+        answering_->await_entry(since);
+}
+
+std::optional<ResponsePress> WindowResponsePanel::poll() noexcept {
+    if (kept_count_ > 0) {
+        const ResponsePress press = kept_[0];
+        std::copy(kept_.begin() + 1, kept_.begin() + static_cast<std::ptrdiff_t>(kept_count_), kept_.begin());
+        --kept_count_;
+        return press;
+    }
+    window_->poll_events();
+    WindowKeyPress press{};
+    while (window_->next_key_press(press))
+        if (const std::optional<ResponsePress> meant = meaning_of(press))
+            return meant;
+    return answering_ ? answering_->poll() : std::nullopt;
+}
+
+} // namespace overt

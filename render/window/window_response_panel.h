@@ -1,0 +1,55 @@
+/// The keyboard as a response panel: the observer's keys, and the operator's as the protocol has them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "experiment/ports/ports.h"
+#include "experiment/protocol/sitting_settings.h"
+#include "render/window/window_context.h"
+
+namespace overt {
+
+/// A key of the window by its name in a protocol: «f1», «escape», «pause», or a letter.
+struct NamedKey {
+    WindowKey key = WindowKey::other;
+    char32_t character = 0; ///< of a letter
+    bool is(const WindowKeyPress& press) const noexcept;
+};
+NamedKey key_called(const std::string& name);
+
+class WindowResponsePanel final : public ResponsePanel {
+  public:
+    /// `answering`, if given, is asked for presses and answers too: a simulated observer whose session the
+    /// operator can lead. All references must outlive the panel.
+    WindowResponsePanel(WindowContext& window, const Clock& clock, const OperatorSettings& operators,
+                        const ConsentSettings& consent, ResponsePanel* answering = nullptr);
+
+    void await_key(SessionTime since) override;
+    void await_response(const Trial& trial, SessionTime since) override;
+    void await_decision(bool is_consent, SessionTime since) override;
+    void await_entry(SessionTime since) override;
+    std::optional<ResponsePress> poll() noexcept override;
+    std::string answer() override { return answering_ ? answering_->answer() : std::string(); }
+    void entered(SessionPhase phase, int trial) noexcept override {
+        if (answering_)
+            answering_->entered(phase, trial);
+    }
+
+  private:
+    enum class Mode : std::uint8_t { reading, consent, confirmation, entry };
+    void forget_presses(Mode mode) noexcept;
+    std::optional<ResponsePress> meaning_of(const WindowKeyPress& press) const noexcept;
+
+    WindowContext* window_;
+    const Clock* clock_;
+    ResponsePanel* answering_;
+    std::array<std::pair<NamedKey, ResponsePress::Key>, 6> operators_;
+    NamedKey yes_, no_, accept_, decline_;
+    Mode mode_ = Mode::reading;
+    // The operator's presses that came while something was prepared.
+    std::array<ResponsePress, 16> kept_{};
+    std::size_t kept_count_ = 0;
+};
+
+} // namespace overt

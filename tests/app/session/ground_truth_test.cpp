@@ -1,0 +1,163 @@
+/// A session with a tracker without errors, exported and held against what the simulated observer really saw.
+#include <catch2/catch.hpp>
+
+#include <map>
+
+#include "app/inputs/protocol_inputs.h"
+#include "app/record/recorded_surface.h"
+#include "app/session/session_recording.h"
+#include "devices/host/clocks.h"
+#include "devices/simulated/simulated_eye_tracker.h"
+#include "devices/simulated/simulated_response_panel.h"
+#include "render/gl/headless_context.h"
+#include "experiment/design/schedule.h"
+#include "experiment/record/tables/table_export.h"
+#include "experiment/session/session.h"
+#include "render/vblank/display_surface.h"
+#include "tests/app/small_experiment.h"
+#include "tests/support/tsv_file.h"
+
+using namespace overt;
+using namespace overt::test;
+
+namespace {
+
+ObserverSettings steady_eyes() {
+    ObserverSettings settings;
+    settings.drift = settings.tremor = Degrees{0.0};
+    return settings;
+}
+
+SimulatedTrackerSettings without_errors(const TrackerSettings& settings) {
+    SimulatedTrackerSettings exact = simulated_tracker_settings(settings);
+    exact.noise_deg = exact.accuracy_deg = exact.steps_per_px = 0.0;
+    return exact;
+}
+
+/// The program's own parts, put together as its rig does, with perfect devices whose truth can be asked for.
+class ExactSitting {
+  public:
+    SmallExperiment files;
+    Diagnostics diagnostics;
+    Experiment experiment =
+        read_experiment(files.protocol(), files.cache(), InputDepth::everything, diagnostics).value();
+    const Protocol& protocol = experiment.protocol;
+    Schedule schedule = make_schedule(protocol, {"P01", 1}, 11);
+    std::unique_ptr<GlContext> context = make_headless_context(ContextKind::osmesa);
+    StimulusLibrary library{*context, protocol, experiment.sculptures, files.cache()};
+    ScreenGeometry geometry = screen_geometry_of(protocol);
+    VirtualClock clock;
+    VirtualDisplay display{*context, clock, protocol.display.refresh_hz};
+    PagePresenter presenter{*context, display, library, geometry, protocol.display, protocol.screens};
+    SimulatedObserver observer{make_observed_scene(protocol, experiment.sculptures, geometry), 3,
+                               steady_eyes()};
+    SimulatedEyeTracker tracker{clock, observer, 3, without_errors(protocol.tracker)};
+    SimulatedResponsePanel panel{clock, observer};
+
+    /// Runs all trials and exports them; gives the export's folder.
+    std::filesystem::path run() {
+        library.prepare_maps({});
+        library.prepare_frames({});
+        const SessionHeader header =
+            make_session_header(protocol, schedule, experiment.sculptures, library, context->description(),
+                                tracker.description(), ClockKind::virtual_time, true);
+        SessionDirectory directory({files.sessions(), protocol.name, "P01"});
+        put_files(directory, header, experiment.sculptures, library);
+        directory.publish();
+        SessionStore store(directory.session_file(),
+                           {.wait_when_full = true, .started_utc = header.started_utc});
+        Session session(protocol, schedule, geometry.centre(),
+                        {clock, presenter, tracker, panel, store, {&observer}});
+        session.run({});
+        store.close();
+
+        const SessionRecord record(directory.path());
+        RecordedSurfaces surfaces(record);
+        const std::filesystem::path tables = files.folder().path() / "tables";
+        export_tables(
+            record, [&](int sculpture) { return surfaces.maps_of(sculpture); }, tables);
+        return tables;
+    }
+};
+
+} // namespace
+
+TEST_CASE("each exported gaze sample is where the observer's gaze met the surface", "[session]") {
+    ExactSitting sitting;
+    const TsvFile samples(sitting.run() / "samples.tsv");
+    REQUIRE(samples.size() > 10000);
+
+    int compared = 0, on_another_frame = 0, elsewhere = 0, missing = 0, invented = 0;
+    double farthest_px = 0.0, latest_s = 0.0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const TrackerTime sampled_at{TrackerClock::duration(samples.integer(i, "tracker_time_us"))};
+        const SessionTime at = sitting.tracker.session_time_at(sampled_at);
+        const GazeTruth truth = sitting.observer.truth_at(at);
+        latest_s = std::max(latest_s, std::abs(samples.number(i, "time_s") - to_seconds(at)));
+        if (!samples.has(i, "x_px")) {
+            CHECK(truth.gaze.state == EyeState::blink);
+            continue;
+        }
+        farthest_px = std::max({farthest_px, std::abs(samples.number(i, "x_px") - truth.gaze.place.x_px),
+                                std::abs(samples.number(i, "y_px") - truth.gaze.place.y_px)});
+        // Frames are compared where both know one: at a change of frames the reading of clocks decides.
+        const bool has_frame = samples.has(i, "frame");
+        if (has_frame != truth.frame.has_value() ||
+            (has_frame && samples.integer(i, "frame") != truth.frame->value)) {
+            ++on_another_frame;
+            continue;
+        }
+        const bool has_surface = samples.has(i, "surface_x");
+        missing += truth.surface && !has_surface;
+        invented += !truth.surface && has_surface;
+        if (!truth.surface || !has_surface)
+            continue;
+        ++compared;
+        const glm::dvec3 exported(samples.number(i, "surface_x"), samples.number(i, "surface_y"),
+                                  samples.number(i, "surface_z"));
+        // Six decimals are exported of each coordinate.
+        elsewhere += glm::distance(exported, truth.surface->position) > 1e-6;
+    }
+    CHECK(compared > 6000);
+    CHECK(elsewhere == 0);
+    // Right on an outline the last digit may decide.
+    CHECK(missing == 0);
+    CHECK(invented == 0);
+    CHECK(on_another_frame <= static_cast<int>(samples.size()) / 1000);
+    CHECK(farthest_px < 0.0006); // of a pixel, three
+    CHECK(latest_s < 2e-5);      // as well as both clocks were read together
+}
+
+TEST_CASE("the share of gaze on the head comes back as the tasks had it", "[session]") {
+    ExactSitting sitting;
+    const TsvFile samples(sitting.run() / "samples.tsv");
+    struct Count {
+        int head = 0, all = 0;
+    };
+    std::map<std::string, Count> exported, meant;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const TrackerTime sampled_at{TrackerClock::duration(samples.integer(i, "tracker_time_us"))};
+        const GazeTruth truth = sitting.observer.truth_at(sitting.tracker.session_time_at(sampled_at));
+        if (!truth.target || !truth.frame || truth.gaze.state != EyeState::fixation)
+            continue;
+        const std::string& task = samples.text(i, "task");
+        const auto trial = static_cast<std::size_t>(samples.integer(i, "trial") - 1);
+        const int sculpture = sitting.schedule.trials.at(trial).condition.sculpture;
+        const Mesh& mesh = sitting.experiment.sculptures[static_cast<std::size_t>(sculpture)].mesh;
+        ++exported[task].all;
+        exported[task].head += samples.text(i, "part") == "head";
+        ++meant[task].all;
+        meant[task].head += mesh.part_names[truth.target->part] == "head";
+    }
+    REQUIRE(exported.size() == 3);
+    for (const auto& [task, count] : exported) {
+        CAPTURE(task);
+        CHECK(count.all > 400);
+        const double share = static_cast<double>(count.head) / count.all;
+        CHECK(share == Approx(static_cast<double>(meant[task].head) / meant[task].all).margin(0.02));
+        if (task == "face")
+            CHECK(share > 0.97);
+        if (task == "clothes")
+            CHECK(share < 0.03);
+    }
+}

@@ -1,0 +1,193 @@
+/// Characterising a display whose truth is known.
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "devices/simulated/simulated_display.h"
+#include "experiment/base/error.h"
+#include "experiment/colour/characterisation_fit.h"
+#include "experiment/colour/characterisation_text.h"
+#include "experiment/colour/patch_plan.h"
+#include "experiment/protocol/characterisation_file.h"
+#include "tests/support/temporary_folder.h"
+
+using namespace overt;
+using namespace overt::test;
+
+namespace {
+
+std::vector<PatchReading> readings_of(const DisplayTruth& truth, std::uint64_t seed,
+                                      const PatchPlanSettings& plan = {}) {
+    SimulatedPhotometer photometer(truth, seed);
+    std::vector<PatchReading> readings;
+    for (const glm::dvec3& signal : plan_patches(plan))
+        readings.push_back({signal, photometer.measure_xyz(signal)});
+    return readings;
+}
+
+/// The largest errors of a model against the truth itself, over signals from a fifth of full signal on.
+struct TrueErrors {
+    double luminance = 0.0, xy = 0.0;
+};
+TrueErrors errors_of(const DisplayCharacterisation& display, const DisplayTruth& truth, std::uint64_t seed) {
+    RandomStream random(seed, "colours to foretell");
+    TrueErrors errors;
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dvec3 signal(random.uniform(0.2, 1.0), random.uniform(0.2, 1.0), random.uniform(0.2, 1.0));
+        const glm::dvec3 is = truth.xyz_of(signal), said = display.xyz_of_signal(signal);
+        errors.luminance = std::max(errors.luminance, std::abs(said.y / is.y - 1.0));
+        const glm::dvec2 off = chromaticity_of(said) - chromaticity_of(is);
+        errors.xy = std::max({errors.xy, std::abs(off.x), std::abs(off.y)});
+    }
+    return errors;
+}
+
+} // namespace
+
+TEST_CASE("the truth comes back from noisy readings: luminance within 0.5 %, x and y within 0.001",
+          "[unit]") {
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        const DisplayTruth truth = DisplayTruth::drawn(seed);
+        const auto readings = readings_of(truth, 100 + seed);
+        const CharacterisationFit fit = fit_characterisation(readings, CurveModel::table);
+        const TrueErrors errors = errors_of(fit.display, truth, seed);
+        CAPTURE(seed);
+        CHECK(errors.luminance < 0.005);
+        CHECK(errors.xy < 0.001);
+        // What the readings say of themselves is of the same size.
+        const CharacterisationCheck check = check_characterisation(fit.display, readings);
+        CHECK(check.patches >= 30);
+        CHECK(check.luminance_mean < 0.005);
+        CHECK(check.xy_mean < 0.001);
+        CHECK(*check.additivity < 0.005);
+        CHECK(*check.dependence < 0.005);
+        CHECK(fit.repeat_noise == Approx(truth.reading_noise).epsilon(0.3));
+    }
+}
+
+TEST_CASE("a power's gain, offset and exponent come back", "[unit]") {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        DisplayTruth truth = DisplayTruth::drawn(seed);
+        truth.shoulders = {};
+        const CharacterisationFit fit = fit_characterisation(readings_of(truth, seed), CurveModel::power);
+        for (std::size_t i = 0; i < 3; ++i) {
+            CAPTURE(seed, i);
+            CHECK(fit.channels[i].power.exponent() == Approx(truth.exponents[i]).margin(0.03));
+            CHECK(fit.channels[i].power.offset() == Approx(truth.offsets[i]).margin(0.01));
+            CHECK(fit.channels[i].gain == Approx(1.0).margin(0.004));
+        }
+        const TrueErrors errors = errors_of(fit.display, truth, seed);
+        CHECK(errors.luminance < 0.005);
+        CHECK(errors.xy < 0.001);
+    }
+}
+
+TEST_CASE("without noise a power is found to the last digits, and the table at its points", "[unit]") {
+    DisplayTruth truth = DisplayTruth::drawn(3);
+    truth.shoulders = {};
+    truth.reading_noise = truth.dark_noise_cd_m2 = 0.0;
+    const auto readings = readings_of(truth, 1);
+    const CharacterisationFit fit = fit_characterisation(readings, CurveModel::power);
+    for (std::size_t i = 0; i < 3; ++i)
+        CHECK(fit.channels[i].power.exponent() == Approx(truth.exponents[i]).epsilon(1e-5));
+    const CharacterisationFit table = fit_characterisation(readings, CurveModel::table);
+    for (const PatchReading& reading : readings) {
+        const bool is_single = (reading.signal.x > 0) + (reading.signal.y > 0) + (reading.signal.z > 0) == 1;
+        if (is_single)
+            CHECK(table.display.xyz_of_signal(reading.signal).y == Approx(reading.xyz.y).epsilon(1e-9));
+    }
+    CHECK(fit.repeat_noise < 1e-9);
+}
+
+TEST_CASE("channels that take light from each other are found out", "[unit]") {
+    DisplayTruth truth = DisplayTruth::drawn(5);
+    truth.crosstalk = 0.04;
+    const auto readings = readings_of(truth, 2);
+    const CharacterisationFit fit = fit_characterisation(readings, CurveModel::table);
+    const CharacterisationCheck check = check_characterisation(fit.display, readings);
+    CHECK(*check.additivity == Approx(0.04).epsilon(0.2));
+    CHECK(*check.dependence > 0.004);
+    CHECK(check.luminance_worst > 0.02);
+    CHECK_THAT(characterisation_report(fit.display, fit, check), Catch::Contains("white is 4"));
+}
+
+TEST_CASE("what readings lack is said", "[unit]") {
+    const auto readings = readings_of(DisplayTruth::drawn(1), 1);
+    const auto without = [&](auto is_out) {
+        std::vector<PatchReading> left = readings;
+        std::erase_if(left, is_out);
+        return left;
+    };
+    using Catch::Contains;
+    CHECK_THROWS_WITH(
+        fit_characterisation(without([](const PatchReading& r) { return r.signal == glm::dvec3(0.0); }),
+                             CurveModel::table),
+        Contains("black was not read"));
+    CHECK_THROWS_WITH(
+        fit_characterisation(without([](const PatchReading& r) { return r.signal == glm::dvec3(0, 1, 0); }),
+                             CurveModel::table),
+        Contains("green alone was not read at full signal"));
+    CHECK_THROWS_WITH(fit_characterisation(
+                          without([](const PatchReading& r) { return r.signal.z > 0.0 && r.signal.z < 1.0; }),
+                          CurveModel::table),
+                      Contains("blue alone was read at 1 levels"));
+    auto swapped = readings;
+    for (PatchReading& reading : swapped) {
+        if (reading.signal == glm::dvec3(0, 0, 1))
+            reading.xyz = {0.0, 0.0, 0.0};
+    }
+    CHECK_THROWS_AS(fit_characterisation(swapped, CurveModel::table), InputError);
+    CHECK(check_characterisation(fit_characterisation(readings, CurveModel::table).display,
+                                 without([](const PatchReading& r) {
+                                     return (r.signal.x > 0) + (r.signal.y > 0) + (r.signal.z > 0) > 1;
+                                 }))
+              .patches == 0);
+}
+
+TEST_CASE("the order of patches is the seed's, each repeat has each patch once", "[unit]") {
+    const PatchPlanSettings settings{9, 6, 3, 7};
+    const auto plan = plan_patches(settings), again = plan_patches(settings);
+    CHECK(plan == again);
+    CHECK(plan != plan_patches({9, 6, 3, 8}));
+    const std::size_t count = plan.size() / 3;
+    CHECK(plan.size() == 3 * (5 + 3 * 9 + 6));
+    const auto sorted = [&](std::size_t repeat) {
+        std::vector<glm::dvec3> part(plan.begin() + static_cast<std::ptrdiff_t>(repeat * count),
+                                     plan.begin() + static_cast<std::ptrdiff_t>((repeat + 1) * count));
+        std::sort(part.begin(), part.end(), [](const glm::dvec3& a, const glm::dvec3& b) {
+            return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+        });
+        return part;
+    };
+    CHECK(sorted(0) == sorted(1));
+    CHECK(sorted(0) == sorted(2));
+}
+
+TEST_CASE("a characterisation that is written is read back as it was", "[unit]") {
+    const TemporaryFolder folder;
+    const auto readings = readings_of(DisplayTruth::drawn(4), 4);
+    for (const CurveModel model : {CurveModel::table, CurveModel::power}) {
+        DisplayCharacterisation written = fit_characterisation(readings, model).display;
+        written.display = "a \"quoted\" display \\ with\ttab";
+        written.date = "2026-11-21";
+        written.instrument = "µ-photometer";
+        written.screen.width_px = 1920;
+        written.screen.refresh_hz = 119.98;
+        Diagnostics diagnostics;
+        const auto read = read_characterisation(folder.file("d.toml", characterisation_toml(written)),
+                                                "d.toml", {}, diagnostics);
+        INFO(diagnostics.print());
+        REQUIRE(read);
+        CHECK(read->display == written.display);
+        CHECK(read->instrument == written.instrument);
+        CHECK(read->screen.width_px == 1920);
+        CHECK(read->screen.refresh_hz == 119.98);
+        CHECK(read->black_xyz == written.black_xyz);
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (int axis = 0; axis < 3; ++axis)
+                CHECK(read->primaries_xyz[i][axis] == Approx(written.primaries_xyz[i][axis]).epsilon(1e-12));
+            for (int code = 0; code <= 1000; ++code)
+                CHECK(read->curves[i].light_of(code / 1000.0) == written.curves[i].light_of(code / 1000.0));
+        }
+    }
+}

@@ -1,0 +1,55 @@
+#include "devices/light/light_sensor.h"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+using namespace overt;
+
+namespace {
+
+/// Black and white in turn, each for a tenth of a second.
+std::vector<LightEdge> alternating(int changes) {
+    std::vector<LightEdge> list;
+    for (int i = 0; i < changes; ++i)
+        list.push_back({SessionTime(from_seconds(1.0 + 0.1 * i)), i % 2 == 0});
+    return list;
+}
+
+} // namespace
+
+TEST_CASE("latency and jitter of a simulated sensor come out of its edges", "[unit]") {
+    SimulatedLightSensor sensor(7.5, 0.3, 11);
+    const std::vector<LightEdge> changes = alternating(2000);
+    for (const LightEdge& change : changes)
+        sensor.shown(change);
+    const LightLatency found = compare_light(changes, sensor.edges());
+    CHECK(found.matched == 2000);
+    CHECK(found.unseen == 0);
+    CHECK(found.unasked == 0);
+    CHECK(found.mean_ms == Approx(7.5).margin(4 * 0.3 / std::sqrt(2000.0)));
+    CHECK(found.sd_ms == Approx(0.3).epsilon(0.08));
+    CHECK(found.lowest_ms < 7.0);
+    CHECK(found.highest_ms > 8.0);
+}
+
+TEST_CASE("changes that no edge follows and edges that nobody asked for are counted apart", "[unit]") {
+    const std::vector<LightEdge> changes = alternating(10);
+    SimulatedLightSensor sensor(5.0, 0.0, 1);
+    for (std::size_t i = 0; i < changes.size(); ++i)
+        if (i != 4)
+            sensor.shown(changes[i]);
+    std::vector<LightEdge> edges = sensor.edges();
+    LightLatency found = compare_light(changes, edges);
+    CHECK(found.matched == 9);
+    CHECK(found.unseen == 1);
+    CHECK(found.mean_ms == Approx(5.0));
+    CHECK(found.sd_ms == Approx(0.0).margin(1e-6));
+
+    // A flicker of the lamp, after the last.
+    edges.push_back({edges.back().at + std::chrono::milliseconds(20), true});
+    found = compare_light(changes, edges);
+    CHECK(found.matched == 9);
+    CHECK(found.unasked == 1);
+    CHECK(compare_light(changes, {}).unseen == 10);
+}

@@ -1,0 +1,173 @@
+#include "devices/link/serial_port.h"
+
+#include <array>
+
+#include <catch2/catch.hpp>
+
+#include "devices/display_box/display_plus_plus.h"
+#include "devices/host/clocks.h"
+#include "devices/link/serial_port_search.h"
+#include "experiment/base/error.h"
+#include "tests/devices/display_box/bits_box_model.h"
+#include "tests/devices/link/terminal_device.h"
+#include "tests/support/temporary_folder.h"
+
+using namespace overt;
+using namespace overt::test;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string read_some(ByteTransport& port, const Clock& clock, std::size_t wanted) {
+    std::string text;
+    std::array<char, 64> bytes{};
+    const SessionTime deadline = clock.now() + 5s;
+    while (text.size() < wanted && !port.lost() && clock.now() < deadline)
+        text.append(bytes.data(), port.read(bytes, deadline));
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("a serial port carries every byte both ways unchanged", "[unit]") {
+    const SteadyClock clock;
+    const Terminal terminal;
+    SerialPort port(terminal.path(), clock);
+    std::string all;
+    for (int i = 0; i < 256; ++i)
+        all += static_cast<char>(i);
+    REQUIRE(port.write(all, clock.now() + 5s));
+    std::array<char, 256> there{};
+    for (std::size_t count = 0; count < there.size();) {
+        const ssize_t n = read(terminal.master(), there.data() + count, there.size() - count);
+        REQUIRE(n > 0);
+        count += static_cast<std::size_t>(n);
+    }
+    CHECK(std::string(there.begin(), there.end()) == all);
+    REQUIRE(write(terminal.master(), all.data(), all.size()) == 256);
+    CHECK(read_some(port, clock, 256) == all);
+}
+
+TEST_CASE("a serial port waits no longer than the deadline and not at all for one that is past", "[unit]") {
+    const SteadyClock clock;
+    const Terminal terminal;
+    SerialPort port(terminal.path(), clock);
+    std::array<char, 8> bytes{};
+    const SessionTime deadline = clock.now() + 30ms;
+    CHECK(port.read(bytes, deadline) == 0);
+    CHECK(clock.now() >= deadline);
+    CHECK(port.read(bytes, SessionTime()) == 0);
+    CHECK_FALSE(port.lost());
+}
+
+TEST_CASE("what nobody takes is not written for ever", "[unit]") {
+    const SteadyClock clock;
+    const Terminal terminal;
+    SerialPort port(terminal.path(), clock);
+    CHECK_FALSE(port.write(std::string(1 << 20, 'x'), clock.now() + 50ms));
+    CHECK_FALSE(port.lost());
+}
+
+TEST_CASE("a serial port belongs to one program at a time", "[unit]") {
+    const SteadyClock clock;
+    const Terminal terminal;
+    {
+        const SerialPort port(terminal.path(), clock);
+        CHECK_THROWS_WITH(SerialPort(terminal.path(), clock),
+                          Contains(terminal.path()) && Contains("another program has the port open"));
+    }
+    CHECK_NOTHROW(SerialPort(terminal.path(), clock));
+}
+
+TEST_CASE("a port that is not there or is no tty is refused with its name and a remedy", "[unit]") {
+    const SteadyClock clock;
+    const TemporaryFolder folder;
+    const auto file = folder.file("ttyACM0", "");
+    CHECK_THROWS_WITH(SerialPort(file.string(), clock),
+                      Contains(file.string()) && Contains("not a serial port"));
+    CHECK_THROWS_WITH(SerialPort((folder.path() / "ttyACM9").string(), clock),
+                      Contains("ttyACM9 cannot be opened") && Contains("switched on"));
+}
+
+TEST_CASE("a port whose device hangs up is lost after its last bytes", "[unit]") {
+    const SteadyClock clock;
+    Terminal terminal;
+    SerialPort port(terminal.path(), clock);
+    REQUIRE(write(terminal.master(), "bye", 3) == 3);
+    CHECK(read_some(port, clock, 3) == "bye");
+    terminal.hang_up();
+    std::array<char, 8> bytes{};
+    CHECK(port.read(bytes, clock.now() + 5s) == 0);
+    CHECK(port.lost());
+    CHECK_FALSE(port.loss().empty());
+    CHECK_FALSE(port.write("x", clock.now() + 5s));
+}
+
+TEST_CASE("a whole conversation with a display box goes over a terminal line", "[unit]") {
+    SteadyClock clock;
+    Terminal terminal;
+    BitsBoxModel model;
+    model.video = [](int line, int pixel) {
+        return RgbBytes{static_cast<std::uint8_t>(line), static_cast<std::uint8_t>(pixel), 7};
+    };
+    {
+        const TerminalDevice device(
+            terminal.master(),
+            [&model](std::string_view bytes, double now_s) { return model.receive(bytes, now_s); },
+            [&model](double now_s) { return model.streaming ? model.status_line(now_s) : ""; });
+        DisplayPlusPlusSettings settings;
+        settings.timeouts.reply = settings.timeouts.whole_reply =
+            20s; // the device's thread may get no processor for long
+        settings.timeouts.quiet = 250ms;
+        settings.settle = 60s;
+        DisplayPlusPlus display(std::make_unique<SerialPort>(terminal.path(), clock), clock, settings);
+        CHECK(display.identity().product == "Display++");
+        CHECK(display.identity().serial_number == "DPP-0042");
+        CHECK(display.identity().port == terminal.path());
+        display.set_mode(BoxMode::mono_plus_plus);
+        const auto line = display.read_video_line(9, 1920);
+        CHECK(line[255] == RgbBytes{9, 255, 7});
+        const BoxClockPair first = display.read_clocks(), second = display.read_clocks();
+        CHECK(first.before < first.after);
+        CHECK(first.box < second.box);
+        // The box's clock and ours are the same here: what lies between two readings must agree within their
+        // widths.
+        CHECK(to_seconds(second.after - first.before) >= to_seconds(second.box) - to_seconds(first.box));
+        CHECK(to_seconds(second.before - first.after) <= to_seconds(second.box) - to_seconds(first.box));
+    }
+    CHECK(model.mode == "BitsPlusPlus");
+}
+
+TEST_CASE("the search lists ttyACM ports by number with what USB says of them", "[unit]") {
+    const TemporaryFolder folder;
+    const auto& root = folder.path();
+    folder.file("dev/ttyACM10", "");
+    folder.file("dev/ttyACM2", "");
+    folder.file("dev/ttyACM3", ""); // a node without an entry in sysfs
+    folder.file("dev/ttyUSB0", "");
+    folder.file("dev/ttyACMx", "");
+    folder.file("sys/devices/usb1/1-6/idVendor", "0861\n");
+    folder.file("sys/devices/usb1/1-6/idProduct", "100a\n");
+    folder.file("sys/devices/usb1/1-6/product", "A Box\n");
+    folder.file("sys/devices/usb1/1-6/serial", "42\n");
+    folder.file("sys/devices/usb1/1-6/1-6:1.0/tty/ttyACM10/dev", "166:10\n");
+    folder.file("sys/devices/other/tty/ttyACM2/dev", "166:2\n");
+    folder.file("sys/devices/other/tty/ttyACM7/dev", "166:7\n"); // an entry without a node
+    std::filesystem::create_directories(root / "sys/class/tty");
+    for (const char* target : {"usb1/1-6/1-6:1.0/tty/ttyACM10", "other/tty/ttyACM2", "other/tty/ttyACM7"}) {
+        const std::filesystem::path entry(target);
+        std::filesystem::create_directory_symlink(root / "sys/devices" / entry,
+                                                  root / "sys/class/tty" / entry.filename());
+    }
+    const auto ports = serial_ports(root / "dev", root / "sys");
+    REQUIRE(ports.size() == 3);
+    CHECK(ports[0].path == (root / "dev/ttyACM2").string());
+    CHECK_FALSE(ports[0].vendor_id);
+    CHECK(ports[1].path == (root / "dev/ttyACM3").string());
+    CHECK(ports[2].vendor_id == crs_vendor_id);
+    CHECK(ports[2].product_id == 0x100a);
+    CHECK(ports[2].serial_number == "42");
+    CHECK_THAT(describe(ports[2]), Contains("ttyACM10 (0861:100a A Box)"));
+    CHECK(serial_ports(root / "nowhere", root / "neither").empty());
+}

@@ -1,0 +1,46 @@
+#include <catch2/catch.hpp>
+
+#include "devices/simulated/observed_scene.h"
+#include "devices/simulated/simulated_eye_tracker.h"
+#include "tests/support/figures.h"
+
+using namespace overt;
+using namespace std::chrono_literals;
+
+TEST_CASE("simulated devices take their numbers from the protocol", "[unit]") {
+    Protocol protocol;
+    protocol.display.latency_ms = 3.5;
+    protocol.display.refresh_hz = 240.0;
+    protocol.tasks = {{"age", "How old?", TaskCoverage::once_per_sculpture, 0.61}};
+    protocol.tracker.rate_hz = 500.0;
+    protocol.tracker.eye = "left";
+    protocol.tracker.simulated_noise_deg = 0.01;
+    std::vector<Sculpture> sculptures(2);
+    sculptures[0].mesh = test::bust();
+
+    const ObservedScene scene = make_observed_scene(protocol, sculptures, ScreenGeometry{});
+    CHECK(scene.sculptures[0].mesh == &sculptures[0].mesh);
+    CHECK(scene.sculptures[1].mesh == nullptr);
+    CHECK(scene.tasks[0].id == "age");
+    CHECK(scene.tasks[0].head_share == 0.61);
+    CHECK(scene.display_latency == 3500us);
+    CHECK(scene.refresh_hz == 240.0);
+
+    const SimulatedTrackerSettings tracker = simulated_tracker_settings(protocol.tracker);
+    CHECK(tracker.rate_hz == 500.0);
+    CHECK(tracker.eye == Eye::left);
+    CHECK(tracker.noise_deg == 0.01);
+    CHECK(tracker.accuracy_deg == protocol.tracker.simulated_accuracy_deg);
+    CHECK(tracker.clock_drift_ppm == protocol.tracker.simulated_clock_drift_ppm);
+}
+
+TEST_CASE("a row's light comes after the vertical blank by the latency and its share of the scan", "[unit]") {
+    ObservedScene scene;
+    scene.display_latency = 2ms;
+    CHECK(scene.light_delay(-5.0) == 2ms);
+    CHECK(to_seconds(scene.light_delay(540.0)) == Approx(0.002 + 0.5 / 120.0));
+    CHECK(scene.light_delay(2000.0) == scene.light_delay(1080.0));
+    CHECK(to_seconds(scene.frame_period()) == Approx(1.0 / 30.0));
+    scene.refresh_hz = 119.88; // four refreshes to a frame all the same
+    CHECK(to_seconds(scene.frame_period()) == Approx(4.0 / 119.88));
+}

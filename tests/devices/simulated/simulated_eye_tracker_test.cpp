@@ -1,0 +1,310 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <vector>
+
+#include "experiment/base/error.h"
+#include "experiment/clock_map.h"
+#include "tests/devices/simulated/sitting.h"
+
+using namespace overt;
+using namespace std::chrono_literals;
+using test::Sitting;
+
+namespace {
+
+/// Measures exactly what is so.
+SimulatedTrackerSettings perfect() {
+    SimulatedTrackerSettings settings;
+    settings.noise_deg = settings.accuracy_deg = settings.clock_drift_ppm = settings.steps_per_px = 0.0;
+    return settings;
+}
+
+std::vector<GazeSample> take_all(EyeTracker& tracker, std::size_t at_a_time = 64) {
+    std::vector<GazeSample> all, some(at_a_time);
+    for (std::size_t taken = at_a_time; taken == at_a_time;) {
+        taken = tracker.poll(some);
+        all.insert(all.end(), some.begin(), some.begin() + static_cast<std::ptrdiff_t>(taken));
+    }
+    return all;
+}
+
+void append(std::vector<GazeSample>& all, const std::vector<GazeSample>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+/// Records one trial, polled at each flip or only afterwards.
+std::vector<GazeSample> record(Sitting& sitting, SimulatedEyeTracker& tracker, const Trial& trial,
+                               bool polled_at_flips = true) {
+    std::vector<GazeSample> samples;
+    tracker.start_recording();
+    sitting.present(trial, {}, [&] {
+        if (polled_at_flips)
+            append(samples, take_all(tracker));
+    });
+    tracker.stop_recording();
+    append(samples, take_all(tracker));
+    return samples;
+}
+
+struct Spread {
+    double mean = 0.0, sd = 0.0;
+};
+Spread spread_of(const std::vector<double>& values) {
+    Spread spread;
+    for (const double value : values)
+        spread.mean += value / static_cast<double>(values.size());
+    for (const double value : values)
+        spread.sd += (value - spread.mean) * (value - spread.mean) / static_cast<double>(values.size());
+    spread.sd = std::sqrt(spread.sd);
+    return spread;
+}
+
+/// Measured minus true gaze along x, in degrees, of the samples with gaze.
+std::vector<double> errors_deg(const Sitting& sitting, const SimulatedEyeTracker& tracker,
+                               const std::vector<GazeSample>& samples) {
+    std::vector<double> errors;
+    const double px_per_deg = px_per_deg_at_centre(sitting.observer.scene().screen).x;
+    for (const GazeSample& sample : samples) {
+        const TrueGaze truth = sitting.observer.gaze_at(tracker.session_time_at(sample.sampled_at));
+        if (sample.gaze)
+            errors.push_back((sample.gaze->x_px - truth.place.x_px) / px_per_deg);
+    }
+    return errors;
+}
+
+} // namespace
+
+TEST_CASE("a recording holds rate times duration samples, 500 us apart", "[unit]") {
+    Sitting sitting(1);
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 1, perfect());
+    for (const SessionDuration length : {SessionDuration(1s), SessionDuration(2345ms + 500us)}) {
+        sitting.clock.wait_until(sitting.clock.now() + 777us);
+        tracker.start_recording();
+        sitting.clock.wait_until(sitting.clock.now() + length);
+        tracker.stop_recording();
+        const std::vector<GazeSample> samples = take_all(tracker);
+        CHECK(static_cast<std::int64_t>(samples.size()) == length / 500us);
+        for (std::size_t i = 1; i < samples.size(); ++i)
+            REQUIRE(samples[i].sampled_at - samples[i - 1].sampled_at == 500us);
+        CHECK(take_all(tracker).empty());
+    }
+}
+
+TEST_CASE("without noise the tracker gives the observer's gaze, and none while the eye is closed", "[unit]") {
+    Sitting sitting(2);
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 2, perfect());
+    const std::vector<GazeSample> samples = record(sitting, tracker, {0, 0, {}});
+    int closed = 0;
+    for (const GazeSample& sample : samples) {
+        const TrueGaze truth = sitting.observer.gaze_at(tracker.session_time_at(sample.sampled_at));
+        REQUIRE(sample.gaze.has_value() == (truth.state != EyeState::blink));
+        if (sample.gaze) {
+            REQUIRE(*sample.gaze == truth.place);
+            REQUIRE(sample.pupil_area > 500.0f);
+        } else {
+            ++closed;
+            REQUIRE(sample.pupil_area == 0.0f);
+        }
+    }
+    CHECK(closed > 200);
+    CHECK(closed < 2000);
+}
+
+TEST_CASE("samples polled late are the samples polled in time", "[unit]") {
+    Sitting often(3), late(3);
+    SimulatedEyeTracker polled_often(often.clock, often.observer, 3),
+        polled_late(late.clock, late.observer, 3);
+    const std::vector<GazeSample> a = record(often, polled_often, {0, 0, {}}, true);
+    const std::vector<GazeSample> b = record(late, polled_late, {0, 0, {}}, false);
+    REQUIRE(a.size() == b.size());
+    CHECK(a.size() > 18000);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        REQUIRE(a[i].sampled_at == b[i].sampled_at);
+        REQUIRE(a[i].gaze == b[i].gaze);
+        REQUIRE(a[i].pupil_area == b[i].pupil_area);
+    }
+    CHECK(polled_late.overflowed() == 0);
+}
+
+TEST_CASE("samples beyond the queue's capacity are lost, the oldest first, and counted", "[unit]") {
+    Sitting sitting(4);
+    SimulatedTrackerSettings settings = perfect();
+    settings.queue_capacity = 1000;
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 4, settings);
+    tracker.start_recording();
+    sitting.clock.wait_until(sitting.clock.now() + 1s);
+    tracker.stop_recording();
+    const TrackerTime end = tracker.tracker_time_at(sitting.clock.now());
+    const std::vector<GazeSample> samples = take_all(tracker);
+    CHECK(samples.size() == 1000);
+    CHECK(tracker.overflowed() == 1000);
+    CHECK(end - samples.back().sampled_at <= 500us);
+}
+
+TEST_CASE("a sample is delivered once its latency has passed", "[unit]") {
+    Sitting sitting(5);
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 5);
+    tracker.start_recording();
+    sitting.clock.wait_until(sitting.clock.now() + 100ms);
+    const SessionTime now = sitting.clock.now();
+    const std::vector<GazeSample> samples = take_all(tracker);
+    const SessionDuration age = now - tracker.session_time_at(samples.back().sampled_at);
+    CHECK(age >= 2ms);
+    CHECK(age < 2ms + 600us);
+}
+
+TEST_CASE("noise and calibration error are as large as set", "[unit]") {
+    Sitting sitting(6);
+    SimulatedTrackerSettings settings;
+    settings.noise_deg = 0.07;
+    settings.accuracy_deg = 0.4;
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 6, settings);
+    std::vector<double> offsets;
+    for (int recording = 0; recording < 400; ++recording) {
+        const glm::dvec2 offset_deg = tracker.offset_deg();
+        tracker.start_recording();
+        sitting.clock.wait_until(sitting.clock.now() + 500ms);
+        tracker.stop_recording();
+        const std::vector<double> errors = errors_deg(sitting, tracker, take_all(tracker));
+        if (errors.size() < 900)
+            continue; // mostly a blink
+        const Spread spread = spread_of(errors);
+        REQUIRE(spread.mean == Approx(offset_deg.x).margin(4.5 * 0.07 / 30.0));
+        REQUIRE(spread.sd == Approx(0.07).epsilon(0.12));
+        offsets.push_back(spread.mean);
+    }
+    CHECK(offsets.size() > 300);
+    CHECK(spread_of(offsets).mean == Approx(0.0).margin(0.4 * 4.0 / std::sqrt(300.0)));
+    CHECK(spread_of(offsets).sd == Approx(0.4).epsilon(0.15));
+}
+
+TEST_CASE("gaze comes in tenths of a pixel", "[unit]") {
+    Sitting sitting(7);
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 7);
+    tracker.start_recording();
+    sitting.clock.wait_until(sitting.clock.now() + 100ms);
+    for (const GazeSample& sample : take_all(tracker)) {
+        if (sample.gaze)
+            REQUIRE(std::abs(10.0 * sample.gaze->x_px - std::round(10.0 * sample.gaze->x_px)) < 1e-9);
+    }
+}
+
+TEST_CASE("the drift of the tracker's clock comes out of the clock readings", "[unit]") {
+    for (const double drift_ppm : {-80.0, 0.0, 40.0}) {
+        Sitting sitting(8);
+        SimulatedTrackerSettings settings;
+        settings.clock_drift_ppm = drift_ppm;
+        SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 8, settings);
+        std::vector<ClockPair> pairs;
+        std::vector<double> x, y;
+        for (int i = 0; i < 400; ++i) {
+            sitting.clock.wait_until(sitting.clock.now() + 1s);
+            const ClockPair pair = tracker.read_clocks();
+            REQUIRE(pair.after - pair.before >= 100us);
+            REQUIRE(tracker.session_time_at(pair.tracker) >= pair.before - 2us);
+            REQUIRE(tracker.session_time_at(pair.tracker) <= pair.after);
+            x.push_back(to_seconds(pair.before + (pair.after - pair.before) / 2));
+            y.push_back(std::chrono::duration<double>(pair.tracker.time_since_epoch()).count());
+        }
+        // A straight line by least squares.
+        const double mean_x = spread_of(x).mean, mean_y = spread_of(y).mean;
+        double covariance = 0.0, variance = 0.0;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            covariance += (x[i] - mean_x) * (y[i] - mean_y);
+            variance += (x[i] - mean_x) * (x[i] - mean_x);
+        }
+        CHECK((covariance / variance - 1.0) * 1e6 == Approx(drift_ppm).margin(0.2));
+    }
+}
+
+TEST_CASE("a sample's instant on the session clock comes back through the clock map", "[unit]") {
+    Sitting sitting(9);
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 9);
+    std::vector<ClockPair> pairs;
+    for (int i = 0; i < 8; ++i)
+        pairs.push_back(tracker.read_clocks());
+    const std::vector<GazeSample> samples = record(sitting, tracker, {0, 0, {}});
+    for (int i = 0; i < 8; ++i)
+        pairs.push_back(tracker.read_clocks());
+    const ClockMap map(pairs);
+    for (std::size_t i = 0; i < samples.size(); i += 100) {
+        const MappedTime mapped = map.to_session(samples[i].sampled_at);
+        const SessionTime truth = tracker.session_time_at(samples[i].sampled_at);
+        REQUIRE(mapped.time - truth <= mapped.uncertainty);
+        REQUIRE(truth - mapped.time <= mapped.uncertainty);
+        REQUIRE(mapped.uncertainty < 500us);
+    }
+}
+
+TEST_CASE("on a steady clock a recording is as whole as in virtual time", "[unit]") {
+    const Mesh mesh = test::bust();
+    SteadyClock clock;
+    const SimulatedObserver observer(test::scene_with(mesh), 10);
+    SimulatedEyeTracker tracker(clock, observer, 10);
+    const ClockPair pair = tracker.read_clocks();
+    CHECK(pair.after > pair.before);
+    CHECK(tracker.session_time_at(pair.tracker) >= pair.before - 2us);
+    CHECK(tracker.session_time_at(pair.tracker) <= pair.after);
+
+    const SessionTime begin = clock.now();
+    tracker.start_recording();
+    std::vector<GazeSample> samples;
+    for (int i = 0; i < 8; ++i) {
+        clock.wait_until(begin + i * 5ms);
+        append(samples, take_all(tracker));
+    }
+    tracker.stop_recording();
+    append(samples, take_all(tracker));
+    CHECK(samples.size() >= 69);
+    for (std::size_t i = 1; i < samples.size(); ++i)
+        REQUIRE(samples[i].sampled_at - samples[i - 1].sampled_at == 500us);
+}
+
+TEST_CASE("a drift check measures the offset of the recording to come", "[unit]") {
+    Sitting sitting(11, test::without_wandering());
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 11);
+    const ScreenPoint centre = sitting.observer.scene().screen.centre();
+    for (int i = 0; i < 20; ++i) {
+        const std::optional<Degrees> drift = tracker.drift_check(centre);
+        REQUIRE(drift.has_value());
+        CHECK(drift->value == Approx(glm::length(tracker.offset_deg())).margin(0.02));
+        tracker.start_recording();
+        sitting.clock.wait_until(sitting.clock.now() + 500ms);
+        tracker.stop_recording();
+    }
+}
+
+TEST_CASE("a drift check of an eye that stays closed finds nothing", "[unit]") {
+    ObserverSettings asleep;
+    asleep.blinks_per_minute = 1e3; // one after the other
+    Sitting sitting(12, asleep);
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 12);
+    const std::optional<Degrees> drift = tracker.drift_check(sitting.observer.scene().screen.centre());
+    CHECK_FALSE(drift.has_value());
+    CHECK(sitting.clock.now() >= SessionTime(2s));
+}
+
+TEST_CASE("a validation reports errors as large as the set accuracy makes them", "[unit]") {
+    Sitting sitting(13);
+    SimulatedTrackerSettings settings;
+    settings.accuracy_deg = 0.5;
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 13, settings);
+    double sum = 0.0;
+    for (int i = 0; i < 200; ++i) {
+        const ValidationResult result = tracker.calibrate();
+        REQUIRE(result.max_error > result.mean_error);
+        sum += result.mean_error.value / 200.0;
+    }
+    // Mean of a Rayleigh distribution: the root of pi / 2.
+    CHECK(sum == Approx(0.5 * std::sqrt(std::numbers::pi / 2.0)).epsilon(0.05));
+}
+
+TEST_CASE("a tracker with a rate that no tracker has is refused", "[unit]") {
+    Sitting sitting(14);
+    SimulatedTrackerSettings settings;
+    settings.rate_hz = 0.0;
+    CHECK_THROWS_AS(SimulatedEyeTracker(sitting.clock, sitting.observer, 1, settings), InputError);
+    settings.rate_hz = std::nan("");
+    CHECK_THROWS_AS(SimulatedEyeTracker(sitting.clock, sitting.observer, 1, settings), InputError);
+}

@@ -1,0 +1,343 @@
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/devices/simulated/sitting.h"
+
+using namespace overt;
+using namespace std::chrono_literals;
+using test::degrees_between;
+using test::Sitting;
+
+namespace {
+
+constexpr SessionDuration sample_period = 500us;
+
+bool is_head(const Sitting& sitting, const SurfacePoint& point) {
+    return sitting.mesh.part_names[point.part] == "head";
+}
+
+double distance_px(ScreenPoint a, ScreenPoint b) { return std::hypot(a.x_px - b.x_px, a.y_px - b.y_px); }
+
+/// Where a point of the object is on the screen in a frame.
+ScreenPoint shown_at(const Sitting& sitting, const SurfacePoint& point, AnimationFrameIndex frame) {
+    const ObservedScene& scene = sitting.observer.scene();
+    const SceneView& view = scene.sculptures[0].scene;
+    const glm::dmat4 turn = view.pose_at(scene.animation.angle_of(frame)).world_from_object();
+    return scene.screen.screen_from_image(
+        view.view.project(glm::dvec3(turn * glm::dvec4(point.position, 1.0))));
+}
+
+/// Casts the line of sight of a place on the screen at the object in a frame.
+std::optional<RayHit> cast(const Sitting& sitting, const RayCaster& caster, ScreenPoint place,
+                           AnimationFrameIndex frame) {
+    const ObservedScene& scene = sitting.observer.scene();
+    const SceneView& view = scene.sculptures[0].scene;
+    return caster.first_hit(to_object(view.view.ray_through(scene.screen.image_from_screen(place)),
+                                      view.pose_at(scene.animation.angle_of(frame))));
+}
+
+template <class Visit> void for_each_sample(const Sitting& sitting, const Visit& visit) {
+    const SessionTime end = sitting.onset() + 8s;
+    for (SessionTime time = sitting.onset(); time < end; time += sample_period)
+        visit(time);
+}
+
+} // namespace
+
+TEST_CASE("an observer's share of fixation time on the head is the task's", "[unit]") {
+    Sitting sitting(42);
+    for (const int task : {0, 1}) {
+        double on_head_s = 0.0, in_all_s = 0.0;
+        int fixations = 0;
+        for (int trial = 0; trial < 100; ++trial) {
+            const int index = 100 * task + trial;
+            sitting.present({index, task, {}});
+            for (const ScriptedFixation& fixation : sitting.observer.script_of(index)->fixations()) {
+                if (!fixation.target || fixation.end > 8s)
+                    continue;
+                const double length_s = to_seconds(fixation.end - fixation.begin);
+                in_all_s += length_s;
+                on_head_s += is_head(sitting, *fixation.target) ? length_s : 0.0;
+                ++fixations;
+            }
+        }
+        const double expected = sitting.observer.scene().tasks[std::size_t(task)].head_share;
+        // Four standard errors; durations differ, and so count as fewer than there are.
+        const double bound = 4.0 * std::sqrt(expected * (1.0 - expected) * 1.3 / fixations);
+        CHECK(fixations > 2000);
+        CHECK(std::abs(on_head_s / in_all_s - expected) < bound);
+    }
+}
+
+TEST_CASE("the surface under the gaze gives the head's share back", "[unit]") {
+    Sitting sitting(43);
+    double on_head = 0.0, on_surface = 0.0, meant_for_head = 0.0;
+    for (int trial = 0; trial < 8; ++trial) {
+        sitting.present({trial, 0, {}});
+        for_each_sample(sitting, [&](SessionTime time) {
+            const GazeTruth truth = sitting.observer.truth_at(time);
+            if (!truth.target || !truth.surface)
+                return;
+            on_surface += 1.0;
+            on_head += is_head(sitting, *truth.surface);
+            meant_for_head += is_head(sitting, *truth.target);
+        });
+    }
+    CHECK(on_surface > 8 * 8000);
+    CHECK(on_head / on_surface == Approx(meant_for_head / on_surface).margin(0.01));
+}
+
+TEST_CASE("halfway through a lit frame the eye is exactly on its target in that frame", "[unit]") {
+    Sitting sitting(44, test::without_wandering());
+    const RayCaster caster(sitting.mesh);
+    const ObservedScene& scene = sitting.observer.scene();
+    int met = 0;
+    for (int trial = 0; trial < 4; ++trial) {
+        sitting.present({trial, 0, {}});
+        for (const ScriptedFixation& fixation : sitting.observer.script_of(trial)->fixations()) {
+            if (!fixation.target)
+                continue;
+            for (int step = 0; step < scene.animation.shown_frame_count(); ++step) {
+                const SessionDuration middle =
+                    from_seconds((step + 0.5) / scene.animation.frame_rate_hz) + fixation.light_delay;
+                if (middle < fixation.begin || middle >= fixation.end)
+                    continue;
+                const GazeTruth truth = sitting.observer.truth_at(sitting.onset() + middle);
+                if (truth.gaze.state == EyeState::blink)
+                    continue;
+                const AnimationFrameIndex frame = scene.animation.frame_at_step(step);
+                REQUIRE(truth.frame == frame);
+                REQUIRE(distance_px(truth.gaze.place, shown_at(sitting, *fixation.target, frame)) < 1e-3);
+                const std::optional<RayHit> hit = cast(sitting, caster, truth.gaze.place, frame);
+                REQUIRE(hit.has_value());
+                REQUIRE(glm::length(hit->position - fixation.target->position) < 1e-3);
+                ++met;
+            }
+        }
+    }
+    CHECK(met > 4 * 150);
+}
+
+TEST_CASE("the surface under the gaze is that of the frame really lit, missed refreshes included", "[unit]") {
+    Sitting sitting(45, test::without_wandering());
+    const RayCaster caster(sitting.mesh);
+    sitting.present({0, 0, {}}, {3, 100, 101, 102, 480, 700});
+    int checked = 0, between_steps = 0;
+    double farthest_off_px = 0.0;
+    for_each_sample(sitting, [&](SessionTime time) {
+        const GazeTruth truth = sitting.observer.truth_at(time);
+        if (!truth.frame || !truth.surface)
+            return;
+        const AnimationFrameIndex frame = sitting.frame_lit(time, truth.gaze.place.y_px);
+        REQUIRE(*truth.frame == frame);
+        const std::optional<RayHit> hit = cast(sitting, caster, truth.gaze.place, frame);
+        REQUIRE(hit.has_value());
+        REQUIRE(hit->triangle == truth.surface->triangle);
+        REQUIRE(hit->position == truth.surface->position);
+        ++checked;
+        if (truth.target) {
+            const double off_px = distance_px(truth.gaze.place, shown_at(sitting, *truth.target, frame));
+            farthest_off_px = std::max(farthest_off_px, off_px);
+            between_steps += off_px > 1.0;
+        }
+    });
+    CHECK(checked > 12000);
+    CHECK(between_steps > 100); // the eye goes smoothly, the picture in steps
+    // A point 62 mm before the axis goes 2.8 mm in the largest step (25 deg 2 pi / 60), which is 8.6 px; half
+    // of that, and as much again while a missed refresh keeps an old frame.
+    CHECK(farthest_off_px > 2.0);
+    CHECK(farthest_off_px < 8.6);
+}
+
+TEST_CASE("what a fixation is meant for is visible in every frame lit meanwhile", "[unit]") {
+    Sitting sitting(46);
+    const RayCaster caster(sitting.mesh);
+    const ObservedScene& scene = sitting.observer.scene();
+    const SceneView& view = scene.sculptures[0].scene;
+    sitting.present({0, 0, {}});
+    int checked = 0;
+    for (const ScriptedFixation& fixation : sitting.observer.script_of(0)->fixations()) {
+        if (!fixation.target || fixation.end > 8s)
+            continue;
+        for (SessionDuration time = fixation.begin; time < fixation.end; time += 5ms) {
+            const AnimationFrameIndex frame = *sitting.observer.truth_at(sitting.onset() + time).frame;
+            const glm::dvec3 eye = to_object({view.view.camera.position, {0.0, 1.0, 0.0}},
+                                             view.pose_at(scene.animation.angle_of(frame)))
+                                       .origin;
+            REQUIRE_FALSE(caster.is_hidden(fixation.target->position, eye));
+            ++checked;
+        }
+    }
+    CHECK(checked > 500);
+}
+
+TEST_CASE("the same seed looks at the same places and another seed elsewhere", "[unit]") {
+    Sitting one(7), same(7), other(8);
+    for (Sitting* sitting : {&one, &same, &other})
+        sitting->present({5, 0, {}});
+    int alike = 0, compared = 0;
+    for_each_sample(one, [&](SessionTime time) {
+        const GazeTruth truth = one.observer.truth_at(time), again = same.observer.truth_at(time);
+        REQUIRE(truth.gaze.place == again.gaze.place);
+        REQUIRE(truth.gaze.state == again.gaze.state);
+        REQUIRE(truth.surface.has_value() == again.surface.has_value());
+        if (truth.surface)
+            REQUIRE(truth.surface->position == again.surface->position);
+        alike += distance_px(truth.gaze.place, other.observer.gaze_at(time).place) < 1.0;
+        ++compared;
+    });
+    CHECK(alike < compared / 20);
+}
+
+TEST_CASE("a trial's scanpath depends on the trial and not on those before it", "[unit]") {
+    Sitting in_order(9), out_of_order(9);
+    for (const int trial : {0, 1, 2})
+        in_order.present({trial, 0, {}});
+    for (const int trial : {2, 0})
+        out_of_order.present({trial, 0, {}});
+    const auto targets = [](const Sitting& sitting, int trial) {
+        std::vector<std::uint32_t> triangles;
+        for (const ScriptedFixation& fixation : sitting.observer.script_of(trial)->fixations())
+            triangles.push_back(fixation.target ? fixation.target->triangle : 0);
+        return triangles;
+    };
+    CHECK(targets(in_order, 2) == targets(out_of_order, 2));
+    CHECK(targets(in_order, 0) == targets(out_of_order, 0));
+    CHECK(targets(in_order, 0) != targets(in_order, 1));
+}
+
+TEST_CASE("saccades follow the main sequence and the gaze never jumps", "[unit]") {
+    Sitting sitting(47, test::without_wandering());
+    const ObservedScene& scene = sitting.observer.scene();
+    int saccades = 0;
+    double fastest_deg_per_s = 0.0;
+    for (int trial = 0; trial < 5; ++trial) {
+        sitting.present({trial, 0, {}});
+        TrueGaze before = sitting.observer.gaze_at(sitting.onset());
+        for_each_sample(sitting, [&](SessionTime time) {
+            const TrueGaze gaze = sitting.observer.gaze_at(time);
+            const double speed = degrees_between(scene, before.place, gaze.place) / to_seconds(sample_period);
+            fastest_deg_per_s = std::max(fastest_deg_per_s, speed);
+            if (gaze.state == EyeState::fixation && before.state == EyeState::fixation)
+                REQUIRE(speed < 8.0); // pursuit alone
+            before = gaze;
+        });
+        const std::vector<ScriptedFixation>& fixations = sitting.observer.script_of(trial)->fixations();
+        for (std::size_t i = 1; i < fixations.size() && fixations[i].begin < 8s; ++i) {
+            const SessionDuration begin = fixations[i - 1].end, length = fixations[i].begin - begin;
+            const auto at = [&](double share) {
+                return sitting.observer
+                    .gaze_at(sitting.onset() + begin + from_seconds(share * to_seconds(length)))
+                    .place;
+            };
+            const double size_deg = degrees_between(scene, at(0.0), at(1.0));
+            // The object turns on meanwhile, hence the tolerance.
+            CHECK(to_seconds(length) == Approx(0.021 + 0.0022 * size_deg).margin(0.001));
+            const double peak = degrees_between(scene, at(0.45), at(0.55)) / (0.1 * to_seconds(length));
+            CHECK(peak == Approx(1.86 * size_deg / to_seconds(length)).epsilon(0.1).margin(4.0));
+            ++saccades;
+        }
+    }
+    CHECK(saccades > 100);
+    CHECK(fastest_deg_per_s > 150.0);
+    CHECK(fastest_deg_per_s < 600.0);
+}
+
+TEST_CASE("fixations last as long as set, about 250 ms", "[unit]") {
+    Sitting sitting(48);
+    std::vector<double> lengths_s;
+    for (int trial = 0; trial < 40; ++trial) {
+        sitting.present({trial, 0, {}});
+        const std::vector<ScriptedFixation>& fixations = sitting.observer.script_of(trial)->fixations();
+        for (std::size_t i = 1; i < 20; ++i)
+            lengths_s.push_back(to_seconds(fixations[i].end - fixations[i].begin));
+    }
+    std::sort(lengths_s.begin(), lengths_s.end());
+    CHECK(lengths_s.front() >= 0.08);
+    CHECK(lengths_s.back() <= 1.5);
+    CHECK(lengths_s[lengths_s.size() / 2] == Approx(0.25).margin(0.02));
+}
+
+TEST_CASE("blinks come twelve times a minute and last 100 to 200 ms", "[unit]") {
+    const BlinkTrain blinks(3, 12.0);
+    int count = 0, closed_ms = 0;
+    double shortest_s = 1.0, longest_s = 0.0, since_s = 0.0;
+    bool was_closed = false;
+    for (int ms = 0; ms < 600'000; ++ms) {
+        const bool closed = blinks.eye_closed_at(SessionTime(std::chrono::milliseconds(ms)));
+        closed_ms += closed;
+        if (closed && !was_closed) {
+            ++count;
+            since_s = 1e-3 * ms;
+        } else if (!closed && was_closed) {
+            shortest_s = std::min(shortest_s, 1e-3 * ms - since_s);
+            longest_s = std::max(longest_s, 1e-3 * ms - since_s);
+        }
+        was_closed = closed;
+    }
+    CHECK(count == 120);
+    CHECK(shortest_s > 0.098);
+    CHECK(longest_s < 0.202);
+    CHECK(closed_ms == Approx(120 * 150).epsilon(0.1));
+    CHECK_FALSE(BlinkTrain(3, 0.0).eye_closed_at(SessionTime(1s)));
+}
+
+TEST_CASE("the eye wanders by as much as set", "[unit]") {
+    const FixationalMotion motion(5, {0.03}, {0.002});
+    const FixationalMotion still(5, {0.0}, {0.0});
+    double sum = 0.0, sum_of_squares = 0.0;
+    const int count = 400'000;
+    for (int i = 0; i < count; ++i) {
+        const SessionTime time(i * 500us);
+        const double x = motion.displacement_deg(time).x;
+        sum += x;
+        sum_of_squares += x * x;
+        REQUIRE(still.displacement_deg(time) == glm::dvec2(0.0));
+    }
+    CHECK(sum / count == Approx(0.0).margin(0.002));
+    CHECK(std::sqrt(sum_of_squares / count) == Approx(std::hypot(0.03, 0.002)).epsilon(0.05));
+}
+
+TEST_CASE("before and after a presentation the observer looks at the middle of the screen", "[unit]") {
+    Sitting sitting(49, test::without_wandering());
+    const ScreenPoint centre = sitting.observer.scene().screen.centre();
+    CHECK(sitting.observer.gaze_at(SessionTime(400ms)).place == centre);
+    sitting.present({0, 0, {}});
+    const SessionTime end = sitting.onset() + 8s;
+    CHECK(sitting.observer.gaze_at(sitting.onset() - 1ms).place == centre);
+    CHECK(sitting.observer.gaze_at(end + 600ms).place == centre);
+    CHECK_FALSE(sitting.observer.truth_at(end + 600ms).target.has_value());
+    // In between it goes there without a jump.
+    ScreenPoint before = sitting.observer.gaze_at(end - 1ms).place;
+    CHECK(distance_px(before, centre) > 1.0);
+    for (SessionTime time = end - 1ms; time < end + 600ms; time += sample_period) {
+        const ScreenPoint place = sitting.observer.gaze_at(time).place;
+        REQUIRE(degrees_between(sitting.observer.scene(), before, place) < 600.0 * to_seconds(sample_period));
+        before = place;
+    }
+}
+
+TEST_CASE("a sculpture of which only pictures exist is looked at within the picture", "[unit]") {
+    const Mesh mesh = test::bust();
+    ObservedScene scene = test::scene_with(mesh);
+    scene.sculptures[0].mesh = nullptr;
+    SimulatedObserver observer(scene, 1, test::without_wandering());
+    observer.presentation_begins({0, 0, {}});
+    FlipRecord flip;
+    flip.report.vertical_blank = SessionTime(1s);
+    observer.saw(flip);
+    ScreenPoint last = scene.screen.centre();
+    int places = 0;
+    for (SessionTime time(1s); time < SessionTime(9s); time += 1ms) {
+        const GazeTruth truth = observer.truth_at(time);
+        REQUIRE(scene.screen.is_inside_image(scene.screen.image_from_screen(truth.gaze.place)));
+        REQUIRE_FALSE(truth.surface.has_value());
+        if (truth.gaze.state == EyeState::fixation && distance_px(last, truth.gaze.place) > 20.0) {
+            ++places;
+            last = truth.gaze.place;
+        }
+    }
+    CHECK(places > 10);
+}

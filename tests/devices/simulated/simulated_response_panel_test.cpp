@@ -1,0 +1,65 @@
+#include <catch2/catch.hpp>
+
+#include <set>
+
+#include "devices/simulated/simulated_response_panel.h"
+#include "tests/devices/simulated/sitting.h"
+
+using namespace overt;
+using namespace std::chrono_literals;
+using test::Sitting;
+
+TEST_CASE("the observer presses a key at its response time, and again while that has no effect", "[unit]") {
+    Sitting sitting(21);
+    SimulatedResponsePanel panel(sitting.clock, sitting.observer);
+    CHECK_FALSE(panel.poll().has_value());
+    const Trial trial{3, 1, {}};
+    const SessionTime since(10s);
+    sitting.clock.wait_until(since);
+    panel.await_response(trial, since);
+    const SimulatedAnswer expected = sitting.observer.answer_to(trial);
+    CHECK_FALSE(panel.poll().has_value());
+
+    sitting.clock.wait_until(since + expected.after - 1ns);
+    CHECK_FALSE(panel.poll().has_value());
+    sitting.clock.wait_until(since + expected.after + 3ms);
+    const std::optional<ResponsePress> press = panel.poll();
+    REQUIRE(press.has_value());
+    CHECK(press->key == ResponsePress::Key::next);
+    CHECK(press->pressed_at == since + expected.after);
+    CHECK(panel.answer() == expected.text);
+    CHECK_FALSE(panel.poll().has_value());
+    sitting.clock.wait_until(since + expected.after + 1s);
+    CHECK(panel.poll().has_value());
+}
+
+TEST_CASE("a text is read for a while and answered with a key alone", "[unit]") {
+    Sitting sitting(22);
+    SimulatedResponsePanel panel(sitting.clock, sitting.observer);
+    panel.await_response({0, 0, {}}, SessionTime());
+    panel.await_key(SessionTime());
+    CHECK(panel.answer().empty());
+    sitting.clock.wait_until(SessionTime(15s));
+    const std::optional<ResponsePress> press = panel.poll();
+    REQUIRE(press.has_value());
+    CHECK(press->pressed_at >= SessionTime(800ms));
+}
+
+TEST_CASE("answers differ between trials and repeat with the seed", "[unit]") {
+    Sitting one(23), same(23);
+    std::set<std::string> texts;
+    std::set<SessionDuration> times;
+    for (int trial = 0; trial < 30; ++trial) {
+        const SimulatedAnswer answer = one.observer.answer_to({trial, trial % 2, {}});
+        const SimulatedAnswer again = same.observer.answer_to({trial, trial % 2, {}});
+        CHECK(answer.text == again.text);
+        CHECK(answer.after == again.after);
+        CHECK_FALSE(answer.text.empty());
+        CHECK(answer.after >= 800ms);
+        CHECK(answer.after <= 45s);
+        texts.insert(answer.text);
+        times.insert(answer.after);
+    }
+    CHECK(texts.size() > 4);
+    CHECK(times.size() == 30);
+}

@@ -1,0 +1,263 @@
+/// Spoken answers from a device to a file, with their place in time.
+#include "devices/sound/answer_engine.h"
+
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include <catch2/catch.hpp>
+#include <sndfile.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "devices/host/clocks.h"
+#include "devices/simulated/simulated_answer_recorder.h"
+#include "experiment/base/content_hash.h"
+#include "experiment/session/answer_check.h"
+#include "tests/devices/simulated/sitting.h"
+#include "tests/support/temporary_folder.h"
+
+using namespace overt;
+using namespace overt::test;
+
+namespace {
+
+struct Wav {
+    SF_INFO info{};
+    std::vector<float> samples;
+};
+
+Wav read_wav(const std::filesystem::path& file) {
+    Wav wav;
+    SNDFILE* const sound = sf_open(file.c_str(), SFM_READ, &wav.info);
+    if (!sound)
+        throw std::runtime_error(file.string() + ": " + sf_strerror(nullptr));
+    wav.samples.resize(static_cast<std::size_t>(wav.info.frames));
+    sf_read_float(sound, wav.samples.data(), wav.info.frames);
+    sf_close(sound);
+    return wav;
+}
+
+/// A device of this test's own thread, whose samples are their own numbers.
+struct CountingDevice {
+    SoundRing& ring;
+    SessionTime begun;
+    double rate_hz;
+    std::int64_t next = 0;
+    static float value_of(std::int64_t sample) { return static_cast<float>(sample % 30000) / 32768.0f; }
+    void push(bool is_lost = false) {
+        SoundBlock block;
+        block.first_sample = next;
+        block.at = begun + from_seconds(static_cast<double>(next) / rate_hz);
+        block.count = SoundBlock::room;
+        for (std::uint32_t i = 0; i < block.count; ++i)
+            block.samples[i] = value_of(next + i);
+        next += block.count;
+        if (!is_lost)
+            ring.try_push(block);
+    }
+    /// As time goes.
+    void push_until(const Clock& clock, SessionTime until) {
+        while (clock.now() < until) {
+            while (begun + from_seconds(static_cast<double>(next + SoundBlock::room) / rate_hz) <=
+                   clock.now())
+                push();
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    }
+};
+
+RecordedAnswer wait_for(AnswerRecording& recording) {
+    for (int i = 0; i < 2000; ++i) {
+        if (const auto answer = recording.result())
+            return *answer;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    throw std::runtime_error("the answer never came");
+}
+
+} // namespace
+
+TEST_CASE("the sample at the response screen's onset is the one that was taken then, to the sample",
+          "[unit]") {
+    const TemporaryFolder folder;
+    SteadyClock clock;
+    SoundRing ring(sound_ring_blocks);
+    const double rate_hz = 16000.0;
+    AnswerEngine engine(clock, ring, {"counting", 16000, 16, {}});
+    engine.keep_in(folder.path());
+    CountingDevice device{ring, clock.now(), rate_hz};
+    device.push_until(clock, clock.now() + std::chrono::milliseconds(60));
+    const auto recording = engine.begin({4, 0, {}});
+    device.push_until(clock, clock.now() + std::chrono::milliseconds(40));
+    const SessionTime onset = clock.now();
+    recording->response_screen_lit(onset);
+    device.push_until(clock, clock.now() + std::chrono::milliseconds(700));
+    const SessionTime end = clock.now();
+    recording->end(end);
+    device.push_until(clock, clock.now() + std::chrono::milliseconds(60));
+    const RecordedAnswer answer = wait_for(*recording);
+    CHECK(answer.fault.empty());
+    CHECK(answer.trial == 4);
+    CHECK(answer.file == "answers/trial_05.wav");
+    const Wav wav = read_wav(folder.path() / answer.file);
+    CHECK(wav.info.format == (SF_FORMAT_WAV | SF_FORMAT_PCM_16));
+    REQUIRE(static_cast<std::int64_t>(wav.samples.size()) == answer.samples);
+    const double onset_in_device = to_seconds(onset - device.begun) * rate_hz;
+    const auto index = static_cast<std::size_t>(std::lround(answer.onset_sample));
+    REQUIRE(index < wav.samples.size());
+    const double number = static_cast<double>(wav.samples[index]) * 32768.0;
+    CHECK(std::abs(number - std::fmod(onset_in_device, 30000.0)) <= 1.5);
+    // Nothing is missing at its end, however late it came.
+    const double length_s = (static_cast<double>(wav.samples.size()) - answer.onset_sample) / rate_hz;
+    CHECK(std::abs(length_s - to_seconds(end - onset)) < 2.0 / rate_hz);
+    CHECK(answer.sha256 == hash_of_file(folder.path() / answer.file));
+}
+
+TEST_CASE("blocks that the ring lost leave a gap of their length, and are counted", "[unit]") {
+    const TemporaryFolder folder;
+    SteadyClock clock;
+    SoundRing ring(sound_ring_blocks);
+    AnswerEngine engine(clock, ring, {"counting", 48000, 24, {}});
+    engine.keep_in(folder.path());
+    const auto recording = engine.begin({0, 0, {}});
+    CountingDevice device{ring, clock.now(), 48000.0};
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    for (int block = 0; block < 40; ++block)
+        device.push(block >= 10 && block < 13);
+    recording->response_screen_lit(device.begun);
+    recording->end(device.begun + from_seconds(40.0 * 256.0 / 48000.0));
+    const RecordedAnswer answer = wait_for(*recording);
+    CHECK(answer.overruns == 1);
+    CHECK(answer.lost_samples == 3 * 256);
+    CHECK(answer.samples == 40 * 256);
+    CHECK_FALSE(warnings_about(answer).empty());
+    const Wav wav = read_wav(folder.path() / answer.file);
+    CHECK(wav.info.format == (SF_FORMAT_WAV | SF_FORMAT_PCM_24));
+    REQUIRE(wav.samples.size() == 40 * 256);
+    int wrong = 0;
+    for (std::int64_t i = 0; i < 40 * 256; ++i) {
+        const bool is_gap = i >= 10 * 256 && i < 13 * 256;
+        wrong += std::abs(wav.samples[static_cast<std::size_t>(i)] -
+                          (is_gap ? 0.0f : CountingDevice::value_of(i))) > 1e-6f;
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("answers have files of their own, and none ends another", "[unit]") {
+    const TemporaryFolder folder;
+    SteadyClock clock;
+    SoundRing ring(sound_ring_blocks);
+    AnswerEngine engine(clock, ring, {"counting", 48000, 16, {}});
+    engine.keep_in(folder.path());
+    CountingDevice device{ring, clock.now(), 48000.0};
+    std::vector<std::string> names;
+    for (int attempt = 0; attempt < 3; ++attempt) {
+        const auto recording = engine.begin({7, 0, {}});
+        const SessionTime onset = clock.now();
+        recording->response_screen_lit(onset);
+        device.push_until(clock, onset + std::chrono::milliseconds(70));
+        // The end is told before its samples have come, as by a key.
+        const SessionTime end = clock.now() + std::chrono::milliseconds(20);
+        recording->end(end);
+        device.push_until(clock, end + std::chrono::milliseconds(30));
+        const RecordedAnswer answer = wait_for(*recording);
+        names.push_back(answer.file);
+        CHECK(static_cast<double>(answer.samples) - answer.onset_sample ==
+              Approx(to_seconds(end - onset) * 48000.0).margin(2.0));
+    }
+    CHECK(names == std::vector<std::string>{"answers/trial_08.wav", "answers/trial_08_2.wav",
+                                            "answers/trial_08_3.wav"});
+}
+
+TEST_CASE("a device that stops, and a folder that cannot be written to, end the answer and not the session",
+          "[unit]") {
+    const TemporaryFolder folder;
+    SteadyClock clock;
+    SoundRing ring(sound_ring_blocks);
+    AnswerEngine engine(clock, ring, {"counting", 48000, 16, {}});
+    engine.keep_in(folder.path());
+    const auto silent = engine.begin({0, 0, {}});
+    silent->end(clock.now());
+    CHECK(wait_for(*silent).fault.find("gave nothing") != std::string::npos);
+    folder.file("blocked", "a file where a folder should be");
+    engine.keep_in(folder.path() / "blocked");
+    const auto blocked = engine.begin({1, 0, {}});
+    CHECK_FALSE(wait_for(*blocked).fault.empty());
+}
+
+TEST_CASE("a recorder that is killed leaves a file that can be heard up to there", "[unit]") {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "killed.wav";
+    int written[2];
+    REQUIRE(::pipe(written) == 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        WavFile wav(file, 48000, 16);
+        const std::vector<float> block(256, 0.25f);
+        for (int i = 0; i < 400; ++i)
+            wav.write(block);
+        char done = 1;
+        if (::write(written[1], &done, 1) != 1)
+            ::_exit(1);
+        for (;;)
+            ::pause();
+    }
+    char done = 0;
+    REQUIRE(::read(written[0], &done, 1) == 1);
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    ::close(written[0]);
+    ::close(written[1]);
+    const Wav wav = read_wav(file);
+    CHECK(wav.samples.size() == 400 * 256);
+    CHECK(wav.samples.back() == Approx(0.25f).margin(1e-4));
+}
+
+TEST_CASE("the voice of a simulated observer comes out of its file where it was put", "[unit]") {
+    Sitting sitting(31);
+    for (const double noise_dbfs : {-75.0, -60.0, -48.0}) {
+        for (int trial = 0; trial < 4; ++trial) {
+            CAPTURE(noise_dbfs, trial);
+            const TemporaryFolder folder;
+            SimulatedSoundSettings settings;
+            settings.noise_dbfs = noise_dbfs;
+            SimulatedAnswerRecorder recorder(sitting.clock, sitting.observer, 5, settings);
+            recorder.keep_in(folder.path());
+            const Trial asked{trial, 0, {}};
+            const auto recording = recorder.begin(asked);
+            const SessionTime onset = sitting.clock.now() + std::chrono::milliseconds(13);
+            recording->response_screen_lit(onset);
+            const SimulatedAnswer said = sitting.observer.answer_to(asked);
+            recording->end(onset + said.after);
+            const auto answer = recording->result();
+            REQUIRE(answer);
+            CHECK(answer->fault.empty());
+            CHECK(warnings_about(*answer).empty());
+            REQUIRE(answer->voice_onset);
+            CHECK(std::abs(to_seconds(*answer->voice_onset - said.voice_after)) < 0.010);
+            CHECK(answer->measured_rate_hz == Approx(48000.0 * 1.000025).epsilon(200e-6));
+            CHECK(read_wav(folder.path() / answer->file).info.frames == answer->samples);
+        }
+    }
+}
+
+TEST_CASE("a voice that is too loud, and none at all, are said", "[unit]") {
+    Sitting sitting(31);
+    for (const bool is_loud : {true, false}) {
+        const TemporaryFolder folder;
+        SimulatedSoundSettings settings;
+        settings.gain = is_loud ? 40.0 : 1e-3;
+        settings.noise_dbfs = is_loud ? -60.0 : -40.0;
+        SimulatedAnswerRecorder recorder(sitting.clock, sitting.observer, 5, settings);
+        recorder.keep_in(folder.path());
+        const auto recording = recorder.begin({0, 0, {}});
+        recording->response_screen_lit(sitting.clock.now());
+        recording->end(sitting.clock.now() + std::chrono::seconds(4));
+        const auto answer = recording->result();
+        REQUIRE(answer);
+        const auto warnings = warnings_about(*answer);
+        REQUIRE(warnings.size() == 1);
+        CHECK(warnings[0].find(is_loud ? "clipped" : "silent") == 0);
+    }
+}

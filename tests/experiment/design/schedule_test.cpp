@@ -1,0 +1,228 @@
+#include "experiment/design/schedule.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+#include "experiment/base/error.h"
+#include "tests/experiment/protocol/protocol_fixtures.h"
+
+using namespace overt;
+using namespace overt::test;
+
+namespace {
+
+/// Longest run of trials with the same value.
+template <class Value> int longest_run(const Schedule& schedule, Value value) {
+    int longest = 0, run = 0;
+    for (std::size_t i = 0; i < schedule.trials.size(); ++i) {
+        const bool goes_on = i > 0 && value(schedule.trials[i]) == value(schedule.trials[i - 1]);
+        run = goes_on ? run + 1 : 1;
+        longest = std::max(longest, run);
+    }
+    return longest;
+}
+
+int sculpture_run(const Schedule& schedule) {
+    return longest_run(schedule, [](const Trial& trial) { return trial.condition.sculpture; });
+}
+int task_run(const Schedule& schedule) {
+    return longest_run(schedule, [](const Trial& trial) { return trial.task; });
+}
+
+/// A protocol of so many sculptures and materials, with tasks of both kinds.
+Protocol design(int sculptures, int materials, int every_tasks, int once_tasks) {
+    Protocol protocol;
+    protocol.sculptures.resize(static_cast<std::size_t>(sculptures));
+    protocol.materials.resize(static_cast<std::size_t>(materials));
+    protocol.tasks.resize(static_cast<std::size_t>(every_tasks + once_tasks));
+    for (int task = every_tasks; task < every_tasks + once_tasks; ++task)
+        protocol.tasks[static_cast<std::size_t>(task)].stimuli = TaskCoverage::once_per_sculpture;
+    return protocol;
+}
+
+/// A name for an order of trials.
+std::vector<int> key_of(const Schedule& schedule) {
+    std::vector<int> key;
+    for (const Trial& trial : schedule.trials)
+        key.push_back(100 * trial.task + 10 * trial.condition.sculpture + trial.condition.material);
+    return key;
+}
+
+} // namespace
+
+TEST_CASE("the schedule shows each stimulus once under the first two tasks, 18 of 30 trials", "[unit]") {
+    const Protocol protocol = paper_protocol();
+    std::set<std::vector<int>> orders;
+    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+        const int number = static_cast<int>(seed % 12) + 1;
+        const Schedule schedule = make_schedule(protocol, {"P", number}, seed);
+        REQUIRE(schedule.trials.size() == 30);
+        std::map<int, std::set<Condition>> stimuli;
+        std::map<int, std::set<int>> sculptures;
+        for (std::size_t i = 0; i < schedule.trials.size(); ++i) {
+            REQUIRE(schedule.trials[i].index == static_cast<int>(i));
+            stimuli[schedule.trials[i].task].insert(schedule.trials[i].condition);
+            sculptures[schedule.trials[i].task].insert(schedule.trials[i].condition.sculpture);
+        }
+        for (int task = 0; task < 6; ++task) {
+            REQUIRE(stimuli[task].size() == (task < 2 ? 9 : 3));
+            REQUIRE(sculptures[task].size() == 3);
+        }
+        REQUIRE(sculpture_run(schedule) <= 2);
+        orders.insert(key_of(schedule));
+    }
+    CHECK(orders.size() == 1000);
+}
+
+TEST_CASE("the same seed and observer give the same order, whatever the label", "[unit]") {
+    const Protocol protocol = paper_protocol();
+    const Schedule first = make_schedule(protocol, {"P07", 7}, 42);
+    CHECK(first.trials == make_schedule(protocol, {"seven", 7}, 42).trials);
+    CHECK(key_of(first) != key_of(make_schedule(protocol, {"P10", 10}, 42)));
+    CHECK(first.seed == 42);
+    CHECK(first.observer.label == "P07");
+}
+
+TEST_CASE("twelve observers fill every cell of the rotated tasks four times", "[unit]") {
+    const Protocol protocol = paper_protocol();
+    std::map<std::tuple<int, int, int>, int> cells;
+    for (int observer = 1; observer <= 12; ++observer) {
+        for (const Trial& trial : make_schedule(protocol, {"P", observer}, 1).trials)
+            ++cells[{trial.task, trial.condition.sculpture, trial.condition.material}];
+    }
+    CHECK(cells.size() == 54);
+    for (const auto& [cell, count] : cells)
+        CHECK(count == (std::get<0>(cell) < 2 ? 12 : 4));
+}
+
+TEST_CASE("any run of M observers fills each cell of a rotated task once, for any numbers of things",
+          "[unit]") {
+    for (int sculptures = 1; sculptures <= 6; ++sculptures) {
+        for (int materials = 1; materials <= 6; ++materials) {
+            for (int task = 0; task < 7; ++task) {
+                for (int sculpture = 0; sculpture < sculptures; ++sculpture) {
+                    std::set<int> seen;
+                    for (int observer = 5; observer < 5 + materials; ++observer)
+                        seen.insert(rotated_material(observer, task, sculpture, sculptures, materials));
+                    REQUIRE(static_cast<int>(seen.size()) == materials);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("each observer sees all materials equally often, to one, under the rotated tasks", "[unit]") {
+    for (int sculptures = 1; sculptures <= 6; ++sculptures) {
+        for (int materials = 1; materials <= 6; ++materials) {
+            for (int tasks = 1; tasks <= 7; ++tasks) {
+                std::vector<int> count(static_cast<std::size_t>(materials));
+                for (int task = 0; task < tasks; ++task) {
+                    for (int sculpture = 0; sculpture < sculptures; ++sculpture)
+                        ++count[static_cast<std::size_t>(
+                            rotated_material(3, task, sculpture, sculptures, materials))];
+                }
+                const auto [least, most] = std::minmax_element(count.begin(), count.end());
+                REQUIRE(*most - *least <= 1);
+            }
+        }
+    }
+}
+
+TEST_CASE("a sculpture changes its material from one rotated task to the next", "[unit]") {
+    for (int observer = 1; observer <= 12; ++observer) {
+        for (int task = 0; task + 1 < 4; ++task) {
+            for (int sculpture = 0; sculpture < 3; ++sculpture)
+                CHECK(rotated_material(observer, task, sculpture, 3, 3) !=
+                      rotated_material(observer, task + 1, sculpture, 3, 3));
+        }
+    }
+}
+
+TEST_CASE("all orders that keep to the limits are equally probable", "[unit]") {
+    // Two sculptures in two materials: 24 orders, of which 8 alternate between the sculptures.
+    Protocol protocol = design(2, 2, 1, 0);
+    protocol.schedule.max_sculpture_run = 1;
+    std::map<std::vector<int>, int> counts;
+    for (std::uint64_t seed = 0; seed < 8000; ++seed)
+        ++counts[key_of(make_schedule(protocol, {"P", 1}, seed))];
+    CHECK(counts.size() == 8);
+    double chi_square = 0.0;
+    for (const auto& [order, count] : counts)
+        chi_square += (count - 1000.0) * (count - 1000.0) / 1000.0;
+    CHECK(chi_square < 24.3); // 99.9 % point for 7 degrees of freedom
+}
+
+TEST_CASE("limits too tight for rejection are kept, and the orders are still many and even", "[unit]") {
+    // 15 trials of each of two sculptures in strict alternation: 2 orders of sculptures in 155 million.
+    Protocol protocol = design(2, 5, 3, 0);
+    protocol.schedule.max_sculpture_run = 1;
+    protocol.schedule.max_task_run = 2;
+    std::set<std::vector<int>> orders;
+    int begins_with_first = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        const Schedule schedule = make_schedule(protocol, {"P", 1}, seed);
+        REQUIRE(sculpture_run(schedule) == 1);
+        REQUIRE(task_run(schedule) <= 2);
+        orders.insert(key_of(schedule));
+        begins_with_first += schedule.trials.front().task == 0 ? 1 : 0;
+    }
+    CHECK(orders.size() == 40);
+    CHECK(begins_with_first > 3);
+    CHECK(begins_with_first < 25);
+}
+
+TEST_CASE("both limits hold together", "[unit]") {
+    Protocol protocol = paper_protocol();
+    protocol.schedule.max_sculpture_run = 1;
+    protocol.schedule.max_task_run = 1;
+    ScheduleMaker maker(protocol);
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        const Schedule schedule = maker.make({"P", 2}, seed);
+        CHECK(sculpture_run(schedule) == 1);
+        CHECK(task_run(schedule) == 1);
+    }
+}
+
+TEST_CASE("a limit that no order can keep to is refused by its name", "[unit]") {
+    Protocol protocol = design(3, 3, 1, 1); // nine trials of one task, three of the other
+    protocol.schedule.max_task_run = 2;
+    CHECK_THROWS_WITH(make_schedule(protocol, {"P", 1}, 1),
+                      Catch::Contains("schedule.max_task_run") && Catch::Contains("runs of 3 at least"));
+    CHECK(find_order_conflict(protocol)->keys.front() == "schedule.max_task_run");
+    protocol.schedule.max_task_run = 3;
+    CHECK_FALSE(find_order_conflict(protocol));
+    CHECK(task_run(make_schedule(protocol, {"P", 1}, 1)) <= 3);
+}
+
+TEST_CASE("limits that exclude each other only together are refused as well", "[unit]") {
+    Protocol protocol = design(2, 1, 2, 0);
+    protocol.schedule.max_sculpture_run = 1;
+    protocol.schedule.max_task_run = 1;
+    // Either limit alone can be kept. Both: after task 0 with sculpture 0 only task 1 with sculpture 1 may
+    // come, and after that nothing but the first again.
+    CHECK_THROWS_AS(make_schedule(protocol, {"P", 1}, 1), InputError);
+    CHECK(find_order_conflict(protocol));
+}
+
+TEST_CASE("a limit on the only sculpture or the only task has no effect", "[unit]") {
+    Protocol protocol = design(1, 4, 1, 0);
+    protocol.schedule.max_sculpture_run = 1;
+    protocol.schedule.max_task_run = 1;
+    CHECK(make_schedule(protocol, {"P", 1}, 1).trials.size() == 4);
+    CHECK_FALSE(find_order_conflict(protocol));
+}
+
+TEST_CASE("the number of an observer is what stands at the end of the label", "[unit]") {
+    CHECK(observer_number("P07") == 7);
+    CHECK(observer_number("12") == 12);
+    CHECK(observer_number("lab2-130") == 130);
+    CHECK_FALSE(observer_number("pilot"));
+    CHECK_FALSE(observer_number("P00"));
+    CHECK_FALSE(observer_number(""));
+    CHECK_FALSE(observer_number("7a"));
+    CHECK_FALSE(observer_number("P12345678901234567890"));
+    CHECK(observer_number("P000000000012") == 12);
+}

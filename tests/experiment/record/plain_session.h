@@ -1,0 +1,206 @@
+/// A session on ports that do what they are told, for tests of its order.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "experiment/design/schedule.h"
+#include "experiment/session/session.h"
+#include "tests/experiment/protocol/protocol_fixtures.h"
+
+namespace overt::test {
+
+class StandingClock final : public Clock {
+  public:
+    SessionTime now() const noexcept override { return now_; }
+    void wait_until(SessionTime time) noexcept override { now_ = std::max(now_, time); }
+
+  private:
+    SessionTime now_{};
+};
+
+class PlainPresenter final : public Presenter {
+  public:
+    explicit PlainPresenter(StandingClock& clock) : clock_(clock) {}
+    DisplayTiming timing() const override { return {120.0, VblankSource::virtual_display}; }
+    void load_frames(const Condition& condition) override { loaded.push_back(condition); }
+    FlipReport show(const Screen& screen) override {
+        if (screen.kind == Screen::Kind::text || screen.kind == Screen::Kind::form)
+            texts.push_back(screen.text);
+        return next();
+    }
+    void show_level(const LevelBar& bar) override { bars.push_back(bar); }
+    FlipReport flip(AnimationFrameIndex) noexcept override { return next(); }
+    bool closed() const noexcept override { return false; }
+
+    std::vector<Condition> loaded;
+    std::vector<std::string> texts;
+    std::vector<LevelBar> bars;
+
+  private:
+    FlipReport next() noexcept {
+        FlipReport report;
+        constexpr std::int64_t interval_ns = 8'333'333;
+        // The next one that has not begun yet.
+        refresh_ = std::max(refresh_ + 1, clock_.now().time_since_epoch().count() / interval_ns + 1);
+        clock_.wait_until(SessionTime(std::chrono::nanoseconds(refresh_ * interval_ns)));
+        report.refresh = {refresh_};
+        report.requested = report.swapped = report.vertical_blank = clock_.now();
+        return report;
+    }
+    StandingClock& clock_;
+    std::int64_t refresh_ = 0;
+};
+
+/// Sees no eye during the presentations that it is told of, by their number from 0.
+class BlinkingTracker final : public EyeTracker {
+  public:
+    TrackerDescription description() const override { return {"blinking", 1000.0, Eye::left}; }
+    ValidationResult calibrate() override {
+        ++calibrations;
+        return {};
+    }
+    std::optional<Degrees> drift_check(ScreenPoint) override { return Degrees{0.1}; }
+    ClockPair read_clocks() noexcept override { return {}; }
+    void start_recording() override { ++recording_; }
+    void stop_recording() override {}
+    std::size_t poll(std::span<GazeSample> into) noexcept override {
+        into[0] = {};
+        if (std::find(blind.begin(), blind.end(), recording_) == blind.end())
+            into[0].gaze = ScreenPoint{1.0, 2.0};
+        return 1;
+    }
+    bool lost() const noexcept override { return false; }
+
+    std::vector<int> blind;
+    int calibrations = 0;
+
+  private:
+    int recording_ = -1;
+};
+
+/// Presses once at each time that it is asked: what it is told to, or yes to decisions and «next» to all
+/// else.
+class ScriptedPanel final : public ResponsePanel {
+  public:
+    using Key = ResponsePress::Key;
+    explicit ScriptedPanel(StandingClock& clock) : clock_(clock) {}
+    void await_key(SessionTime) override { awaited_ = Key::next; }
+    void await_response(const Trial&, SessionTime) override { awaited_ = Key::next; }
+    void await_decision(bool, SessionTime) override { awaited_ = Key::yes; }
+    void await_entry(SessionTime) override { awaited_ = Key::character; }
+    void entered(SessionPhase phase, int of_trial) noexcept override {
+        phases.push_back(phase);
+        trial = of_trial;
+        looks = 0;
+    }
+    std::optional<ResponsePress> poll() noexcept override {
+        if (clock_.now() == last_)
+            return std::nullopt;
+        last_ = clock_.now();
+        ++looks;
+        ResponsePress press{awaited_ == Key::character ? Key::next : awaited_, last_};
+        if (const std::optional<ResponsePress> told = tell ? tell(*this) : std::nullopt) {
+            press = *told;
+            press.pressed_at = last_;
+        }
+        return press;
+    }
+    std::string answer() override { return "yes"; }
+
+    SessionPhase phase() const { return phases.back(); }
+    bool is_deciding() const { return awaited_ == Key::yes; }
+    bool is_typing() const { return awaited_ == Key::character; }
+    long times_in(SessionPhase phase) const { return std::count(phases.begin(), phases.end(), phase); }
+
+    /// What it presses now, if not the usual.
+    std::function<std::optional<ResponsePress>(ScriptedPanel&)> tell;
+    std::vector<SessionPhase> phases;
+    int trial = -1;
+    int looks = 0; ///< in this phase
+
+  private:
+    StandingClock& clock_;
+    SessionTime last_{};
+    Key awaited_ = Key::next;
+};
+
+class NotingLog final : public SessionLog {
+  public:
+    void flip(const FlipRecord&) noexcept override { ++flips; }
+    void missed(const MissedRefresh&) noexcept override {}
+    void sample(int, const GazeSample&) noexcept override { ++samples; }
+    void clock_pair(const ClockPair&) noexcept override {}
+    void event(const SessionEvent& event) override {
+        kinds.emplace_back(event.kind);
+        details.push_back(event.detail);
+        times.push_back(event.at);
+    }
+    void consent(const RecordedConsent& consent) override { consents.push_back(consent); }
+    void observer_fields(const std::vector<RecordedObserverField>& filled) override { fields = filled; }
+    void trial_started(const Trial& trial, SessionTime) override { started.push_back(trial.index); }
+    void trial_finished(const Trial&, const TrialOutcome& outcome) override {
+        outcomes.push_back(outcome);
+        completed.push_back(outcome.status == TrialOutcome::Status::completed);
+    }
+    /// The detail of each event of this kind.
+    std::vector<std::string> details_of(std::string_view kind) const {
+        std::vector<std::string> found;
+        for (std::size_t i = 0; i < kinds.size(); ++i)
+            if (kinds[i] == kind)
+                found.push_back(details[i]);
+        return found;
+    }
+    long count(std::string_view kind) const { return std::count(kinds.begin(), kinds.end(), kind); }
+
+    int flips = 0, samples = 0;
+    std::vector<std::string> kinds, details;
+    std::vector<SessionTime> times;
+    std::vector<int> started;
+    std::vector<bool> completed;
+    std::vector<TrialOutcome> outcomes;
+    std::vector<RecordedConsent> consents;
+    std::vector<RecordedObserverField> fields;
+};
+
+struct Sitting {
+    explicit Sitting(const Protocol& sat) : protocol(sat) {}
+    SessionResult run() {
+        const Schedule schedule = make_schedule(protocol, {"P", 1}, 1);
+        return Session(protocol, schedule, {960.0, 540.0},
+                       {.clock = clock,
+                        .presenter = presenter,
+                        .tracker = tracker,
+                        .panel = panel,
+                        .log = log,
+                        .witnesses = {},
+                        .observer = "P1",
+                        .can_type = true,
+                        .recorder = recorder},
+                       fields)
+            .run({});
+    }
+    Protocol protocol;
+    StandingClock clock;
+    PlainPresenter presenter{clock};
+    BlinkingTracker tracker;
+    ScriptedPanel panel{clock};
+    NotingLog log;
+    FieldValues fields;
+    AnswerRecorder* recorder = nullptr;
+};
+
+inline Protocol short_protocol(std::string_view more) {
+    const ReadText read(minimal_protocol, "[[material]]\nid = \"clay\"\nkind = \"diffuse\"\n"
+                                          "[animation]\nduration_s = 0.1\n" +
+                                              std::string(more));
+    INFO(read.diagnostics.print());
+    REQUIRE(read.protocol);
+    return *read.protocol;
+}
+
+} // namespace overt::test

@@ -1,0 +1,127 @@
+#include "experiment/record/schema_migration.h"
+
+#include "experiment/record/read/session_record.h"
+#include "experiment/record/verify/verification.h"
+
+#include <catch2/catch.hpp>
+
+#include "experiment/base/error.h"
+#include "tests/experiment/record/earlier_session.h"
+#include "tests/experiment/record/sealed_session.h"
+
+using namespace overt;
+using namespace overt::testing;
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+
+namespace {
+
+int version_of(const fs::path& file) {
+    SQLite::Database database(file.string(), SQLite::OPEN_READONLY);
+    return database.execAndGet("PRAGMA user_version").getInt();
+}
+
+/// Two trials, a third that failed and is to come again, a fourth that was cut off.
+fs::path make_session_of_version(const fs::path& root, int version) {
+    const fs::path session = make_session(root, example_header());
+    const std::vector<Trial> trials = example_header().schedule.trials;
+    {
+        SessionStore store(session / session_file_name, patient());
+        for (std::size_t i = 0; i < 3; ++i) {
+            write_rows(store, trials[i], 50);
+            TrialOutcome outcome = outcome_at(static_cast<int>(i) * 10000);
+            outcome.status = i == 2 ? TrialOutcome::Status::aborted : TrialOutcome::Status::completed;
+            if (i == 2)
+                store.event(
+                    {at_ms(24000), 2, "trial failed",
+                     "gaze lost (0 refreshes missed, 40.0 % of samples without gaze): comes again at the "
+                     "end of the block"});
+            store.trial_finished(trials[i], outcome);
+        }
+        store.trial_started(trials[3], at_ms(30000));
+    }
+    make_earlier(session / session_file_name, version);
+    return session;
+}
+
+} // namespace
+
+TEST_CASE("sessions of earlier formats are read as they are, and nothing in them changes", "[unit]") {
+    const int version = GENERATE(1, 2);
+    const TemporaryFolder root;
+    const fs::path session = make_session_of_version(root.path(), version);
+    const std::string before = text_of(session / session_file_name);
+    const SessionRecord record(session);
+    CHECK(record.header().schedule.trials == example_header().schedule.trials);
+    REQUIRE(record.trials().size() == 4);
+    CHECK(record.trials()[0].counts);
+    CHECK_FALSE(record.trials()[2].counts);
+    CHECK(record.trials()[3].status == TrialRecord::Status::open);
+    CHECK(record.samples(record.trials()[0]).size() == 50);
+    CHECK(record.given_up().empty());
+    const Verification found = verify_session(session);
+    CHECK(found.is_sound());
+    CHECK_THAT(found.notes.at(0), Contains("without seals"));
+    CHECK(text_of(session / session_file_name) == before);
+}
+
+TEST_CASE("a session of an earlier format that goes on becomes one of today, and a copy is kept", "[unit]") {
+    const int version = GENERATE(1, 2);
+    const TemporaryFolder root;
+    const fs::path session = make_session_of_version(root.path(), version);
+    const std::string before = text_of(session / session_file_name);
+    const AllRows rows_before = read_all_rows(session / session_file_name).value();
+    {
+        SessionStore store(session / session_file_name, patient());
+        write_rows(store, example_header().schedule.trials[3], 20);
+        store.trial_finished(example_header().schedule.trials[3], outcome_at(40000));
+        store.close();
+    }
+    begin_manifest(session, example_header(), test_program);
+    REQUIRE(close_manifest(session));
+    CHECK(version_of(session / session_file_name) == session_schema_version);
+    const fs::path copy = session / ("session.version-" + std::to_string(version) + ".sqlite");
+    CHECK(text_of(copy) == before);
+    const AllRows rows = read_all_rows(session / session_file_name).value();
+    for (const char* const table : {"flip", "sample"})
+        for (std::int64_t trial = 1; trial <= 3; ++trial)
+            if (version == 2 || std::string(table) == "sample")
+                CHECK(rows.at({table, trial}) == rows_before.at({table, trial}));
+
+    const SessionRecord record(session);
+    REQUIRE(record.trials().size() == 5);
+    CHECK(record.trials()[2].outcome.afterwards == TrialOutcome::Afterwards::end_of_block);
+    CHECK(record.trials()[3].status == TrialRecord::Status::interrupted);
+    CHECK(record.trials()[4].counts);
+    const Verification found = verify_session(session);
+    for (const Damage& damage : found.damages)
+        UNSCOPED_INFO(to_text(damage));
+    CHECK(found.is_sound());
+    // What was there before is sealed now.
+    SQLite::Database(((session / session_file_name).string()), SQLite::OPEN_READWRITE)
+        .exec("UPDATE sample SET pupil_area = 1 WHERE trial_id = 1 AND n = 7");
+    CHECK(verify_session(session).damages.at(0).row == "trial_id = 1, n = 7");
+}
+
+TEST_CASE("a session of today needs no migration, and one of tomorrow is refused by its version", "[unit]") {
+    const TemporaryFolder root;
+    const fs::path session = make_session(root.path(), example_header());
+    const std::string before = text_of(session / session_file_name);
+    CHECK_FALSE(migrate_session_file(session / session_file_name));
+    CHECK(text_of(session / session_file_name) == before);
+    SQLite::Database((session / session_file_name).string(), SQLite::OPEN_READWRITE)
+        .exec("PRAGMA user_version = 99");
+    CHECK_THROWS_WITH(migrate_session_file(session / session_file_name),
+                      Contains("newer overt") && Contains("99"));
+}
+
+TEST_CASE("a migration that cannot keep a copy changes nothing", "[unit]") {
+    const TemporaryFolder root;
+    const fs::path session = make_session_of_version(root.path(), 2);
+    const std::string before = text_of(session / session_file_name);
+    // Where the copy would go first, something else is.
+    fs::create_directories(session / "session.version-2.sqlite.partial");
+    CHECK_THROWS_WITH(SessionStore(session / session_file_name, patient()),
+                      Contains("session.version-2.sqlite") && Contains("the session is as it was"));
+    CHECK(text_of(session / session_file_name) == before);
+}

@@ -1,0 +1,77 @@
+#include "experiment/record/session_directory.h"
+
+#include <catch2/catch.hpp>
+
+#include "experiment/base/error.h"
+#include "experiment/record/read/session_record.h"
+#include "tests/experiment/record/session_fixture.h"
+
+using namespace overt;
+using namespace overt::testing;
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+
+TEST_CASE("sessions of an observer are numbered on, and none is overwritten", "[unit]") {
+    const TemporaryFolder root;
+    const SessionHeader header = example_header();
+    const SessionPlace place{root.path() / "sessions", "tiny", "AB7"};
+    CHECK(next_session_number(place) == 1);
+    CHECK(make_session(place.root, header) == place.root / "tiny" / "sub-AB7_ses-01");
+    CHECK(make_session(place.root, header) == place.root / "tiny" / "sub-AB7_ses-02");
+    CHECK(next_session_number({place.root, "tiny", "AB"}) == 1);
+    CHECK_THROWS_WITH(SessionDirectory(place, 1), Contains("exists already") && Contains("number is 3"));
+    CHECK_THROWS_AS(SessionDirectory(place, 2), InputError);
+    CHECK_THROWS_AS(SessionDirectory(place, 0), InputError);
+    CHECK(SessionDirectory(place, 12).session_number() == 12);
+}
+
+TEST_CASE("names that would not make one folder are refused", "[unit]") {
+    const TemporaryFolder root;
+    for (const char* label : {"", "a b", "../x", "sub-1", "ä"})
+        CHECK_THROWS_AS(session_path({root.path(), "tiny", label}, 1), InputError);
+    for (const char* name : {"", "a/b", "..", ".hidden", "a b"})
+        CHECK_THROWS_AS(session_path({root.path(), name, "1"}, 1), InputError);
+}
+
+TEST_CASE("a session that was never published leaves nothing behind", "[unit]") {
+    const TemporaryFolder root;
+    const SessionPlace place{root.path(), "tiny", "1"};
+    {
+        const SessionDirectory directory(place);
+        create_session_file(directory.session_file(), example_header());
+        CHECK(fs::exists(directory.session_file()));
+        CHECK_FALSE(fs::exists(session_path(place, 1)));
+        CHECK(next_session_number(place) == 2);
+        CHECK_THROWS_AS(create_session_file(directory.session_file(), example_header()), RecordError);
+    }
+    CHECK(next_session_number(place) == 1);
+    CHECK(fs::is_empty(root.path() / "tiny"));
+}
+
+TEST_CASE("of sessions made at once each has a number of its own, and one that is being made is refused",
+          "[unit]") {
+    const TemporaryFolder root;
+    const SessionPlace place{root.path(), "tiny", "1"};
+    SessionDirectory first(place), second(place);
+    CHECK(first.session_number() == 1);
+    CHECK(second.session_number() == 2);
+    CHECK_THROWS_WITH(SessionDirectory(place, 1), Contains("another program") && Contains("number is 3"));
+    create_session_file(second.session_file(), example_header());
+    second.publish();
+    CHECK_THROWS_WITH(SessionDirectory(place, 2), Contains("exists already") && Contains("number is 3"));
+    first.abandon();
+    CHECK(SessionRecord(second.path()).header().protocol.name == "tiny");
+}
+
+TEST_CASE("what a killed program left of a session is no hindrance, and goes with the next one", "[unit]") {
+    const TemporaryFolder root;
+    const SessionPlace place{root.path(), "tiny", "1"};
+    const fs::path remnant = root.path() / "tiny/.sub-1_ses-01.partial-a1b2c3";
+    const fs::path of_another = root.path() / "tiny/.sub-12_ses-01.partial-a1b2c3";
+    fs::create_directories(remnant / "meshes");
+    fs::create_directories(of_another);
+    CHECK(next_session_number(place) == 1);
+    CHECK(SessionDirectory(place).session_number() == 1);
+    CHECK_FALSE(fs::exists(remnant));
+    CHECK(fs::exists(of_another));
+}

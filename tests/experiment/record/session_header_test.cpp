@@ -1,0 +1,87 @@
+#include "experiment/record/header_rows.h"
+
+#include <catch2/catch.hpp>
+
+#include "experiment/record/read/session_record.h"
+#include "tests/experiment/record/session_fixture.h"
+
+using namespace overt;
+using namespace overt::testing;
+
+TEST_CASE("a session's header comes back from the disk in every field", "[unit]") {
+    const TemporaryFolder root;
+    const SessionHeader in = example_header();
+    const SessionRecord record(make_session(root.path(), in));
+    const SessionHeader& out = record.header();
+
+    CHECK(out.protocol.name == in.protocol.name);
+    CHECK(out.protocol.title == in.protocol.title);
+    CHECK(out.protocol.text == in.protocol.text);
+    CHECK(out.protocol.sha256 == in.protocol.sha256);
+    CHECK(out.schedule.observer.label == in.schedule.observer.label);
+    CHECK(out.schedule.observer.number == in.schedule.observer.number);
+    CHECK(out.schedule.seed == in.schedule.seed);
+    CHECK(out.schedule.trials == in.schedule.trials);
+    CHECK(out.session_number == in.session_number);
+    CHECK(out.started_utc == in.started_utc);
+    CHECK(out.clock == in.clock);
+    CHECK(out.program.version == in.program.version);
+    CHECK(out.program.compiler == in.program.compiler);
+    CHECK(out.program.flags == in.program.flags);
+    CHECK(out.program.commit == in.program.commit);
+    CHECK(out.graphics.context == in.graphics.context);
+    CHECK(out.graphics.vendor == in.graphics.vendor);
+    CHECK(out.graphics.renderer == in.graphics.renderer);
+    CHECK(out.graphics.version == in.graphics.version);
+    CHECK(out.tracker.name == in.tracker.name);
+    CHECK(out.tracker.sample_rate_hz == in.tracker.sample_rate_hz);
+    CHECK(out.tracker.eye == in.tracker.eye);
+    CHECK(out.display.screen.screen_px == in.display.screen.screen_px);
+    CHECK(out.display.screen.screen_mm == in.display.screen.screen_mm);
+    CHECK(out.display.screen.viewing_distance_mm == in.display.screen.viewing_distance_mm);
+    CHECK(out.display.screen.image_origin_px == in.display.screen.image_origin_px);
+    CHECK(out.display.screen.image_px == in.display.screen.image_px);
+    CHECK(out.display.refresh_hz == in.display.refresh_hz);
+    CHECK(out.display.latency == in.display.latency);
+    CHECK(out.display.output_mode == in.display.output_mode);
+    CHECK(out.display.background == in.display.background);
+    CHECK(out.animation.frame_count == in.animation.frame_count);
+    CHECK(out.animation.frame_rate_hz == in.animation.frame_rate_hz);
+    CHECK(out.animation.amplitude == in.animation.amplitude);
+    CHECK(out.animation.playback == in.animation.playback);
+    CHECK(out.animation.duration_s == in.animation.duration_s);
+    CHECK(out.poses.angles == in.poses.angles);
+    CHECK(out.poses.of_frame == in.poses.of_frame);
+    REQUIRE(out.tasks.size() == 2);
+    CHECK(out.tasks[1].id == in.tasks[1].id);
+    CHECK(out.tasks[1].question == in.tasks[1].question);
+    REQUIRE(out.materials.size() == 2);
+    CHECK(out.materials[1].id == in.materials[1].id);
+    CHECK(out.materials[1].title == in.materials[1].title);
+    REQUIRE(out.sculptures.size() == 2);
+    const RecordedSculpture &bust = out.sculptures[0], &given = in.sculptures[0];
+    CHECK(bust.id == given.id);
+    CHECK(bust.title == given.title);
+    CHECK(bust.mesh_sha256 == given.mesh_sha256);
+    CHECK(bust.mesh_file == given.mesh_file);
+    CHECK(bust.part_names == given.part_names);
+    CHECK(bust.camera.position == given.camera.position);
+    CHECK(bust.camera.target == given.camera.target);
+    CHECK(bust.camera.vertical_fov == given.camera.vertical_fov);
+    CHECK(bust.axis_point == given.axis_point);
+    CHECK(bust.bounds.min == given.bounds.min);
+    CHECK(bust.bounds.max == given.bounds.max);
+    REQUIRE(out.stimuli.size() == 2);
+    CHECK(out.stimuli[1].condition == in.stimuli[1].condition);
+    CHECK(out.stimuli[1].source == in.stimuli[1].source);
+    CHECK(out.stimuli[0].frames_sha256 == in.stimuli[0].frames_sha256);
+    REQUIRE(out.maps.size() == 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+        CHECK(out.maps[i].sculpture == in.maps[i].sculpture);
+        CHECK(out.maps[i].pose == in.maps[i].pose);
+        CHECK(out.maps[i].file == in.maps[i].file);
+        CHECK(out.maps[i].sha256 == in.maps[i].sha256);
+        CHECK(out.maps[i].made == in.maps[i].made);
+        CHECK(out.maps[i].kind == in.maps[i].kind);
+    }
+}

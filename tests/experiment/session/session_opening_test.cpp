@@ -1,0 +1,145 @@
+/// Consent, form and instructions, on ports that do what they are told.
+#include "experiment/base/content_hash.h"
+#include "experiment/session/observer_form.h"
+#include "tests/experiment/record/plain_session.h"
+#include "tests/support/observer_fields.h"
+
+using namespace overt;
+using namespace overt::test;
+using Catch::Contains;
+
+namespace {
+
+using Key = ResponsePress::Key;
+
+bool take(ObserverForm& form, std::u32string_view typed) {
+    for (const char32_t character : typed)
+        form.take({Key::character, {}, character});
+    return form.take({Key::next, {}});
+}
+
+} // namespace
+
+TEST_CASE("who agrees is recorded with the hash of the text, before anything else of the observer",
+          "[unit]") {
+    Sitting sitting(short_protocol("[consent]\ntext = \"Do you agree? J/N\"\naccept_key = \"j\"\n"));
+    CHECK(sitting.run().completed_trials == 2);
+    REQUIRE(sitting.log.consents.size() == 1);
+    const RecordedConsent& consent = sitting.log.consents[0];
+    CHECK(consent.accepted);
+    CHECK(consent.observer == "P1");
+    CHECK(consent.text_sha256 == hash_of_text("Do you agree? J/N"));
+    CHECK(to_seconds(consent.at - SessionTime{}) > 0.0);
+}
+
+TEST_CASE("who declines ends the session, and nothing but that is recorded", "[unit]") {
+    Sitting sitting(
+        short_protocol("[consent]\ntext = \"Do you agree?\"\n[[observer_field]]\nid = \"age\"\n"));
+    sitting.fields = {"31"};
+    sitting.panel.tell = [](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+        return panel.is_deciding() ? std::optional(ResponsePress{Key::no, {}}) : std::nullopt;
+    };
+    const SessionResult result = sitting.run();
+    CHECK(result.aborted);
+    CHECK_THAT(result.reason, Contains("declined"));
+    REQUIRE(sitting.log.consents.size() == 1);
+    CHECK_FALSE(sitting.log.consents[0].accepted);
+    CHECK(sitting.log.fields.empty());
+    CHECK(sitting.log.started.empty());
+    CHECK(sitting.tracker.calibrations == 0);
+    CHECK(sitting.log.kinds == std::vector<std::string>{"phase", "phase", "session aborted"});
+}
+
+TEST_CASE("instructions are read page by page, there and back", "[unit]") {
+    Sitting sitting(short_protocol("[screens]\nwelcome_text = \"\"\n"
+                                   "[instructions]\npages = [\"one\", \"two\", \"three\"]\n"));
+    const std::vector<Key> keys{Key::back, Key::next, Key::next, Key::back, Key::next, Key::next};
+    std::size_t pressed = 0;
+    sitting.panel.tell = [&](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+        return panel.phase() == SessionPhase::set_up && pressed < keys.size()
+                   ? std::optional(ResponsePress{keys[pressed++], {}})
+                   : std::nullopt;
+    };
+    CHECK(sitting.run().completed_trials == 2);
+    std::string seen;
+    for (const std::string& text : sitting.presenter.texts)
+        if (text.find(" / 3") != std::string::npos)
+            seen += text.substr(0, text.find('\n')) + " ";
+    CHECK(seen == "one one two three two three ");
+}
+
+TEST_CASE("a form is filled in by keys, and says what is at fault", "[unit]") {
+    const auto fields = three_observer_fields("name");
+    ObserverForm form(fields, {});
+    CHECK_FALSE(take(form, U"3x1"));
+    CHECK(form.focus() == 1);
+    form.take({Key::right, {}});
+    CHECK(form.values()[1] == "left");
+    form.take({Key::left, {}});
+    CHECK(form.values()[1] == "ambidextrous");
+    form.take({Key::character, {}, U'R'});
+    CHECK(form.values()[1] == "right");
+    CHECK_FALSE(form.take({Key::next, {}}));
+    CHECK_FALSE(take(form, U"Zoë 王\u0301"));
+    // The first fault is said and gone to.
+    CHECK(form.focus() == 0);
+    CHECK_THAT(form.message(), Contains("«3x1»"));
+    CHECK_THAT(form.text(), Contains(form.message()) && Contains("• Age in years"));
+    form.take({Key::erase, {}});
+    form.take({Key::erase, {}});
+    CHECK(form.values()[0] == "3");
+    CHECK(form.message().empty());
+    form.take({Key::up, {}});
+    CHECK(form.focus() == 2);
+    form.take({Key::erase, {}});
+    form.take({Key::erase, {}});
+    CHECK(form.values()[2] == "Zoë ");
+    CHECK(form.take({Key::next, {}}));
+    CHECK(form.values() == FieldValues{"3", "right", "Zoë"});
+}
+
+TEST_CASE("characters that are no text are not typed, and a stuck key fills no memory", "[unit]") {
+    const auto fields = three_observer_fields("name");
+    ObserverForm form(fields, {});
+    for (const char32_t no_text :
+         {char32_t{0}, U'\n', char32_t{0x7F}, char32_t{0x85}, char32_t{0xD800}, char32_t{0x110000}})
+        form.take({Key::character, {}, no_text});
+    CHECK(form.values()[0].empty());
+    for (int i = 0; i < 10000; ++i)
+        form.take({Key::character, {}, U'\U0001F600'});
+    CHECK(form.values()[0].size() <= 404);
+    for (int i = 0; i < 200; ++i)
+        form.take({Key::erase, {}});
+    CHECK(form.values()[0].empty());
+}
+
+TEST_CASE("the session shows the form where somebody can type, with what is known, and records it",
+          "[unit]") {
+    Sitting sitting(short_protocol("[[observer_field]]\nid = \"age\"\n[[observer_field]]\nid = \"sex\"\n"));
+    sitting.fields = {"", "male"};
+    const std::u32string typed = U"200";
+    std::size_t next = 0;
+    bool is_corrected = false;
+    sitting.panel.tell = [&](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+        if (!panel.is_typing())
+            return std::nullopt;
+        if (next < typed.size())
+            return ResponsePress{Key::character, {}, typed[next++]};
+        if (!is_corrected && sitting.presenter.texts.back().find("«200»") != std::string::npos) {
+            is_corrected = true;
+            return ResponsePress{Key::erase, {}};
+        }
+        return std::nullopt;
+    };
+    CHECK(sitting.run().completed_trials == 2);
+    CHECK(is_corrected);
+    CHECK(sitting.log.fields ==
+          std::vector<RecordedObserverField>{{"age", "Age in years", "20"}, {"sex", "Sex", "male"}});
+    // Where all is known nobody is asked.
+    Sitting known(short_protocol("[[observer_field]]\nid = \"age\"\n"));
+    known.fields = {"44"};
+    CHECK(known.run().completed_trials == 2);
+    CHECK(known.log.fields.size() == 1);
+    for (const std::string& text : known.presenter.texts)
+        CHECK(text.find("Age in years") == std::string::npos);
+}

@@ -1,0 +1,277 @@
+/// What the operator's keys do in each phase, on ports that do what they are told.
+#include "experiment/ports/operator_key.h"
+#include "tests/experiment/record/plain_session.h"
+
+using namespace overt;
+using namespace overt::test;
+using Catch::Contains;
+
+namespace {
+
+using Key = ResponsePress::Key;
+using Phases = std::vector<SessionPhase>;
+
+/// Presses the key once, when the trial is in the phase, and gives the answer to what is asked then.
+auto press_once(SessionPhase phase, int trial, Key key, Key answer = Key::yes, char32_t digit = 0) {
+    return [=, is_pressed = false,
+            is_answered = false](ScriptedPanel& panel) mutable -> std::optional<ResponsePress> {
+        if (!is_pressed && panel.phase() == phase && panel.trial == trial && !panel.is_deciding()) {
+            is_pressed = true;
+            return ResponsePress{key, {}};
+        }
+        if (is_pressed && !is_answered && panel.is_deciding()) {
+            is_answered = true;
+            return ResponsePress{digit ? Key::character : answer, {}, digit};
+        }
+        return std::nullopt;
+    };
+}
+
+std::vector<std::string> names_of(const Phases& phases) {
+    std::vector<std::string> names;
+    for (const SessionPhase phase : phases)
+        names.emplace_back(name_of(phase));
+    return names;
+}
+
+} // namespace
+
+TEST_CASE("each change of phase is an event, in the order in which a session goes", "[unit]") {
+    Sitting sitting(short_protocol("[breaks]\nevery_trials = 1\nmin_s = 0\n"));
+    CHECK_FALSE(sitting.run().aborted);
+    using enum SessionPhase;
+    const Phases expected{set_up,          calibration, trial, task_screen, drift_check, stimulus,
+                          response_screen, rest,        trial, task_screen, drift_check, stimulus,
+                          response_screen, end};
+    CHECK(sitting.panel.phases == expected);
+    CHECK(sitting.log.details_of(phase_event) == names_of(expected));
+}
+
+TEST_CASE("a session goes from phase to phase by its table, and nowhere from its end", "[unit]") {
+    using enum SessionPhase;
+    for (int i = 0; i < session_phase_count; ++i) {
+        const auto phase = static_cast<SessionPhase>(i);
+        CHECK(may_follow(phase, end));
+        if (phase != end)
+            CHECK_FALSE(may_follow(end, phase));
+        // Nothing is shown that was not made ready and checked before.
+        if (phase == calibration || phase == pause)
+            continue; // they lead back
+        CHECK(may_follow(phase, drift_check) == (phase == task_screen));
+        CHECK(may_follow(phase, stimulus) == (phase == drift_check));
+    }
+    CHECK_FALSE(may_follow(drift_check, response_screen));
+    CHECK(may_follow(stimulus, pause));
+}
+
+TEST_CASE("a skipped trial does not come again, and the record says why", "[unit]") {
+    for (const SessionPhase phase :
+         {SessionPhase::task_screen, SessionPhase::stimulus, SessionPhase::response_screen}) {
+        CAPTURE(name_of(phase));
+        Sitting sitting(short_protocol("[repeat]\nrejected = \"now\"\n"));
+        sitting.panel.tell = press_once(phase, 0, Key::skip, Key::yes, U'2');
+        const SessionResult result = sitting.run();
+        CHECK_FALSE(result.aborted);
+        CHECK(sitting.log.started == std::vector<int>{0, 1});
+        CHECK(sitting.log.completed == std::vector<bool>{false, true});
+        REQUIRE(sitting.log.details_of("trial failed").size() == 1);
+        CHECK_THAT(sitting.log.details_of("trial failed")[0],
+                   Contains("skipped: observer's wish") && Contains("does not come again"));
+        // The animation that was running went on to its end.
+        CHECK(sitting.log.flips == (phase == SessionPhase::task_screen ? 12 : 24));
+    }
+}
+
+TEST_CASE("a repeated trial comes again at once, as often as the operator wants", "[unit]") {
+    Sitting sitting(short_protocol("[repeat]\nrejected = \"never\"\nmost_attempts = 1\n"));
+    int left = 4;
+    bool was_pressed = false;
+    sitting.panel.tell = [&](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+        if (panel.phase() != SessionPhase::response_screen || panel.is_deciding() || left == 0)
+            return std::nullopt;
+        --left;
+        was_pressed = true;
+        return ResponsePress{Key::repeat, {}};
+    };
+    CHECK(sitting.run().completed_trials == 2);
+    CHECK(was_pressed);
+    CHECK(sitting.log.started == std::vector<int>{0, 0, 0, 0, 0, 1});
+}
+
+TEST_CASE("what is asked and taken back changes nothing but the log", "[unit]") {
+    for (const Key key : {Key::skip, Key::repeat, Key::reject, Key::abort, Key::recalibrate}) {
+        Sitting sitting(short_protocol(""));
+        sitting.panel.tell = press_once(SessionPhase::task_screen, 1, key, Key::no);
+        const SessionResult result = sitting.run();
+        CHECK_FALSE(result.aborted);
+        CHECK(result.completed_trials == 2);
+        CHECK(sitting.log.started == std::vector<int>{0, 1});
+        CHECK(sitting.log.count("operator asked") == 1);
+        CHECK(sitting.log.details_of("operator answered") == std::vector<std::string>{"no"});
+        CHECK(sitting.tracker.calibrations == 1);
+    }
+}
+
+TEST_CASE("a calibration in between leads back to where it was asked for", "[unit]") {
+    for (const SessionPhase phase :
+         {SessionPhase::task_screen, SessionPhase::stimulus, SessionPhase::response_screen}) {
+        Sitting sitting(short_protocol(""));
+        sitting.panel.tell = press_once(phase, 0, Key::recalibrate);
+        const SessionResult result = sitting.run();
+        CHECK(result.completed_trials == 2);
+        CHECK(sitting.tracker.calibrations == 2);
+        CHECK(sitting.panel.times_in(SessionPhase::calibration) == 2);
+        CHECK(sitting.panel.times_in(phase) == 3);
+        CHECK(sitting.log.started == std::vector<int>{0, 1});
+    }
+}
+
+TEST_CASE("a pause lasts until the operator ends it, whatever the observer presses", "[unit]") {
+    Sitting sitting(short_protocol(""));
+    bool has_paused = false;
+    sitting.panel.tell = [&](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+        if (panel.phase() == SessionPhase::task_screen && !has_paused) {
+            has_paused = true;
+            return ResponsePress{Key::pause, {}};
+        }
+        if (panel.phase() == SessionPhase::pause && panel.looks == 1000)
+            return ResponsePress{Key::pause, {}};
+        return std::nullopt; // «next»
+    };
+    CHECK(sitting.run().completed_trials == 2);
+    const auto said = sitting.log.details_of("operator");
+    REQUIRE(said.size() == 2);
+    CHECK(said[0] == "pauses");
+    CHECK_THAT(said[1], Contains("goes on after 4.0 s"));
+    // The question is shown again.
+    const auto& texts = sitting.presenter.texts;
+    CHECK(std::count(texts.begin(), texts.end(), "Look.") == 3);
+    CHECK(std::count(texts.begin(), texts.end(), sitting.protocol.operators.pause_text) == 1);
+}
+
+TEST_CASE("the key that ends the session ends an animation; taken back, the trial comes again", "[unit]") {
+    for (const bool is_meant : {true, false}) {
+        Sitting sitting(short_protocol("[repeat]\nrejected = \"now\"\n"));
+        sitting.panel.tell = press_once(SessionPhase::stimulus, 0, Key::abort, is_meant ? Key::yes : Key::no);
+        const SessionResult result = sitting.run();
+        CHECK(result.aborted == is_meant);
+        CHECK(sitting.log.count("presentation broken off") == 1);
+        CHECK(sitting.log.started == (is_meant ? std::vector<int>{0} : std::vector<int>{0, 0, 1}));
+        CHECK(sitting.log.completed ==
+              (is_meant ? std::vector<bool>{false} : std::vector<bool>{false, true, true}));
+        // Everything up to the key is there.
+        CHECK(sitting.log.outcomes[0].shown_refreshes > 0);
+        CHECK(sitting.log.outcomes[0].shown_refreshes < 12);
+        CHECK(sitting.log.outcomes[0].presentation_end > sitting.log.outcomes[0].presentation_onset);
+        CHECK(sitting.log.kinds.back() == (is_meant ? "session aborted" : "session completed"));
+    }
+}
+
+TEST_CASE("keys for trials have no effect where none is running, and the log says so", "[unit]") {
+    Sitting sitting(short_protocol("[screens]\nwelcome_text = \"Hello.\"\n"));
+    sitting.panel.tell = press_once(SessionPhase::set_up, -1, Key::skip);
+    CHECK(sitting.run().completed_trials == 2);
+    CHECK_THAT(sitting.log.details_of("operator").at(0), Contains("no effect"));
+    CHECK(sitting.log.count("operator asked") == 0);
+}
+
+TEST_CASE("a digit that stands for no reason answers no question", "[unit]") {
+    for (const Key key : {Key::abort, Key::recalibrate, Key::reject, Key::skip}) {
+        CAPTURE(name_of(key));
+        Sitting sitting(short_protocol("[operator]\nskip_reasons = [\"eye lost\", \"other\"]\n"));
+        bool is_pressed = false;
+        int digits = 0;
+        sitting.panel.tell = [&](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+            if (!is_pressed && panel.phase() == SessionPhase::task_screen) {
+                is_pressed = true;
+                return ResponsePress{key, {}};
+            }
+            if (!panel.is_deciding())
+                return std::nullopt;
+            return digits++ < 50 ? ResponsePress{Key::character, {}, U'3'} : ResponsePress{Key::no, {}};
+        };
+        CHECK(sitting.run().completed_trials == 2);
+        CHECK(digits == 51);
+        CHECK(sitting.log.details_of("operator answered") == std::vector<std::string>{"no"});
+    }
+}
+
+TEST_CASE("a key at the drift check is acted on before anything is presented", "[unit]") {
+    using enum SessionPhase;
+    Sitting skipped(short_protocol(""));
+    skipped.panel.tell = press_once(drift_check, 0, Key::skip);
+    CHECK(skipped.run().completed_trials == 1);
+    CHECK(skipped.log.flips == 12); // of the second trial alone
+    for (const Key key : {Key::pause, Key::recalibrate}) {
+        CAPTURE(name_of(key));
+        Sitting sitting(short_protocol("[screens]\ndrift_target_s = 1\n"));
+        const SessionPhase between = key == Key::pause ? pause : calibration;
+        SessionTime back, presented;
+        sitting.panel.tell = [&, is_pressed =
+                                     false](ScriptedPanel& panel) mutable -> std::optional<ResponsePress> {
+            if (panel.phase() == drift_check && !is_pressed && panel.looks == 200) {
+                is_pressed = true;
+                return ResponsePress{key, {}};
+            }
+            if (panel.phase() == drift_check && is_pressed && panel.looks == 1 && panel.trial == 0)
+                back = sitting.clock.now();
+            if (panel.phase() == stimulus && panel.looks == 1 && panel.trial == 0)
+                presented = sitting.clock.now();
+            return panel.phase() == pause ? std::optional(ResponsePress{Key::pause, {}}) : std::nullopt;
+        };
+        CHECK(sitting.run().completed_trials == 2);
+        const Phases begin(sitting.panel.phases.begin() + 3, sitting.panel.phases.begin() + 8);
+        CHECK(begin == Phases{task_screen, drift_check, between, drift_check, stimulus});
+        // The target stands its full time again.
+        CHECK(to_seconds(presented - back) > 0.9);
+    }
+}
+
+TEST_CASE("each key of the operator is in the log with the time at which it was pressed", "[unit]") {
+    Sitting sitting(short_protocol(""));
+    SessionTime pressed_at;
+    sitting.panel.tell = [&, skip = press_once(SessionPhase::stimulus, 0, Key::skip)](
+                             ScriptedPanel& panel) mutable -> std::optional<ResponsePress> {
+        const auto press = skip(panel);
+        if (press && press->key == Key::skip)
+            pressed_at = sitting.clock.now();
+        return press;
+    };
+    sitting.run();
+    const auto& kinds = sitting.log.kinds;
+    const auto at = std::find(kinds.begin(), kinds.end(), "operator pressed") - kinds.begin();
+    REQUIRE(sitting.log.details_of("operator pressed") == std::vector<std::string>{"skip"});
+    CHECK(sitting.log.times[static_cast<std::size_t>(at)] == pressed_at);
+    // The question came after the last refresh.
+    CHECK(kinds[static_cast<std::size_t>(at) + 1] == "operator asked");
+    CHECK(sitting.log.times[static_cast<std::size_t>(at) + 1] > pressed_at);
+}
+
+TEST_CASE("a text stands until a key is pressed, however little time there is to answer", "[unit]") {
+    Sitting sitting(short_protocol("[screens]\nresponse_min_s = 0\nresponse_max_s = 0.5\n"
+                                   "[instructions]\npages = [\"Page.\"]\n"
+                                   "[[block]]\nid = \"one\"\ninstructions = \"Block.\"\n"
+                                   "[[practice]]\ntask = \"free\"\nsculpture = \"a\"\n"
+                                   "material = \"clay\"\nfeedback = \"Good.\"\n"));
+    using enum SessionPhase;
+    constexpr int patience = 1000; // looks, 4 ms apart
+    std::vector<std::string> stood;
+    sitting.panel.tell =
+        [&, looks = 0, texts = std::size_t{0}](ScriptedPanel& panel) mutable -> std::optional<ResponsePress> {
+        const std::vector<std::string>& shown = sitting.presenter.texts;
+        looks = shown.size() == texts ? looks + 1 : 0;
+        texts = shown.size();
+        if (panel.phase() == response_screen || panel.phase() == end || looks == patience) {
+            if (looks == patience)
+                stood.push_back(shown.back());
+            return std::nullopt; // «next»
+        }
+        return ResponsePress{Key::character, {}};
+    };
+    CHECK(sitting.run().completed_trials == 2);
+    CHECK(stood == std::vector<std::string>{sitting.protocol.screens.welcome_text, "Page.", "Block.", "Look.",
+                                            "Good.", "Look.", "Look."});
+    CHECK(sitting.log.details_of(text_shown_event) ==
+          std::vector<std::string>{"welcome", "instructions, page 1 of 1", "instructions of block one",
+                                   "feedback", "farewell"});
+}

@@ -1,0 +1,88 @@
+/// What the program itself says, in the language of the lab.
+#include "experiment/session/observer_form.h"
+#include "tests/experiment/record/plain_session.h"
+
+using namespace overt;
+using namespace overt::test;
+using Catch::Contains;
+
+TEST_CASE("the operator is asked in the protocol's words, and the record keeps them", "[unit]") {
+    Sitting sitting(
+        short_protocol("[words]\nskip = \"この試行を飛ばしますか？\"\nyes = \"はい\"\nno = \"いいえ\"\n"
+                       "[operator]\nskip_reasons = [\"視線なし\"]\n"));
+    bool is_pressed = false;
+    sitting.panel.tell = [&](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+        if (panel.is_deciding())
+            return ResponsePress{ResponsePress::Key::character, {}, U'1'};
+        if (panel.phase() != SessionPhase::task_screen || is_pressed)
+            return std::nullopt;
+        is_pressed = true;
+        return ResponsePress{ResponsePress::Key::skip, {}};
+    };
+    CHECK(sitting.run().completed_trials == 1);
+    CHECK_THAT(sitting.presenter.texts,
+               Catch::VectorContains(
+                   std::string("この試行を飛ばしますか？\n\n1: はい, 視線なし\n\nY: はい        N: いいえ")));
+    CHECK_THAT(sitting.log.details_of("operator asked").at(0), Contains("この試行を飛ばしますか？"));
+}
+
+TEST_CASE("every question has words of its own", "[unit]") {
+    using Key = ResponsePress::Key;
+    const std::pair<Key, const char*> questions[] = {{Key::recalibrate, "recalibrate"},
+                                                     {Key::repeat, "repeat"},
+                                                     {Key::reject, "reject"},
+                                                     {Key::skip, "skip"},
+                                                     {Key::abort, "abort_in_trial"}};
+    for (const auto& [key, word] : questions) {
+        CAPTURE(word);
+        Sitting sitting(short_protocol(fmt::format("[words]\n{} = \"سؤال؟\"\n", word)));
+        bool is_pressed = false;
+        sitting.panel.tell = [&, key = key](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+            if (panel.is_deciding())
+                return ResponsePress{Key::no, {}};
+            if (panel.phase() != SessionPhase::task_screen || is_pressed)
+                return std::nullopt;
+            is_pressed = true;
+            return ResponsePress{key, {}};
+        };
+        CHECK(sitting.run().completed_trials == 2);
+        CHECK_THAT(sitting.log.details_of("operator asked").at(0), Contains("سؤال؟"));
+    }
+}
+
+TEST_CASE("the form speaks the protocol's words and no others", "[unit]") {
+    std::vector<ObserverFieldSettings> fields(2);
+    fields[0].id = "age";
+    fields[0].title = "العمر";
+    fields[1].id = "hand";
+    fields[1].title = "اليد";
+    fields[1].choices = {"يمنى", "يسرى"};
+    fields[1].kind = FieldKind::choice;
+    fields[1].required = false;
+    for (ObserverFieldSettings& field : fields)
+        complete_field(field, field.kind == FieldKind::choice);
+    WordSettings words;
+    words.optional = "اختياري";
+    words.choose = "اختر";
+    words.back = "رجوع";
+    words.other_fields = "حقول أخرى";
+    words.next = "التالي";
+    words.done = "تم";
+    words.missing = "يرجى ملء هذا";
+    words.not_possible = "غير ممكن";
+    ObserverForm form(fields, {}, words);
+    const auto has_latin = [](const std::string& text) {
+        return std::any_of(text.begin(), text.end(), [](char c) { return (c >= 'a' && c <= 'z'); });
+    };
+    CHECK_FALSE(has_latin(form.text()));
+    form.take({ResponsePress::Key::next, {}});
+    CHECK_THAT(form.text(), Contains("اختر") && Contains("تم"));
+    CHECK_FALSE(form.take({ResponsePress::Key::next, {}}));
+    CHECK(form.message() == "العمر: يرجى ملء هذا  0 … 120");
+    form.take({ResponsePress::Key::character, {}, U'x'});
+    form.take({ResponsePress::Key::next, {}});
+    CHECK_FALSE(form.take({ResponsePress::Key::next, {}}));
+    CHECK(form.message() == "العمر: «x»: غير ممكن  0 … 120");
+    form.take({ResponsePress::Key::erase, {}});
+    CHECK_FALSE(has_latin(form.text()));
+}

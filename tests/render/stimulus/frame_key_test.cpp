@@ -1,0 +1,127 @@
+#include "render/stimulus/frame_key.h"
+
+#include <functional>
+#include <map>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+#include "render/stimulus/frame_grade.h"
+#include "tests/support/figures.h"
+#include "tests/support/temporary_folder.h"
+
+using namespace overt;
+using namespace overt::test;
+
+namespace {
+
+/// All that a frame comes from, to be changed.
+struct Inputs {
+    Sculpture sculpture;
+    MaterialSettings material;
+    LightSettings light;
+    BakeSettings settings;
+    StandardObserver observer = StandardObserver::cie1931;
+
+    ContentHash key() const {
+        return traced_key(sculpture, material, hash_of_surroundings(light), light.exposure, settings,
+                          observer);
+    }
+    ContentHash key_live() const {
+        return live_key(sculpture, material, hash_of_surroundings(light), light.exposure);
+    }
+};
+
+Inputs some_inputs() {
+    Inputs inputs;
+    inputs.sculpture.mesh = bust();
+    inputs.sculpture.mesh_hash = hash_of_mesh(inputs.sculpture.mesh);
+    return inputs;
+}
+
+} // namespace
+
+TEST_CASE("whatever makes a traced frame changes its key, and nothing else does", "[unit]") {
+    const TemporaryFolder folder;
+    const std::filesystem::path probe = folder.file("probe.exr", "one"), metal = folder.file("m.csv", "one");
+    const std::map<std::string, std::function<void(Inputs&)>> changes{
+        {"mesh", [](Inputs& i) { i.sculpture.mesh_hash = "other"; }},
+        {"camera", [](Inputs& i) { i.sculpture.scene.view.camera.position.x += 1e-9; }},
+        {"target", [](Inputs& i) { i.sculpture.scene.view.camera.target.z += 1e-9; }},
+        {"field of view", [](Inputs& i) { i.sculpture.scene.view.camera.vertical_fov.value += 1e-9; }},
+        {"size", [](Inputs& i) { i.sculpture.scene.view.image_px.y += 1; }},
+        {"kind", [](Inputs& i) { i.material.kind = MaterialKind::diffuse; }},
+        {"metal", [](Inputs& i) { i.material.metal = "Ag"; }},
+        {"roughness", [](Inputs& i) { i.material.roughness *= 1.001; }},
+        {"index", [](Inputs& i) { i.material.coat_ior *= 1.001; }},
+        {"absorbance", [](Inputs& i) { i.material.coat_absorbance[2] *= 1.001; }},
+        {"thickness", [](Inputs& i) { i.material.coat_thickness *= 1.001; }},
+        {"width of bumps", [](Inputs& i) { i.material.coat_bump_width *= 1.001; }},
+        {"other bumps", [](Inputs& i) { i.material.coat_seed += 1; }},
+        {"bumps", [](Inputs& i) { i.material.coat_bump *= 1.001; }},
+        {"reflectance", [](Inputs& i) { i.material.reflectance[0] *= 1.001; }},
+        {"probe", [&](Inputs& i) { i.light.probe = probe.string(); }},
+        {"rotation", [](Inputs& i) { i.light.rotation_deg = 1.0; }},
+        {"samples", [](Inputs& i) { i.settings.samples += 1; }},
+        {"target error", [](Inputs& i) { i.settings.target_error_de = 0.5; }},
+        {"filter", [](Inputs& i) { i.settings.filter = PixelFilter::gaussian; }},
+        {"filter's width", [](Inputs& i) { i.settings.filter_width_px = 2.0; }},
+        {"resolution", [](Inputs& i) { i.settings.pixel_step = 2; }},
+        {"seed", [](Inputs& i) { i.settings.seed = 1; }},
+        {"observer", [](Inputs& i) { i.observer = StandardObserver::cie2006; }},
+        {"metal's file", [&](Inputs& i) { i.material.metal = metal.string(); }}};
+    std::set<ContentHash> keys{some_inputs().key()};
+    for (const auto& [what, change] : changes) {
+        Inputs inputs = some_inputs();
+        change(inputs);
+        CAPTURE(what);
+        CHECK(keys.insert(inputs.key()).second);
+        CHECK(inputs.key() == inputs.key());
+    }
+    // Files count by what is in them.
+    Inputs from_files = some_inputs();
+    from_files.light.probe = probe.string();
+    from_files.material.metal = metal.string();
+    keys.insert(from_files.key());
+    folder.file("probe.exr", "two");
+    CHECK(keys.insert(from_files.key()).second);
+    folder.file("m.csv", "two");
+    CHECK(keys.insert(from_files.key()).second);
+
+    Inputs same = some_inputs();
+    same.light.exposure = 2.0;
+    same.settings.most_threads = 1;
+    same.material.id = same.material.title = "another name";
+    same.sculpture.id = "another name";
+    CHECK(same.key() == some_inputs().key());
+    // Errors are judged in the light that is shown.
+    Inputs judged = some_inputs();
+    judged.settings.target_error_de = 0.5;
+    const ContentHash before = judged.key();
+    judged.light.exposure = 2.0;
+    CHECK(judged.key() != before);
+}
+
+TEST_CASE("the exposure is in live frames, and they are no traced ones", "[unit]") {
+    Inputs inputs = some_inputs();
+    const ContentHash before = inputs.key_live();
+    CHECK(before != inputs.key());
+    inputs.light.exposure = 2.0;
+    CHECK(inputs.key_live() != before);
+}
+
+TEST_CASE("samples and target of a protocol belong to its own quality", "[unit]") {
+    BakingSettings baking;
+    baking.quality = BakeQuality::standard;
+    baking.samples = 96;
+    baking.target_error_de = 0.5;
+    baking.seed = 5;
+    CHECK(grade_of(BakeQuality::draft, baking) == FrameGrade{BakeQuality::draft, {}, {}});
+    const FrameGrade own = grade_of(BakeQuality::standard, baking);
+    CHECK(own == FrameGrade{BakeQuality::standard, 96, 0.5});
+    const BakeSettings settings = bake_settings(own, baking, MaterialKind::smooth_conductor);
+    CHECK(settings.samples == 96);
+    CHECK(settings.target_error_de == 0.5);
+    CHECK(settings.seed == 5);
+    CHECK(bake_settings({BakeQuality::preview, {}, {}}, baking, MaterialKind::diffuse).pixel_step == 2);
+}

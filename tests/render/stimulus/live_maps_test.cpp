@@ -1,0 +1,59 @@
+#include "render/gl/headless_context.h"
+#include "render/stimulus/live_maps.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/figures.h"
+#include "tests/support/gl_contexts.h"
+
+using namespace overt;
+
+namespace {
+
+constexpr glm::ivec2 image_px{96, 96};
+
+std::vector<Sculpture> one_bust() {
+    Sculpture bust;
+    bust.id = "bust";
+    bust.mesh = test::bust();
+    bust.scene = {{fit_camera(bust.mesh, {12.0}, image_px, {25.0}, 0.05), image_px}, bust.mesh.bounds()};
+    std::vector<Sculpture> sculptures;
+    sculptures.push_back(std::move(bust));
+    return sculptures;
+}
+
+/// As a session would: a presentation of all frames, twice over.
+void present(LiveMaps& live, const Animation& animation, const PoseTable& poses) {
+    live.presentation_begins({0, 0, {0, 0}});
+    for (int step = 0; step < 2 * animation.steps_per_period(); ++step) {
+        const AnimationFrameIndex frame = animation.frame_at_step(step);
+        FlipRecord flip;
+        flip.shown = frame;
+        flip.pose = poses.pose_of(frame);
+        live.saw(flip);
+    }
+    live.saw_screen({}, {});
+}
+
+} // namespace
+
+TEST_CASE("maps drawn while frames are shown are those drawn before, each pose once", "[gl]") {
+    const std::vector<Sculpture> sculptures = one_bust();
+    const Animation animation;
+    const PoseTable poses = distinct_poses(animation);
+    for (const ContextKind kind : test::headless_kinds()) {
+        const auto context = make_headless_context(kind);
+        LiveMaps live(*context, sculptures, poses, image_px);
+        present(live, animation, poses);
+        const std::vector<LiveMap> maps = live.take_finished();
+        REQUIRE(maps.size() == poses.angles.size());
+        CoordinatePass pass(*context, image_px);
+        const MeshBuffers buffers(*context, sculptures[0].mesh);
+        for (std::size_t i = 0; i < maps.size(); ++i) {
+            CHECK(maps[i].pose.value == static_cast<int>(i));
+            CHECK(maps[i].map.codes == pass.draw(buffers, sculptures[0].scene, poses.angles[i]));
+        }
+        present(live, animation, poses);
+        CHECK(live.take_finished().empty());
+    }
+}

@@ -1,0 +1,1 @@
+// Owns the precompiled header of the tests; catch_main.cpp has to see Catch2 in another way.
