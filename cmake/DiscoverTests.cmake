@@ -26,6 +26,7 @@ foreach(label unit gl session bench)
         string(REGEX REPLACE "([][,])" "\\\\\\1" specification "${test}")
         string(APPEND script "add_test([==[${test}]==] [==[${PROGRAM}]==] [==[${specification}]==])\n"
             "set_tests_properties([==[${test}]==] PROPERTIES LABELS ${label} TIMEOUT 600 "
+            "SKIP_REGULAR_EXPRESSION [==[overt test skipped: ]==] "
             "WORKING_DIRECTORY [==[${FOLDER}]==] ENVIRONMENT [==[${ENVIRONMENT}]==])\n")
     endforeach()
 endforeach()

@@ -30,20 +30,22 @@ install_packages() {
     }
 }
 
-# Configures and builds the preset $1, showing ninja's progress; silent when all is up to date.
+# Configures the preset $1 and builds the targets after it (all, if there are none), showing ninja's progress; silent when
+# they are up to date.
 build() {
-    local folder="$root/build/$1"
+    local preset=$1 folder="$root/build/$1"
+    shift
     # A folder that was copied or moved here was configured for another place.
     if [ -f "$folder/CMakeCache.txt" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt"; then
         rm -rf "$folder"
     fi
     if [ ! -f "$folder/build.ninja" ]; then
-        say "configuring ($1)"
-        (cd "$root" && cmake --preset "$1" >"$root/build.log" 2>&1) || { cat "$root/build.log" >&2; say "configuring failed"; exit 1; }
+        say "configuring ($preset)"
+        (cd "$root" && cmake --preset "$preset" >"$root/build.log" 2>&1) || { cat "$root/build.log" >&2; say "configuring failed"; exit 1; }
         rm -f "$root/build.log"
     fi
-    if ! ninja -C "$folder" -n 2>/dev/null | grep -q 'no work to do'; then
-        say "building ($1), a few minutes the first time"
-        ninja -C "$folder" >&2 || { say "building failed"; exit 1; }
+    if ! ninja -C "$folder" -n "$@" 2>/dev/null | grep -q 'no work to do'; then
+        say "building ($preset), a few minutes the first time"
+        ninja -C "$folder" "$@" >&2 || { say "building failed"; exit 1; }
     fi
 }

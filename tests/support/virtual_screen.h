@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include <dlfcn.h>
@@ -16,13 +17,13 @@ namespace overt::test {
 
 class VirtualScreen {
   public:
-    /// Starts a server and points DISPLAY to it; nothing if there is no Xvfb on this machine.
+    /// Starts a server and points DISPLAY to it. Throws if there is no Xvfb: ./test installs it.
     /// With a folder the server keeps its framebuffer there, for SeenScreen.
     static std::unique_ptr<VirtualScreen> start(int width, int height, int depth,
                                                 const std::string& framebuffer_folder = {}) {
         int ends[2];
         if (pipe(ends) != 0)
-            return nullptr;
+            throw std::runtime_error("no pipe to Xvfb");
         const std::string screen =
             std::to_string(width) + "x" + std::to_string(height) + "x" + std::to_string(depth);
         const std::string fd = std::to_string(ends[1]);
@@ -49,7 +50,7 @@ class VirtualScreen {
         keep_driver_loaded();
         std::unique_ptr<VirtualScreen> started(new VirtualScreen(pid));
         if (number.empty())
-            return nullptr;
+            throw std::runtime_error("Xvfb did not start; is it installed (packages.txt)?");
         setenv("DISPLAY", (":" + number).c_str(), 1);
         return started;
     }

@@ -24,22 +24,13 @@ constexpr double rate_hz = 60.0;
 /// A small experiment on a screen with a box behind it.
 struct Rigged {
     std::unique_ptr<ScreenBox> box = ScreenBox::start(width, height, rate_hz);
-    std::unique_ptr<SmallExperiment> experiment;
+    std::unique_ptr<SmallExperiment> experiment =
+        std::make_unique<SmallExperiment>(protocol("box = \"" + box->port() + "\"\n"));
     TemporaryFolder state;
 
-    Rigged() {
-        if (box)
-            experiment = std::make_unique<SmallExperiment>(protocol("box = \"" + box->port() + "\"\n"));
-    }
     static std::string protocol(const std::string& box) {
         const std::string at_60_hz = with(small_protocol, "refresh_hz = 120", "refresh_hz = 60");
         return with(at_60_hz, "output = \"color++\"\n", "output = \"color++\"\n" + box);
-    }
-    /// Without Xvfb nothing can be tried.
-    bool is_there() const {
-        if (!box)
-            WARN("Xvfb is missing: no window can be opened");
-        return box != nullptr;
     }
     std::vector<std::string> environment() const {
         // The libraries behind a window keep memory until the end of the process.
@@ -108,8 +99,6 @@ bool holds(const std::vector<std::string>& words, const std::string& word) {
 TEST_CASE("a session on a screen switches the display box, relates its clock and switches it back",
           "[session]") {
     const Rigged rig;
-    if (!rig.is_there())
-        return;
     const ProgramRun run = rig.overt(rig.session(2));
     INFO(run.out << run.err);
     REQUIRE(run.exit_code == 0);
@@ -157,8 +146,6 @@ TEST_CASE("a session on a screen switches the display box, relates its clock and
 TEST_CASE("a session that is killed leaves a note, and the next start switches the display box back",
           "[session]") {
     const Rigged rig;
-    if (!rig.is_there())
-        return;
     {
         RunningProgram session(rig.session(9), rig.environment(), rig.said());
         const bool began = rig.comes_to_a_trial();
@@ -187,8 +174,6 @@ TEST_CASE("a session that is killed leaves a note, and the next start switches t
 
 TEST_CASE("Ctrl-C ends a session in order, with the display box switched back", "[session]") {
     const Rigged rig;
-    if (!rig.is_there())
-        return;
     RunningProgram session(rig.session(9), rig.environment(), rig.said());
     REQUIRE(rig.comes_to_a_trial());
     session.signal(SIGINT);
@@ -204,8 +189,6 @@ TEST_CASE("Ctrl-C ends a session in order, with the display box switched back", 
 
 TEST_CASE("a display box that was restarted within a session ends it", "[session]") {
     const Rigged rig;
-    if (!rig.is_there())
-        return;
     RunningProgram session(rig.session(9), rig.environment(), rig.said());
     REQUIRE(rig.comes_to_a_trial());
     rig.box->restart();
@@ -220,8 +203,6 @@ TEST_CASE("a display box that was restarted within a session ends it", "[session
 TEST_CASE("a box that is missing, of another rate, or not asked for is never passed over in silence",
           "[session]") {
     const Rigged rig;
-    if (!rig.is_there())
-        return;
     SECTION("missing: refused, with how to go on, and nothing is left") {
         const SmallExperiment experiment(Rigged::protocol("box = \"/dev/no-such-port\"\n"));
         std::vector<std::string> arguments = rig.session(1);
@@ -269,8 +250,6 @@ TEST_CASE("a box that is missing, of another rate, or not asked for is never pas
 
 TEST_CASE("display mode switches with a read-back and keeps it, status tells", "[session]") {
     const Rigged rig;
-    if (!rig.is_there())
-        return;
     const ProgramRun switched = rig.overt({"display", "mode", "mono++", "--port", rig.box->port()});
     INFO(switched.out << switched.err);
     REQUIRE(switched.exit_code == 0);
@@ -316,8 +295,6 @@ TEST_CASE("display commands refuse what they cannot do in a sentence", "[session
 TEST_CASE("display verify --hardware finds what the way from the graphics card to the box changed",
           "[session]") {
     const Rigged rig;
-    if (!rig.is_there())
-        return;
     const std::vector<std::string> arguments{"display", "verify", "--hardware", "--port", rig.box->port()};
     SECTION("nothing") {
         const ProgramRun run = rig.overt(arguments);

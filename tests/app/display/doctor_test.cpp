@@ -29,7 +29,9 @@ TEST_CASE("the doctor finds the latency of a simulated light sensor again", "[se
 
 TEST_CASE("a sensor of light at a display that is not there, or a port that is none, is refused",
           "[session]") {
-    CHECK(
-        run_overt({"doctor", "--photodiode", "--sensor", "/dev/null", "--context", "osmesa"}, {}).exit_code ==
-        2);
+    const ProgramRun run =
+        run_overt({"doctor", "--photodiode", "--sensor", "/dev/null", "--context", "osmesa"}, {});
+    CHECK(run.exit_code == 2);
+    CHECK(run.err.find("/dev/null") != std::string::npos);
+    CHECK(run.out.empty());
 }

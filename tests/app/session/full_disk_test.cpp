@@ -2,6 +2,7 @@
 #include <sys/resource.h>
 
 #include "tests/app/session/interrupted_run.h"
+#include "tests/support/skip.h"
 #include "tests/support/small_disk.h"
 
 using namespace overt;
@@ -98,10 +99,8 @@ TEST_CASE("on a real disk that fills up a session stays readable, and goes on wh
             at_first += entry.file_size();
     const std::uint64_t rows = fs::file_size(whole / "session.sqlite");
     SmallDisk disk(disk_folder, at_first + 6 * rows / 10);
-    if (!disk.is_there()) {
-        WARN("skipped: this system lets no ordinary user mount a file system");
-        return;
-    }
+    if (!disk.is_there())
+        OVERT_SKIP("this system lets no ordinary user mount a file system");
     const auto overt = [&](const std::vector<std::string>& arguments) {
         RunningProgram program(arguments, {"OVERT_CACHE=" + experiment.cache().string()}, said,
                                [&] { disk.enter(); });

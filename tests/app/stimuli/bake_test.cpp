@@ -10,6 +10,7 @@
 #include "experiment/base/random.h"
 #include "tests/app/stimuli/traced_experiment.h"
 #include "tests/support/running_program.h"
+#include "tests/support/skip.h"
 #include "tests/support/small_disk.h"
 
 using namespace overt;
@@ -166,10 +167,8 @@ TEST_CASE("a bake on a real disk that fills up keeps what is finished, and goes 
     for (const auto& file : files_below(whole))
         bytes += std::filesystem::file_size(whole / file);
     SmallDisk disk(disk_folder, bytes / 2);
-    if (!disk.is_there()) {
-        WARN("skipped: this system lets no ordinary user mount a file system");
-        return;
-    }
+    if (!disk.is_there())
+        OVERT_SKIP("this system lets no ordinary user mount a file system");
     const auto bake_there = [&](const std::string& more) {
         RunningProgram program(
             {"bake", experiment.protocol().string(), "--context", "osmesa", "--quality", "draft", more},

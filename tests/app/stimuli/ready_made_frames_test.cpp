@@ -6,8 +6,8 @@
 
 #include "app/inputs/protocol_inputs.h"
 #include "devices/host/clocks.h"
-#include "render/gl/headless_context.h"
 #include "experiment/base/random.h"
+#include "render/gl/headless_context.h"
 #include "render/presenter/page_presenter.h"
 #include "render/stimulus/stimulus_library.h"
 #include "tests/app/small_experiment.h"
@@ -124,7 +124,7 @@ TEST_CASE("the 16 bits of PNG, TIFF and EXR frames arrive on the wire, bit for b
     REQUIRE(experiment);
     const Protocol& protocol = experiment->protocol;
     const ScreenGeometry geometry = screen_geometry_of(protocol);
-    for (const ContextKind kind : headless_kinds()) {
+    for (const ContextKind kind : headless_kinds) {
         const auto context = make_headless_context(kind);
         StimulusLibrary library(*context, protocol, experiment->sculptures, folder.path() / "cache");
         library.prepare_frames({});

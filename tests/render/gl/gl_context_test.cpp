@@ -1,5 +1,5 @@
-#include "render/gl/headless_context.h"
 #include "render/gl/gl_context.h"
+#include "render/gl/headless_context.h"
 
 #include <catch2/catch.hpp>
 
@@ -10,7 +10,7 @@
 using namespace overt;
 
 TEST_CASE("each headless context is OpenGL 3.3 core or later and says what it is", "[gl]") {
-    for (const ContextKind kind : test::headless_kinds()) {
+    for (const ContextKind kind : test::headless_kinds) {
         const auto context = make_headless_context(kind);
         CHECK(context->description().kind == kind);
         CHECK_FALSE(context->description().renderer.empty());

@@ -9,7 +9,7 @@ using namespace overt;
 using namespace overt::test;
 
 TEST_CASE("a message stands in its row for the flip it belongs to, and is gone at the next", "[gl]") {
-    for (const ContextKind kind : test::headless_kinds()) {
+    for (const ContextKind kind : test::headless_kinds) {
         const auto context = make_headless_context(kind);
         for (const OutputMode mode :
              {OutputMode::mono_plus_plus, OutputMode::color_plus_plus, OutputMode::bits_plus_plus}) {

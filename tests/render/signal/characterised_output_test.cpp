@@ -5,10 +5,10 @@
 #include <catch2/catch.hpp>
 
 #include "devices/host/clocks.h"
-#include "render/gl/headless_context.h"
 #include "experiment/base/random.h"
 #include "experiment/colour/display_colour.h"
 #include "experiment/scene/spectra.h"
+#include "render/gl/headless_context.h"
 #include "render/presenter/page_presenter.h"
 #include "render/signal/wire_check.h"
 #include "tests/support/gl_contexts.h"
@@ -209,7 +209,7 @@ TEST_CASE("gold under equal energy goes from its spectrum to the codes that were
             }
             expected[channel] = static_cast<int>(std::floor(high * highest + 0.5));
         }
-        for (const ContextKind kind : headless_kinds()) {
+        for (const ContextKind kind : headless_kinds) {
             const DisplaySettings display = characterised(mode, {600, 64});
             const PlainPage pages({64, 32}, pixel);
             const auto bytes = drawn(kind, display, pages, {64, 32}, {100, 10});

@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 
 #include "devices/host/clocks.h"
-#include "render/gl/headless_context.h"
 #include "experiment/base/random.h"
+#include "render/gl/headless_context.h"
 #include "render/presenter/page_presenter.h"
 #include "render/signal/dither_tile.h"
 #include "render/signal/wire_check.h"
@@ -48,7 +48,7 @@ TEST_CASE("dithering keeps the mean of every 64 x 64 patch to half a code of 16 
         light.push_back(random.uniform());
     const glm::ivec2 screen{128, 128};
     PlainLight pages(screen, light);
-    for (const ContextKind kind : test::headless_kinds()) {
+    for (const ContextKind kind : test::headless_kinds) {
         const auto context = make_headless_context(kind);
         for (const OutputMode mode : {OutputMode::native_8bit, OutputMode::native_10bit}) {
             for (const Dithering dither : {Dithering::ordered, Dithering::blue_noise}) {

@@ -77,7 +77,7 @@ TEST_CASE("the hidden map covers what rays through the pixel centres meet, and s
 TEST_CASE("OSMesa and EGL draw the same map, bit for bit", "[gl]") {
     const Figure figure = two_balls();
     const std::vector<TriangleMap> osmesa = draw_maps(figure, ContextKind::osmesa);
-    for (const ContextKind kind : test::headless_kinds()) {
+    for (const ContextKind kind : test::headless_kinds) {
         const std::vector<TriangleMap> maps = draw_maps(figure, kind);
         const auto context = make_headless_context(kind);
         if (!context->description().is_software)

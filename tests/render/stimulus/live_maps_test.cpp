@@ -41,7 +41,7 @@ TEST_CASE("maps drawn while frames are shown are those drawn before, each pose o
     const std::vector<Sculpture> sculptures = one_bust();
     const Animation animation;
     const PoseTable poses = distinct_poses(animation);
-    for (const ContextKind kind : test::headless_kinds()) {
+    for (const ContextKind kind : test::headless_kinds) {
         const auto context = make_headless_context(kind);
         LiveMaps live(*context, sculptures, poses, image_px);
         present(live, animation, poses);

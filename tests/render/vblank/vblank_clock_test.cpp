@@ -141,10 +141,6 @@ TEST_CASE("times since boot become the session's", "[unit]") {
 
 TEST_CASE("on a server of X the Present extension counts the refreshes of a window", "[gl]") {
     const auto screen = VirtualScreen::start(320, 240, 24);
-    if (!screen) {
-        WARN("Xvfb is missing: no window can be opened");
-        return;
-    }
     SteadyClock clock;
     WindowContext window({{160, 120}, "vertical blanks"});
     const auto source = open_x_present(window.native(), clock);
@@ -184,10 +180,6 @@ TEST_CASE("on a server of X the Present extension counts the refreshes of a wind
 
 TEST_CASE("a source of Present whose window goes falls silent, and flips go on by their swaps", "[gl]") {
     const auto screen = VirtualScreen::start(320, 240, 24);
-    if (!screen) {
-        WARN("Xvfb is missing: no window can be opened");
-        return;
-    }
     SteadyClock clock;
     WindowContext window({{160, 120}, "stays"});
     std::unique_ptr<VblankClock> source;
