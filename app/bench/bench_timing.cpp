@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/bench/fault_rehearsal.h"
+#include "app/bench/fault_simulation.h"
 
 namespace overt {
 
@@ -18,9 +18,9 @@ void measure_reconstruction(BenchFigures& figures) {
     int given_back = 0, accounted = 0, misses = 0;
     for (int index = 0; index < scripts; ++index) {
         const FaultScript script = random_script(seed, static_cast<std::uint64_t>(index));
-        const Rehearsal rehearsal = rehearse(script);
-        given_back += gives_back(rehearsal, script, fit_of(rehearsal, script));
-        accounted += accounts_for_all(rehearsal);
+        const SimulatedPresentation presentation = simulate_presentation(script);
+        given_back += gives_back(presentation, script, fit_of(presentation, script));
+        accounted += accounts_for_all(presentation);
         for (const MissedRun& run : script.misses)
             misses += run.count;
     }
@@ -35,25 +35,25 @@ void measure_onsets(BenchFigures& figures) {
     std::vector<double> onset_errors_ms, refresh_errors_ms;
     double covered = 0.0;
     for (int sitting = 0; sitting < sittings; ++sitting) {
-        std::vector<Rehearsal> rehearsals;
+        std::vector<SimulatedPresentation> presentations;
         std::vector<RefreshFit> lines;
         FaultScript script;
         script.faults.drift_ppm = 37.0;
         script.faults.jitter_sd_ms = 1.0;
         for (int trial = 0; trial < trials; ++trial) {
             script.faults.seed = static_cast<std::uint64_t>(sitting * trials + trial);
-            rehearsals.push_back(rehearse(script));
-            lines.push_back(fit_of(rehearsals.back(), script).line());
+            presentations.push_back(simulate_presentation(script));
+            lines.push_back(fit_of(presentations.back(), script).line());
         }
         const std::optional<KnownInterval> interval = common_interval(lines);
-        for (const Rehearsal& rehearsal : rehearsals) {
-            const LedgerFit fit(rehearsal.flips, script.refresh_hz, interval);
+        for (const SimulatedPresentation& presentation : presentations) {
+            const LedgerFit fit(presentation.flips, script.refresh_hz, interval);
             const auto error_ms = [&](std::size_t refresh) {
                 return 1e3 * std::abs(to_seconds(fit.begin_of(static_cast<int>(refresh)).time -
-                                                 rehearsal.begins[refresh]));
+                                                 presentation.begins[refresh]));
             };
             onset_errors_ms.push_back(error_ms(0));
-            for (std::size_t refresh = 0; refresh < rehearsal.begins.size(); ++refresh)
+            for (std::size_t refresh = 0; refresh < presentation.begins.size(); ++refresh)
                 refresh_errors_ms.push_back(error_ms(refresh));
             covered += error_ms(0) <= 1e3 * to_seconds(fit.begin_of(0).uncertainty);
         }

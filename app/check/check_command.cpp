@@ -6,14 +6,14 @@
 #include "app/check/check_commands.h"
 #include "app/check/frame_cost.h"
 #include "app/check/frame_light.h"
-#include "app/check/session_outlook.h"
+#include "app/check/rig_forecast.h"
 #include "app/check/silhouette_check.h"
 #include "app/check/text_check.h"
 #include "app/cli/cache_folder.h"
 #include "app/inputs/protocol_file.h"
 #include "app/inputs/protocol_inputs.h"
 #include "app/rig/answer_equipment.h"
-#include "app/stimuli/bake_outlook.h"
+#include "app/stimuli/bake_estimate.h"
 #include "experiment/checks/design_report.h"
 #include "experiment/design/schedule.h"
 #include "render/gl/headless_context.h"
@@ -34,8 +34,8 @@ SurfaceFacts surface_of(const Sculpture& sculpture) {
 /// What only a look at the stimuli themselves tells.
 struct StimulusFacts {
     std::vector<SequenceSilhouette> silhouettes;
-    BakeOutlook rendering;
-    std::vector<OutlookLine> on_this_machine;
+    BakeEstimate rendering;
+    std::vector<ForecastLine> on_this_machine;
     FrameCost cost;
 };
 
@@ -43,9 +43,9 @@ StimulusFacts look_at_stimuli(const Experiment& experiment, Diagnostics& diagnos
     const auto context = make_headless_context(std::nullopt);
     StimulusLibrary library(*context, experiment.protocol, experiment.sculptures, cache_folder());
     StimulusFacts facts{check_silhouettes(experiment, library, diagnostics),
-                        bake_outlook(experiment, library), session_outlook(experiment.protocol),
+                        bake_estimate(experiment, library), rig_forecast(experiment.protocol),
                         measure_frame_cost(*context, experiment.protocol, experiment.sculptures)};
-    for (OutlookLine& line : outlook_of(facts.cost, experiment.protocol, context->description()))
+    for (ForecastLine& line : forecast_of(facts.cost, experiment.protocol, context->description()))
         facts.on_this_machine.push_back(std::move(line));
     return facts;
 }

@@ -73,10 +73,10 @@ FrameCost measure_frame_cost(const GlContext& context, const Protocol& protocol,
     return cost;
 }
 
-std::vector<OutlookLine> outlook_of(const FrameCost& cost, const Protocol& protocol,
-                                    const GlDescription& graphics) {
+std::vector<ForecastLine> forecast_of(const FrameCost& cost, const Protocol& protocol,
+                                      const GlDescription& graphics) {
     const double refresh_ms = 1e3 / protocol.display.refresh_hz;
-    std::vector<OutlookLine> lines;
+    std::vector<ForecastLine> lines;
     lines.push_back(
         {"a flip",
          fmt::format("{:.2f} ms, at worst {:.2f} ms of {}, of the {:.2f} ms of a refresh ({})",

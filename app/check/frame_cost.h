@@ -7,7 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "app/check/session_outlook.h"
+#include "app/check/rig_forecast.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/stimulus/sculpture.h"
 #include "render/gl/gl_context.h"
@@ -28,8 +28,8 @@ FrameCost measure_frame_cost(const GlContext& context, const Protocol& protocol,
                              std::span<const Sculpture> sculptures);
 
 /// In words, and what to do if a refresh is too short for it.
-std::vector<OutlookLine> outlook_of(const FrameCost& cost, const Protocol& protocol,
-                                    const GlDescription& graphics);
+std::vector<ForecastLine> forecast_of(const FrameCost& cost, const Protocol& protocol,
+                                      const GlDescription& graphics);
 
 nlohmann::ordered_json to_json(const FrameCost& cost);
 

@@ -9,7 +9,9 @@
 
 #include "devices/sound/sound_block.h"
 #include "experiment/base/diagnostics.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/answer_recorder.h"
+#include "experiment/ports/clock.h"
+#include "experiment/ports/recorded_answer.h"
 #include "experiment/protocol/protocol.h"
 
 namespace overt {

@@ -7,7 +7,8 @@
 
 #include "experiment/base/content_hash.h"
 #include "experiment/design/schedule.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/clock.h"
+#include "experiment/ports/session_log.h"
 #include "render/image/gamut.h"
 #include "render/presenter/page_presenter.h"
 #include "render/signal/wire_check.h"

@@ -55,8 +55,8 @@ bool Rig::maps_are_live() const {
            (request_.maps == MapTime::automatic && !context_->description().is_software);
 }
 
-std::vector<DisplayWitness*> Rig::witnesses() {
-    std::vector<DisplayWitness*> all{observer_.get()};
+std::vector<PresentationListener*> Rig::listeners() {
+    std::vector<PresentationListener*> all{observer_.get()};
     if (live_maps_)
         all.push_back(live_maps_.get());
     if (virtual_refresh_)

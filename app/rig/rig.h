@@ -84,7 +84,7 @@ class Rig {
     const VirtualRefresh* virtual_refresh() const { return virtual_refresh_; }
     /// Those who see what is shown: the simulated observer, the hidden pass if it is live, and the display's
     /// faults.
-    std::vector<DisplayWitness*> witnesses();
+    std::vector<PresentationListener*> listeners();
     LiveMaps* live_maps() { return live_maps_.get(); } ///< null unless maps_are_live()
 
   private:

@@ -97,12 +97,12 @@ void require_same_run(const std::filesystem::path& folder, const SessionHeader& 
 }
 
 /// What the policy makes of the record's last trial.
-Resumption resumption_of(const SessionRecord& record, const Protocol& protocol, const SessionSoFar& so_far,
+Resumption resumption_of(const SessionRecord& record, const Protocol& protocol, const SessionHistory& history,
                          ResumePolicy policy) {
     TrialQueue queue(protocol, record.header().schedule);
-    queue.go_through(so_far.steps);
+    queue.go_through(history.steps);
     const ResumeEffect effect = queue.resume(policy);
-    Resumption resumption{policy, effect.given_up, {}, {}};
+    Resumption resumption{policy, effect.skipped, {}, {}};
     if (!effect.restarted_block)
         return resumption;
     for (const TrialRecord& attempt : record.trials())
@@ -121,22 +121,22 @@ bool is_opened(const SessionRecord& record, const Protocol& protocol) {
            (protocol.observer_fields.empty() || !record.observer_fields().empty());
 }
 
-void say_where_it_stands(const ResumedSession& session, const SessionSoFar& before) {
+void say_where_it_stands(const ResumedSession& session, const SessionHistory& before) {
     const SessionHeader& header = session.header;
     fmt::print("resuming session {} of observer {}: {}\n", header.session_number,
                header.schedule.observer.label, session.folder.string());
     fmt::print("{} of {} are done", before.counted_trials, counted(header.schedule.trials.size(), "trial"));
     const Resumption& resumption = session.resumption;
-    const auto last = std::find_if(before.steps.rbegin(), before.steps.rend(), [](const PastStep& step) {
-        return step.kind == PastStep::Kind::trial || step.kind == PastStep::Kind::resumed;
+    const auto last = std::find_if(before.steps.rbegin(), before.steps.rend(), [](const RecordedStep& step) {
+        return step.kind == RecordedStep::Kind::trial || step.kind == RecordedStep::Kind::resumed;
     });
-    const bool was_interrupted = last != before.steps.rend() && last->kind == PastStep::Kind::trial &&
+    const bool was_interrupted = last != before.steps.rend() && last->kind == RecordedStep::Kind::trial &&
                                  last->fate == AttemptFate::interrupted;
     if (!resumption.restarted.empty())
         fmt::print("; a block of {} begins again with its first\n",
                    counted(resumption.restarted.size(), "trial"));
-    else if (resumption.given_up)
-        fmt::print("; trial {} was interrupted, and is given up\n", *resumption.given_up + 1);
+    else if (resumption.skipped)
+        fmt::print("; trial {} was interrupted, and is skipped\n", *resumption.skipped + 1);
     else if (was_interrupted)
         fmt::print("; trial {} was interrupted, and is done again\n", last->trial + 1);
     else
@@ -181,12 +181,12 @@ ResumedSession take_up_session(const RunOptions& options, const SessionPlace& pl
     require_same_protocol(folder, record.header().protocol, protocol);
     require_same_run(folder, record.header(), options);
 
-    const SessionSoFar before = record.so_far();
+    const SessionHistory before = record.history();
     ResumedSession session{folder, record.header(), before, {}, {}};
-    session.so_far.is_opened = is_opened(record, protocol);
+    session.history.is_opened = is_opened(record, protocol);
     session.resumption = resumption_of(record, protocol, before, *options.resume);
-    session.so_far.steps.push_back({PastStep::Kind::resumed, -1, {}, *options.resume});
-    session.so_far.counted_trials -= static_cast<int>(
+    session.history.steps.push_back({RecordedStep::Kind::resumed, -1, {}, *options.resume});
+    session.history.counted_trials -= static_cast<int>(
         std::count_if(record.trials().begin(), record.trials().end(), [&](const TrialRecord& attempt) {
             const auto& superseded = session.resumption.superseded;
             return attempt.counts &&

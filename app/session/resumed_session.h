@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "app/session/session_commands.h"
-#include "experiment/ports/past_step.h"
+#include "experiment/ports/session_history.h"
 #include "experiment/record/resumption.h"
 #include "experiment/record/session_directory.h"
 #include "experiment/record/session_header.h"
@@ -15,7 +15,7 @@ namespace overt {
 struct ResumedSession {
     std::filesystem::path folder;
     SessionHeader header;
-    SessionSoFar so_far; ///< up to and with being resumed now
+    SessionHistory history; ///< up to and with being resumed now
     Resumption resumption;
     SessionTime clock_start; ///< a second after the last time that was recorded
 };

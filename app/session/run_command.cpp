@@ -13,9 +13,9 @@
 #include "app/rig/output_verification.h"
 #include "app/rig/rig.h"
 #include "app/session/session_commands.h"
+#include "app/session/session_messages.h"
 #include "app/session/session_plan.h"
 #include "app/session/session_recording.h"
-#include "app/session/session_talk.h"
 #include "devices/host/thread_priority.h"
 #include "experiment/base/error.h"
 #include "experiment/design/schedule.h"
@@ -234,7 +234,7 @@ int run_session(const RunOptions& options) {
                      .tracker = rig.tracker(),
                      .panel = rig.panel(),
                      .log = store,
-                     .witnesses = rig.witnesses(),
+                     .listeners = rig.listeners(),
                      .observer = observer.label,
                      .can_type = !options.simulate_observer && options.ask_at == AskAt::window,
                      .recorder = answers.recorder(),
@@ -252,7 +252,7 @@ int run_session(const RunOptions& options) {
                 note_struck(*display, trial, rig.clock(), store);
             box.check(store);
         },
-        plan.resumed ? plan.resumed->so_far : SessionSoFar());
+        plan.resumed ? plan.resumed->history : SessionHistory());
     progress.finish();
     box.leave(store);
     store.close();

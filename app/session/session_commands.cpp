@@ -40,7 +40,7 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
             "--resume",
             [&options](const std::string& policy) { options.resume = resume_policies.at(policy); },
             "Go on with this observer's interrupted session (with --session that one, else the last): its "
-            "interrupted trial is done again (redo, the default), given up (skip), or its block begins again "
+            "interrupted trial is done again (redo, the default), skipped (skip), or its block begins again "
             "(restart-block)")
         ->expected(0, 1)
         ->default_str("redo")

@@ -11,7 +11,7 @@
 #include "app/cli/chosen_command.h"
 #include "app/cli/context_choice.h"
 #include "app/rig/rig.h"
-#include "experiment/ports/past_step.h"
+#include "experiment/ports/session_history.h"
 #include "experiment/protocol/protocol.h"
 
 namespace overt {

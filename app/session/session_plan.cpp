@@ -95,7 +95,7 @@ SessionPlan plan_session(const RunOptions& options, const SessionPlace& place, c
     }
     plan.faults = read_faults_or_report(options.faults);
     // Whoever goes on was asked already.
-    if (!plan.resumed || !plan.resumed->so_far.is_opened)
+    if (!plan.resumed || !plan.resumed->history.is_opened)
         plan.fields = fill_in_form(protocol, options);
     plan.schedule = plan.resumed ? plan.resumed->header.schedule : new_schedule(options, protocol, observer);
     return plan;

@@ -9,7 +9,7 @@
 #include "app/cli/interruption.h"
 #include "app/cli/progress_bar.h"
 #include "app/inputs/protocol_file.h"
-#include "app/stimuli/bake_outlook.h"
+#include "app/stimuli/bake_estimate.h"
 #include "app/stimuli/contact_sheet.h"
 #include "app/stimuli/frame_export.h"
 #include "app/stimuli/stimulus_commands.h"

@@ -14,7 +14,7 @@
 #include "devices/display_box/bits_protocol.h"
 #include "devices/display_box/bits_status.h"
 #include "devices/link/byte_transport.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/clock.h"
 
 namespace overt {
 

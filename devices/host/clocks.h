@@ -4,7 +4,7 @@
 #include <atomic>
 #include <chrono>
 
-#include "experiment/ports/ports.h"
+#include "experiment/ports/clock.h"
 
 namespace overt {
 

@@ -16,7 +16,7 @@
 
 #include "devices/link/byte_transport.h"
 #include "devices/link/serial_port_search.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/clock.h"
 
 namespace overt {
 

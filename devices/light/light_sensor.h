@@ -11,7 +11,7 @@
 
 #include "devices/link/byte_transport.h"
 #include "experiment/base/random.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/clock.h"
 
 namespace overt {
 

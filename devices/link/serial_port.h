@@ -4,7 +4,7 @@
 #include <string>
 
 #include "devices/link/byte_transport.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/clock.h"
 
 namespace overt {
 

@@ -6,7 +6,8 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
-#include "experiment/ports/operator_key.h"
+#include "experiment/ports/response_panel.h"
+#include "experiment/ports/session_phase.h"
 
 namespace overt {
 

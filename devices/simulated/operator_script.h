@@ -5,7 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "experiment/ports/ports.h"
+#include "experiment/ports/response_panel.h"
+#include "experiment/ports/session_phase.h"
 
 namespace overt {
 

@@ -6,7 +6,8 @@
 #include "devices/simulated/simulated_observer.h"
 #include "devices/simulated/simulated_voice.h"
 #include "devices/sound/answer_sink.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/answer_recorder.h"
+#include "experiment/ports/clock.h"
 
 namespace overt {
 

@@ -10,7 +10,8 @@
 #include "devices/simulated/simulated_observer.h"
 #include "experiment/base/random.h"
 #include "experiment/gaze.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/clock.h"
+#include "experiment/ports/eye_tracker.h"
 #include "experiment/protocol/protocol.h"
 
 namespace overt {

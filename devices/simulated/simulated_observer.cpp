@@ -55,14 +55,14 @@ void SimulatedObserver::presentation_begins(const Trial& trial) noexcept {
                                 scene_.tasks[static_cast<std::size_t>(trial.task)].head_share);
 }
 
-void SimulatedObserver::saw(const FlipRecord& flip) noexcept {
+void SimulatedObserver::flipped(const FlipRecord& flip) noexcept {
     OVERT_EXPECTS(begun_ > 0);
     std::vector<SeenFlip>& flips = presentations_[begun_ - 1]->flips;
     if (flips.size() < flips.capacity())
         flips.push_back({flip.report.vertical_blank, flip.shown});
 }
 
-void SimulatedObserver::saw_screen(const Screen&, SessionTime onset) noexcept {
+void SimulatedObserver::screen_shown(const Screen&, SessionTime onset) noexcept {
     if (begun_ > 0) {
         Presentation& presentation = *presentations_[begun_ - 1];
         if (!presentation.end) {

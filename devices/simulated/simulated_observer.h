@@ -13,7 +13,8 @@
 #include "devices/simulated/gaze_targets.h"
 #include "devices/simulated/observed_scene.h"
 #include "experiment/maps/surface_point.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/presentation_listener.h"
+#include "experiment/ports/presenter.h"
 
 namespace overt {
 
@@ -51,7 +52,7 @@ struct SimulatedAnswer {
 ///
 /// Used on the session's thread, also by the simulated devices. Between a presentation's first and last flip
 /// nothing is allocated.
-class SimulatedObserver final : public DisplayWitness {
+class SimulatedObserver final : public PresentationListener {
   public:
     /// Throws GraphicsError if a sculpture's rays cannot be cast. The scene's meshes must outlive this.
     SimulatedObserver(ObservedScene scene, std::uint64_t seed, const ObserverSettings& settings = {});
@@ -59,9 +60,9 @@ class SimulatedObserver final : public DisplayWitness {
     /// A screen must have been seen since the presentation before. Casts some thousand rays, which takes
     /// about a millisecond.
     void presentation_begins(const Trial& trial) noexcept override;
-    void saw(const FlipRecord& flip) noexcept override;
+    void flipped(const FlipRecord& flip) noexcept override;
     /// Ends a presentation: 150 ms later the eye returns to the middle of the screen.
-    void saw_screen(const Screen& screen, SessionTime onset) noexcept override;
+    void screen_shown(const Screen& screen, SessionTime onset) noexcept override;
 
     /// Where the eye points. A moment that the display has not yet come to is taken as if nothing changed.
     TrueGaze gaze_at(SessionTime time) const noexcept;

@@ -7,7 +7,9 @@
 
 #include "devices/simulated/operator_script.h"
 #include "devices/simulated/simulated_observer.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/clock.h"
+#include "experiment/ports/response_panel.h"
+#include "experiment/ports/session_phase.h"
 
 namespace overt {
 

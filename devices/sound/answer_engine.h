@@ -9,7 +9,9 @@
 
 #include "devices/sound/answer_sink.h"
 #include "devices/sound/sound_block.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/answer_recorder.h"
+#include "experiment/ports/clock.h"
+#include "experiment/ports/recorded_answer.h"
 
 namespace overt {
 

@@ -9,7 +9,7 @@
 #include "devices/sound/wav_file.h"
 #include "experiment/audio/sample_clock.h"
 #include "experiment/audio/voice_finder.h"
-#include "experiment/ports/sitting_rows.h"
+#include "experiment/ports/recorded_answer.h"
 
 namespace overt {
 

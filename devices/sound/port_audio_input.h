@@ -2,11 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "devices/sound/sound_block.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/clock.h"
 
 namespace overt {
 

@@ -132,22 +132,22 @@ void TrialQueue::put_back(const Attempt& attempt, RepeatWhen when) {
         waiting_.insert(std::find_if(waiting_.begin(), waiting_.end(), is_of_another_block), attempt);
 }
 
-void TrialQueue::go_through(std::span<const PastStep> steps) {
-    for (const PastStep& step : steps) {
+void TrialQueue::go_through(std::span<const RecordedStep> steps) {
+    for (const RecordedStep& step : steps) {
         switch (step.kind) {
-        case PastStep::Kind::practice:
+        case RecordedStep::Kind::practice:
             leave_out_to_practice();
             break;
-        case PastStep::Kind::pause:
+        case RecordedStep::Kind::pause:
             look_ahead();
             if (!before_.empty() && before_.front().kind == SessionStep::Kind::pause)
                 before_.pop_front();
             break;
-        case PastStep::Kind::trial:
+        case RecordedStep::Kind::trial:
             go_on_to_trial(step.trial);
             take_fate(step.fate);
             break;
-        case PastStep::Kind::resumed:
+        case RecordedStep::Kind::resumed:
             resume(step.policy);
             break;
         }
@@ -183,7 +183,7 @@ void TrialQueue::take_fate(AttemptFate fate) {
     const Attempt again{attempt.trial, attempt.number + 1};
     switch (fate) {
     case AttemptFate::counted:
-    case AttemptFate::given_up:
+    case AttemptFate::skipped:
         break;
     case AttemptFate::comes_again_now:
         put_back(again, RepeatWhen::now);
@@ -210,7 +210,7 @@ ResumeEffect TrialQueue::resume(ResumePolicy policy) {
         --attempts_since_pause_;
     }
     if (interrupted_ && policy == ResumePolicy::skip)
-        effect.given_up = interrupted_->trial.index;
+        effect.skipped = interrupted_->trial.index;
     interrupted_.reset();
     if (effect.restarted_block)
         restart_block();

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "experiment/ports/past_step.h"
+#include "experiment/ports/session_history.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/trial.h"
 
@@ -27,7 +27,7 @@ struct SessionStep {
     int block = 0;   ///< that begins, or that the trial is of
 };
 
-/// How an attempt went, as far as it matters to whether it counts.
+/// What decides whether an attempt counts.
 struct AttemptResult {
     int missed_refreshes = 0;
     double gaze_lost_share = 0.0; ///< of the samples taken during the presentation, 0 … 1
@@ -51,7 +51,7 @@ struct AttemptVerdict {
 
 /// What taking up a session again made of the trial that it was interrupted in.
 struct ResumeEffect {
-    std::optional<int> given_up;        ///< index of the trial that is skipped
+    std::optional<int> skipped;         ///< index of the trial that does not come again
     std::optional<int> restarted_block; ///< whose attempts no longer count
 };
 
@@ -72,7 +72,7 @@ class TrialQueue {
     /// for the trial that was interrupted: resume() decides about that. Practice and breaks that were done do
     /// not come again. Only before the first next(). Throws RecordError for steps that this queue would not
     /// have gone.
-    void go_through(std::span<const PastStep> steps);
+    void go_through(std::span<const RecordedStep> steps);
 
     /// Takes up the interrupted trial. Having been interrupted uses up none of repeat.most_attempts. Without
     /// such a trial redo and skip do nothing.

@@ -45,10 +45,10 @@ void complete_field(ObserverFieldSettings& field, bool has_kind);
 /// empty value may stand where the field is not required.
 std::optional<std::string> fault_of(const ObserverFieldSettings& field, std::string_view value);
 
-/// The range of a number in signs alone: «0 … 120», «≥ 0»; empty if there is none.
+/// The range of a number in signs alone: "0 … 120", "≥ 0"; empty if there is none.
 std::string range_of(const ObserverFieldSettings& field);
 
-/// What may stand there, in words: «a number, 0 … 120», «one of "left", "right"».
+/// What may stand there, in words: `a number, 0 … 120`, `one of "left", "right"`.
 std::string expected_in(const ObserverFieldSettings& field);
 
 /// Without white space at its ends.

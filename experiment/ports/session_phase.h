@@ -22,7 +22,7 @@ enum class SessionPhase : std::uint8_t {
 };
 inline constexpr int session_phase_count = 12;
 
-/// As the record and the command line have it: «task screen».
+/// As the record and the command line have it: "task screen".
 std::string_view name_of(SessionPhase phase);
 
 /// Whether a session may go from one phase to the other. Pauses and calibrations between trials or on their

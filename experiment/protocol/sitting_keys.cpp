@@ -58,7 +58,7 @@ Section<OperatorSettings> operators() {
             "Keys with which the operator leads a session. All but pausing ask first, and all are in the "
             "record. "
             "What is pressed during an animation is acted on after its last refresh; `abort` alone ends it. "
-            "Whether a trial that was broken off and yet not given up comes again is as for one that is "
+            "Whether a trial that was broken off and yet not skipped comes again is as for one that is "
             "rejected.",
         .keys =
             {

@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "experiment/ports/past_step.h"
+#include "experiment/ports/session_history.h"
 
 namespace overt {
 
 /// What taking a session up again makes of what was there.
 struct Resumption {
     ResumePolicy policy = ResumePolicy::redo;
-    std::optional<int> given_up;          ///< index of the trial that is skipped
+    std::optional<int> skipped;           ///< index of the trial that does not come again
     std::vector<std::int64_t> superseded; ///< attempts (TrialRecord::id) of a restarted block
-    std::vector<int> restarted;           ///< its trials: none of them is given up any more
+    std::vector<int> restarted;           ///< its trials: none of them is skipped any more
 };
 
 /// Who begins a sitting, and when.

@@ -12,7 +12,7 @@
 
 #include "experiment/animation.h"
 #include "experiment/base/content_hash.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/eye_tracker.h"
 #include "experiment/scene/mesh.h"
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/ports/sitting_rows.h"
+#include "experiment/ports/recorded_answer.h"
 
 namespace overt {
 

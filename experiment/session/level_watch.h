@@ -4,7 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "experiment/ports/ports.h"
+#include "experiment/ports/presenter.h"
+#include "experiment/ports/recorded_answer.h"
 #include "experiment/protocol/sitting_settings.h"
 
 namespace overt {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "experiment/ports/observer_field.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/response_panel.h"
 #include "experiment/protocol/sitting_settings.h"
 
 namespace overt {

@@ -47,50 +47,50 @@ class PracticeLog final : public SessionLog {
 
 Session::Session(const Protocol& protocol, const Schedule& schedule, const ScreenPoint& screen_centre,
                  SessionPorts ports, FieldValues fields)
-    : schedule_(schedule), ports_(std::move(ports)), stage_(protocol, ports_), desk_(stage_),
-      trials_(stage_, desk_, screen_centre), fields_(std::move(fields)) {
+    : schedule_(schedule), ports_(std::move(ports)), state_(protocol, ports_), control_(state_),
+      trials_(state_, control_, screen_centre), fields_(std::move(fields)) {
     fields_.resize(protocol.observer_fields.size());
 }
 
-SessionResult Session::run(const TrialDone& trial_done, const SessionSoFar& so_far) {
+SessionResult Session::run(const TrialDone& trial_done, const SessionHistory& history) {
     SessionResult result;
-    result.completed_trials = so_far.counted_trials;
-    stage_.note(phase_event, std::string(name_of(SessionPhase::set_up)));
+    result.completed_trials = history.counted_trials;
+    state_.note(phase_event, std::string(name_of(SessionPhase::set_up)));
     ports_.panel.entered(SessionPhase::set_up, -1);
-    SessionOpening(stage_, desk_, fields_).run(so_far.is_opened);
-    if (!stage_.is_over()) {
+    SessionOpening(state_, control_, fields_).run(history.is_opened);
+    if (!state_.is_over()) {
         result.is_opened = true;
-        desk_.calibrate();
-        TrialQueue queue(stage_.protocol, schedule_);
-        queue.go_through(so_far.steps);
-        while (!stage_.is_over()) {
+        control_.calibrate();
+        TrialQueue queue(state_.protocol, schedule_);
+        queue.go_through(history.steps);
+        while (!state_.is_over()) {
             const std::optional<SessionStep> step = queue.next();
             if (!step)
                 break;
             run_step(queue, *step, result, trial_done);
         }
     }
-    result.aborted = stage_.is_over();
-    result.reason = stage_.why_over();
-    stage_.enter(SessionPhase::end);
+    result.aborted = state_.is_over();
+    result.reason = state_.why_over();
+    state_.enter(SessionPhase::end);
     // Closing the farewell's window ends nothing that was not already done.
     if (!result.aborted)
         farewell();
-    stage_.note(result.aborted ? "session aborted" : "session completed", result.reason);
+    state_.note(result.aborted ? "session aborted" : "session completed", result.reason);
     return result;
 }
 
 void Session::farewell() {
-    const Screen screen{Screen::Kind::text, stage_.protocol.screens.farewell_text};
+    const Screen screen{Screen::Kind::text, state_.protocol.screens.farewell_text};
     if (screen.text.empty())
         return;
-    const SessionTime onset = stage_.show(screen);
-    stage_.note(text_shown_event, "farewell");
+    const SessionTime onset = state_.show(screen);
+    state_.note(text_shown_event, "farewell");
     ports_.panel.await_key(onset);
-    const SessionTime latest = onset + from_seconds(stage_.protocol.screens.response_max_s);
+    const SessionTime latest = onset + from_seconds(state_.protocol.screens.response_max_s);
     // Any key will do, the operator's as well: there is nothing left to lead.
-    while (stage_.now() < latest && !ports_.panel.poll() && !stage_.went_away())
-        ports_.clock.wait_until(stage_.now() + std::chrono::milliseconds(4));
+    while (state_.now() < latest && !ports_.panel.poll() && !state_.went_away())
+        ports_.clock.wait_until(state_.now() + std::chrono::milliseconds(4));
 }
 
 void Session::run_step(TrialQueue& queue, const SessionStep& step, SessionResult& result,
@@ -120,7 +120,7 @@ void Session::run_step(TrialQueue& queue, const SessionStep& step, SessionResult
 
 /// Whether an attempt counts. One that the whole session ended in does not, and nothing comes after it.
 void Session::judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& attempt) {
-    if (stage_.is_over())
+    if (state_.is_over())
         return;
     const AttemptVerdict verdict = queue.tell(attempt.result);
     attempt.outcome.status = verdict.counts ? TrialOutcome::Status::completed : TrialOutcome::Status::aborted;
@@ -130,8 +130,8 @@ void Session::judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& at
     attempt.outcome.failure = name_of(verdict.failure);
     constexpr std::string_view afterwards[] = {"does not come again", "comes again now",
                                                "comes again at the end of the block"};
-    const std::string& why = desk_.decision().why;
-    ports_.log.event({stage_.now(), trial.index, "trial failed",
+    const std::string& why = control_.decision().why;
+    ports_.log.event({state_.now(), trial.index, "trial failed",
                       fmt::format("{}{}{} ({} refreshes missed, {:.1f} % of samples without gaze): {}{}",
                                   name_of(verdict.failure), why.empty() ? "" : ": ", why,
                                   attempt.result.missed_refreshes, 100.0 * attempt.result.gaze_lost_share,
@@ -140,49 +140,49 @@ void Session::judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& at
 }
 
 void Session::run_instructions(const SessionStep& step) {
-    stage_.enter(SessionPhase::block);
-    const BlockSettings& block = stage_.protocol.blocks[static_cast<std::size_t>(step.block)];
-    read_text(stage_, desk_, block.instructions, "instructions of block " + block.id);
+    state_.enter(SessionPhase::block);
+    const BlockSettings& block = state_.protocol.blocks[static_cast<std::size_t>(step.block)];
+    read_text(state_, control_, block.instructions, "instructions of block " + block.id);
 }
 
 void Session::run_practice(const SessionStep& step, const std::optional<Condition>& next) {
     const Trial& trial = step.trial;
-    const PracticeSettings& practice = stage_.protocol.practice[static_cast<std::size_t>(trial.index)];
+    const PracticeSettings& practice = state_.protocol.practice[static_cast<std::size_t>(trial.index)];
     PracticeLog log(ports_.log);
     TrialRun::Attempt attempt;
     do {
-        ports_.log.event({stage_.now(), -1, "practice",
+        ports_.log.event({state_.now(), -1, "practice",
                           fmt::format("{}: {}, {}, {}", trial.index + 1, practice.task, practice.sculpture,
                                       practice.material)});
-        stage_.log_to(log);
+        state_.log_to(log);
         attempt = trials_.run(trial, next, true);
-        stage_.log_to(ports_.log);
-        if (stage_.is_over())
+        state_.log_to(ports_.log);
+        if (state_.is_over())
             return;
-    } while (comes_again(attempt.result, stage_.protocol.repeat));
+    } while (comes_again(attempt.result, state_.protocol.repeat));
     if (attempt.result.is_skipped || attempt.result.is_rejected) {
-        ports_.log.event({stage_.now(), -1, practice_skipped_event, desk_.decision().why});
+        ports_.log.event({state_.now(), -1, practice_skipped_event, control_.decision().why});
         return;
     }
-    ports_.log.event({stage_.now(), -1, practice_answered_event, attempt.outcome.answer});
-    if (practice.feedback.empty() || stage_.phase() != SessionPhase::response_screen)
+    ports_.log.event({state_.now(), -1, practice_answered_event, attempt.outcome.answer});
+    if (practice.feedback.empty() || state_.phase() != SessionPhase::response_screen)
         return;
-    stage_.enter(SessionPhase::feedback);
-    read_text(stage_, desk_, practice.feedback, "feedback");
+    state_.enter(SessionPhase::feedback);
+    read_text(state_, control_, practice.feedback, "feedback");
 }
 
 void Session::run_break() {
-    const BreakSettings& breaks = stage_.protocol.breaks;
-    stage_.enter(SessionPhase::rest);
-    stage_.note(break_begins_event);
+    const BreakSettings& breaks = state_.protocol.breaks;
+    state_.enter(SessionPhase::rest);
+    state_.note(break_begins_event);
     const Screen screen{Screen::Kind::text, breaks.text};
     const bool is_timed = breaks.pace == BreakPace::timed;
-    desk_.wait({.screen = screen,
-                .onset = stage_.show(screen),
-                .min_s = is_timed ? breaks.duration_s : breaks.min_s,
-                .max_s = is_timed ? breaks.duration_s : longest_break_s,
-                .takes_keys = !is_timed});
-    stage_.note("break ends");
+    control_.wait({.screen = screen,
+                   .onset = state_.show(screen),
+                   .min_s = is_timed ? breaks.duration_s : breaks.min_s,
+                   .max_s = is_timed ? breaks.duration_s : longest_break_s,
+                   .takes_keys = !is_timed});
+    state_.note("break ends");
 }
 
 } // namespace overt

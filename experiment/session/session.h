@@ -1,13 +1,14 @@
-/// One observer's sitting, from consent to farewell: the order of things, and nothing of how they are done.
+/// One observer's sitting from consent to farewell: what comes when. How each part is done is in its own
+/// file.
 #pragma once
 
 #include <functional>
 
 #include "experiment/design/trial_queue.h"
 #include "experiment/protocol/protocol.h"
-#include "experiment/session/operator_desk.h"
+#include "experiment/session/operator_control.h"
 #include "experiment/session/session_ports.h"
-#include "experiment/session/session_stage.h"
+#include "experiment/session/session_state.h"
 #include "experiment/session/trial_run.h"
 #include "experiment/trial.h"
 
@@ -33,9 +34,9 @@ class Session {
 
     /// Runs all trials in their order, with what comes before, between and after them. An attempt that does
     /// not count is recorded as aborted. Throws DeviceError, GraphicsError or RecordError for what breaks
-    /// between trials; what happens within one is in its outcome. `so_far`: of an interrupted session, that
+    /// between trials; what happens within one is in its outcome. `history`: of an interrupted session, that
     /// is taken up where it stood; its last step is that of being resumed.
-    SessionResult run(const TrialDone& trial_done, const SessionSoFar& so_far = {});
+    SessionResult run(const TrialDone& trial_done, const SessionHistory& history = {});
 
   private:
     void run_step(TrialQueue& queue, const SessionStep& step, SessionResult& result,
@@ -48,8 +49,8 @@ class Session {
 
     const Schedule& schedule_;
     SessionPorts ports_;
-    SessionStage stage_;
-    OperatorDesk desk_;
+    SessionState state_;
+    OperatorControl control_;
     TrialRun trials_;
     FieldValues fields_;
 };

@@ -18,63 +18,63 @@ constexpr SessionDuration key_interval = std::chrono::milliseconds(4);
 
 } // namespace
 
-bool read_text(SessionStage& stage, OperatorDesk& desk, const std::string& text, std::string what) {
+bool read_text(SessionState& state, OperatorControl& control, const std::string& text, std::string what) {
     if (text.empty())
         return true;
     const Screen screen{Screen::Kind::text, text};
-    const SessionTime onset = stage.show(screen);
-    stage.note(text_shown_event, std::move(what));
-    const auto how = desk.wait({.screen = screen, .onset = onset, .max_s = without_end_s}).how;
-    return how != OperatorDesk::How::session_over && how != OperatorDesk::How::trial_over;
+    const SessionTime onset = state.show(screen);
+    state.note(text_shown_event, std::move(what));
+    const auto how = control.wait({.screen = screen, .onset = onset, .max_s = without_end_s}).how;
+    return how != OperatorControl::How::session_over && how != OperatorControl::How::trial_over;
 }
 
 void SessionOpening::run(bool is_known) {
     if (!is_known && (!ask_for_consent() || !fill_in_form()))
         return;
-    if (read_text(stage_, desk_, stage_.protocol.screens.welcome_text, "welcome"))
+    if (read_text(state_, control_, state_.protocol.screens.welcome_text, "welcome"))
         read_instructions();
 }
 
 bool SessionOpening::ask_for_consent() {
-    const std::string& text = stage_.protocol.consent.text;
+    const std::string& text = state_.protocol.consent.text;
     if (text.empty())
         return true;
     const Screen screen{Screen::Kind::text, text};
-    const auto await = [&](SessionTime since) { stage_.ports.panel.await_decision(true, since); };
+    const auto await = [&](SessionTime since) { state_.ports.panel.await_decision(true, since); };
     for (;;) {
-        const OperatorDesk::Press press = desk_.wait(
-            {.screen = screen, .onset = stage_.show(screen), .max_s = longest_reading_s, .await = await});
-        using How = OperatorDesk::How;
+        const OperatorControl::Press press = control_.wait(
+            {.screen = screen, .onset = state_.show(screen), .max_s = longest_reading_s, .await = await});
+        using How = OperatorControl::How;
         if (press.how == How::next || press.how == How::back)
             continue; // neither accepts nor declines
         if (press.how == How::session_over)
             return false;
         const bool accepted = press.how == How::yes;
-        stage_.log().consent({stage_.ports.observer, accepted, press.at, {}, hash_of_text(text)});
+        state_.log().consent({state_.ports.observer, accepted, press.at, {}, hash_of_text(text)});
         if (!accepted)
-            stage_.end_session(press.how == How::no ? "the observer declined to take part"
+            state_.end_session(press.how == How::no ? "the observer declined to take part"
                                                     : "nobody agreed to take part");
         return accepted;
     }
 }
 
 bool SessionOpening::fill_in_form() {
-    const std::vector<ObserverFieldSettings>& fields = stage_.protocol.observer_fields;
+    const std::vector<ObserverFieldSettings>& fields = state_.protocol.observer_fields;
     const bool is_full =
         std::none_of(fields_.begin(), fields_.end(), [](const auto& value) { return value.empty(); });
     if (fields.empty())
         return true;
-    if (!is_full && stage_.ports.can_type) {
-        ObserverForm form(fields, fields_, stage_.protocol.words);
+    if (!is_full && state_.ports.can_type) {
+        ObserverForm form(fields, fields_, state_.protocol.words);
         const auto show = [&] {
-            stage_.ports.panel.await_entry(stage_.show({Screen::Kind::form, form.text()}));
+            state_.ports.panel.await_entry(state_.show({Screen::Kind::form, form.text()}));
         };
         show();
         for (bool is_submitted = false; !is_submitted;) {
             bool is_changed = false;
-            while (const std::optional<ResponsePress> press = stage_.ports.panel.poll()) {
+            while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
                 if (is_operators(press->key)) {
-                    if (!desk_.act_on(*press))
+                    if (!control_.act_on(*press))
                         return false;
                     show();
                 } else if (form.take(*press)) {
@@ -83,34 +83,34 @@ bool SessionOpening::fill_in_form() {
                 }
                 is_changed = true;
             }
-            if (stage_.ends_by_itself())
+            if (state_.ends_by_itself())
                 return false;
             // Several keys in one look: drawn once. Presses that come while it is drawn are kept.
             if (is_changed && !is_submitted)
-                stage_.show({Screen::Kind::form, form.text()});
+                state_.show({Screen::Kind::form, form.text()});
             if (!is_changed)
-                stage_.ports.clock.wait_until(stage_.now() + key_interval);
+                state_.ports.clock.wait_until(state_.now() + key_interval);
         }
         fields_ = form.values();
     }
-    stage_.log().observer_fields(filled_in(fields, fields_));
+    state_.log().observer_fields(filled_in(fields, fields_));
     return true;
 }
 
 void SessionOpening::read_instructions() {
-    const std::vector<std::string>& pages = stage_.protocol.instructions.pages;
+    const std::vector<std::string>& pages = state_.protocol.instructions.pages;
     for (std::size_t page = 0; page < pages.size();) {
         const std::string text = pages.size() == 1
                                      ? pages[page]
                                      : fmt::format("{}\n\n{} / {}", pages[page], page + 1, pages.size());
         const Screen screen{Screen::Kind::text, text};
-        const SessionTime onset = stage_.show(screen);
-        stage_.note(text_shown_event, fmt::format("instructions, page {} of {}", page + 1, pages.size()));
-        const OperatorDesk::Press press =
-            desk_.wait({.screen = screen, .onset = onset, .max_s = without_end_s, .turns_pages = true});
-        if (press.how == OperatorDesk::How::session_over)
+        const SessionTime onset = state_.show(screen);
+        state_.note(text_shown_event, fmt::format("instructions, page {} of {}", page + 1, pages.size()));
+        const OperatorControl::Press press =
+            control_.wait({.screen = screen, .onset = onset, .max_s = without_end_s, .turns_pages = true});
+        if (press.how == OperatorControl::How::session_over)
             return;
-        if (press.how != OperatorDesk::How::back)
+        if (press.how != OperatorControl::How::back)
             ++page;
         else if (page > 0)
             --page;

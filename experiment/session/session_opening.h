@@ -1,15 +1,15 @@
 /// What comes before the first trial: consent, the observer's form, the welcome and the instructions.
 #pragma once
 
-#include "experiment/session/operator_desk.h"
+#include "experiment/session/operator_control.h"
 
 namespace overt {
 
 class SessionOpening {
   public:
     /// Both must outlive this. `fields`: what of the form is filled in already.
-    SessionOpening(SessionStage& stage, OperatorDesk& desk, FieldValues fields)
-        : stage_(stage), desk_(desk), fields_(std::move(fields)) {}
+    SessionOpening(SessionState& state, OperatorControl& control, FieldValues fields)
+        : state_(state), control_(control), fields_(std::move(fields)) {}
 
     /// Until calibration may begin, or the session is over. Of an observer who declines nothing else is
     /// recorded. `is_known`: consent and form are in the record already.
@@ -20,13 +20,13 @@ class SessionOpening {
     bool fill_in_form();
     void read_instructions();
 
-    SessionStage& stage_;
-    OperatorDesk& desk_;
+    SessionState& state_;
+    OperatorControl& control_;
     FieldValues fields_;
 };
 
 /// Shows a text until a key is pressed, however long that takes, and notes `what` it was; nothing where the
 /// text is empty. Whether things go on.
-bool read_text(SessionStage& stage, OperatorDesk& desk, const std::string& text, std::string what);
+bool read_text(SessionState& state, OperatorControl& control, const std::string& text, std::string what);
 
 } // namespace overt

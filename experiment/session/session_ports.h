@@ -5,7 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "experiment/ports/ports.h"
+#include "experiment/ports/answer_recorder.h"
+#include "experiment/ports/clock.h"
+#include "experiment/ports/eye_tracker.h"
+#include "experiment/ports/presentation_listener.h"
+#include "experiment/ports/presenter.h"
+#include "experiment/ports/recorded_answer.h"
+#include "experiment/ports/response_panel.h"
+#include "experiment/ports/session_log.h"
 
 namespace overt {
 
@@ -16,7 +23,7 @@ struct SessionPorts {
     EyeTracker& tracker;
     ResponsePanel& panel;
     SessionLog& log;
-    std::vector<DisplayWitness*> witnesses;
+    std::vector<PresentationListener*> listeners;
     std::string observer = {};          ///< label, for the record of consent
     bool can_type = false;              ///< somebody sits at the panel's keyboard and can fill in the form
     AnswerRecorder* recorder = nullptr; ///< null: spoken answers are not recorded

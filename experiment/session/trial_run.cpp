@@ -27,23 +27,23 @@ constexpr double smallest_wall_step_s = 0.1;
 /// must not stop the session.
 constexpr SessionDuration longest_wait_for_answer = std::chrono::seconds(2);
 
-using How = OperatorDesk::How;
+using How = OperatorControl::How;
 
 } // namespace
 
-TrialRun::TrialRun(SessionStage& stage, OperatorDesk& desk, const ScreenPoint& screen_centre)
-    : stage_(stage), desk_(desk), screen_centre_(screen_centre),
-      cycle_(make_page_cycle(stage.protocol.animation, stage.protocol.display.refresh_hz)),
-      ledger_(cycle_, stage.protocol.animation.when_late), samples_(4096) {}
+TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre)
+    : state_(state), control_(control), screen_centre_(screen_centre),
+      cycle_(make_page_cycle(state.protocol.animation, state.protocol.display.refresh_hz)),
+      ledger_(cycle_, state.protocol.animation.when_late), samples_(4096) {}
 
 TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Condition>& next, bool is_practice) {
     Attempt attempt;
     attempt.outcome.status = TrialOutcome::Status::aborted;
-    desk_.begin_trial();
-    stage_.enter(SessionPhase::trial, is_practice ? -1 : trial.index);
-    stage_.ports.presenter.load_frames(trial.condition);
-    stage_.log().trial_started(trial, stage_.now());
-    const Clock::Disturbance before = stage_.ports.clock.disturbance();
+    control_.begin_trial();
+    state_.enter(SessionPhase::trial, is_practice ? -1 : trial.index);
+    state_.ports.presenter.load_frames(trial.condition);
+    state_.log().trial_started(trial, state_.now());
+    const Clock::Disturbance before = state_.ports.clock.disturbance();
     ask(trial, attempt);
     if (goes_on(attempt))
         check_drift(attempt.outcome);
@@ -54,7 +54,7 @@ TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Conditio
     if (goes_on(attempt))
         take_answer(trial, next, is_practice, attempt);
     note_disturbance(before);
-    const TrialDecision::Word word = desk_.decision().word;
+    const TrialDecision::Word word = control_.decision().word;
     attempt.result.is_rejected = attempt.result.is_rejected || word == TrialDecision::Word::rejected;
     attempt.result.is_repeated = word == TrialDecision::Word::repeated;
     attempt.result.is_skipped = word == TrialDecision::Word::skipped;
@@ -62,63 +62,63 @@ TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Conditio
 }
 
 bool TrialRun::goes_on(const Attempt& attempt) const {
-    return !stage_.is_over() && !attempt.result.is_rejected &&
-           desk_.decision().word == TrialDecision::Word::none;
+    return !state_.is_over() && !attempt.result.is_rejected &&
+           control_.decision().word == TrialDecision::Word::none;
 }
 
 void TrialRun::ask(const Trial& trial, Attempt& attempt) {
-    const ScreenSettings& screens = stage_.protocol.screens;
-    stage_.enter(SessionPhase::task_screen, stage_.trial());
+    const ScreenSettings& screens = state_.protocol.screens;
+    state_.enter(SessionPhase::task_screen, state_.trial());
     const Screen screen{Screen::Kind::text,
-                        stage_.protocol.tasks[static_cast<std::size_t>(trial.task)].question};
-    attempt.outcome.task_screen_onset = stage_.show(screen);
-    desk_.wait({.screen = screen,
-                .onset = attempt.outcome.task_screen_onset,
-                .min_s = screens.task_min_s,
-                .max_s = without_end_s});
+                        state_.protocol.tasks[static_cast<std::size_t>(trial.task)].question};
+    attempt.outcome.task_screen_onset = state_.show(screen);
+    control_.wait({.screen = screen,
+                   .onset = attempt.outcome.task_screen_onset,
+                   .min_s = screens.task_min_s,
+                   .max_s = without_end_s});
 }
 
 void TrialRun::check_drift(TrialOutcome& outcome) {
-    stage_.enter(SessionPhase::drift_check, stage_.trial());
+    state_.enter(SessionPhase::drift_check, state_.trial());
     const Screen target{Screen::Kind::drift_target, ""};
-    const How how = desk_
+    const How how = control_
                         .wait({.screen = target,
-                               .onset = stage_.show(target),
-                               .max_s = stage_.protocol.screens.drift_target_s,
+                               .onset = state_.show(target),
+                               .max_s = state_.protocol.screens.drift_target_s,
                                .await = [](SessionTime) {}, // of the observer nothing is
                                .takes_keys = false,
                                .starts_over = true})
                         .how;
     if (how != How::timed_out)
         return;
-    outcome.drift = stage_.ports.tracker.drift_check(screen_centre_);
-    const double limit_deg = stage_.protocol.tracker.drift_limit_deg;
+    outcome.drift = state_.ports.tracker.drift_check(screen_centre_);
+    const double limit_deg = state_.protocol.tracker.drift_limit_deg;
     if (!outcome.drift)
-        stage_.note("drift check failed", "no eye was found");
+        state_.note("drift check failed", "no eye was found");
     else if (outcome.drift->value > limit_deg)
-        stage_.note("drift check failed", fmt::format("{:.3f} deg is more than the limit of {} deg",
+        state_.note("drift check failed", fmt::format("{:.3f} deg is more than the limit of {} deg",
                                                       outcome.drift->value, limit_deg));
 }
 
 void TrialRun::present(const Trial& trial, Attempt& attempt) {
     TrialOutcome& outcome = attempt.outcome;
-    SessionLog& log = stage_.log();
-    const SessionPorts& ports = stage_.ports;
-    const SessionDuration lead = from_seconds(stage_.protocol.screens.recording_lead_s);
-    stage_.enter(SessionPhase::stimulus, stage_.trial());
+    SessionLog& log = state_.log();
+    const SessionPorts& ports = state_.ports;
+    const SessionDuration lead = from_seconds(state_.protocol.screens.recording_lead_s);
+    state_.enter(SessionPhase::stimulus, state_.trial());
     read_clocks();
     ports.tracker.start_recording();
-    stage_.show({});
-    wait_and_take_samples(trial.index, stage_.now() + lead);
-    for (DisplayWitness* witness : ports.witnesses)
-        witness->presentation_begins(trial);
+    state_.show({});
+    wait_and_take_samples(trial.index, state_.now() + lead);
+    for (PresentationListener* listener : ports.listeners)
+        listener->presentation_begins(trial);
 
     sample_count_ = lost_count_ = 0;
     pressed_.reset();
     const auto is_broken_off = [&] { return pressed_ && pressed_->key == ResponsePress::Key::abort; };
     // From here to the last flip nothing allocates, opens, throws or formats.
     ledger_.begin(trial.index);
-    while (!ledger_.is_complete() && !stage_.went_away() && !is_broken_off()) {
+    while (!ledger_.is_complete() && !state_.went_away() && !is_broken_off()) {
         // Take what the tracker has seen so far.
         take_samples(trial.index);
         // Show the frame that the plan has next, and learn when it was lit.
@@ -127,8 +127,8 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
         for (int i = 0; i < ledger_.missed_count(); ++i)
             log.missed(ledger_.missed(i));
         log.flip(flip);
-        for (DisplayWitness* witness : ports.witnesses)
-            witness->saw(flip);
+        for (PresentationListener* listener : ports.listeners)
+            listener->flipped(flip);
         // Remember what the operator pressed.
         look_at_keys();
     }
@@ -140,16 +140,16 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
         attempt.result.gaze_lost_share =
             static_cast<double>(lost_count_) / static_cast<double>(sample_count_);
 
-    outcome.presentation_end = stage_.show({});
-    stage_.ends_by_itself();
-    wait_and_take_samples(trial.index, stage_.now() + lead);
+    outcome.presentation_end = state_.show({});
+    state_.ends_by_itself();
+    wait_and_take_samples(trial.index, state_.now() + lead);
     ports.tracker.stop_recording();
     take_samples(trial.index);
     read_clocks();
 }
 
 void TrialRun::look_at_keys() noexcept {
-    while (const std::optional<ResponsePress> press = stage_.ports.panel.poll()) {
+    while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
         const bool ends_it = press->key == ResponsePress::Key::abort;
         // Whoever wants the animation to end means that more than what was pressed before.
         if (is_operators(press->key) && (!pressed_ || ends_it))
@@ -158,28 +158,28 @@ void TrialRun::look_at_keys() noexcept {
 }
 
 void TrialRun::act_on_pressed_keys(Attempt& attempt) {
-    if (!pressed_ || stage_.is_over())
+    if (!pressed_ || state_.is_over())
         return;
     const bool was_broken_off = !ledger_.is_complete();
     if (was_broken_off)
-        stage_.log().event({pressed_->pressed_at, stage_.trial(), "presentation broken off",
+        state_.log().event({pressed_->pressed_at, state_.trial(), "presentation broken off",
                             fmt::format("by a key, after {} refreshes", attempt.outcome.shown_refreshes)});
-    desk_.act_on(*pressed_);
+    control_.act_on(*pressed_);
     // Half an animation is no stimulus: taken back or not, this attempt does not count.
     attempt.result.is_rejected = was_broken_off;
 }
 
 void TrialRun::take_answer(const Trial& trial, const std::optional<Condition>& next, bool is_practice,
                            Attempt& attempt) {
-    const ScreenSettings& screens = stage_.protocol.screens;
+    const ScreenSettings& screens = state_.protocol.screens;
     TrialOutcome& outcome = attempt.outcome;
-    SessionPorts& ports = stage_.ports;
-    stage_.enter(SessionPhase::response_screen, stage_.trial());
+    SessionPorts& ports = state_.ports;
+    state_.enter(SessionPhase::response_screen, state_.trial());
     std::unique_ptr<AnswerRecording> recording;
     if (ports.recorder && !is_practice)
         recording = ports.recorder->begin(trial);
     const Screen screen{Screen::Kind::text, screens.response_text};
-    outcome.response_screen_onset = stage_.show(screen);
+    outcome.response_screen_onset = state_.show(screen);
     if (recording)
         recording->response_screen_lit(outcome.response_screen_onset);
     if (next)
@@ -189,8 +189,8 @@ void TrialRun::take_answer(const Trial& trial, const std::optional<Condition>& n
                     .min_s = screens.response_min_s,
                     .max_s = screens.response_max_s};
     waiting.await = [&](SessionTime since) { ports.panel.await_response(trial, since); };
-    LevelWatch watch(stage_.protocol.words, outcome.response_screen_onset);
-    const bool shows_level = stage_.protocol.answers.meter_on_screen;
+    LevelWatch watch(state_.protocol.words, outcome.response_screen_onset);
+    const bool shows_level = state_.protocol.answers.meter_on_screen;
     if (recording && (ports.on_level || shows_level))
         waiting.meanwhile = [&] {
             const AudioLevel level = recording->level();
@@ -198,15 +198,15 @@ void TrialRun::take_answer(const Trial& trial, const std::optional<Condition>& n
                 ports.on_level(level);
             if (!shows_level)
                 return;
-            if (const std::optional<LevelBar> bar = watch.take(level, stage_.now()))
+            if (const std::optional<LevelBar> bar = watch.take(level, state_.now()))
                 ports.presenter.show_level(*bar);
         };
-    const OperatorDesk::Press press = desk_.wait(waiting);
+    const OperatorControl::Press press = control_.wait(waiting);
     outcome.responded_at = press.at;
     if (recording)
         recording->end(press.at);
     if (press.how == How::timed_out)
-        stage_.log().event({press.at, stage_.trial(), "response timed out", ""});
+        state_.log().event({press.at, state_.trial(), "response timed out", ""});
     if (press.how == How::next)
         outcome.answer = ports.panel.answer();
     if (recording)
@@ -214,59 +214,59 @@ void TrialRun::take_answer(const Trial& trial, const std::optional<Condition>& n
 }
 
 void TrialRun::keep_answer(AnswerRecording& recording) {
-    const SessionTime latest = stage_.now() + longest_wait_for_answer;
+    const SessionTime latest = state_.now() + longest_wait_for_answer;
     std::optional<RecordedAnswer> answer = recording.result();
-    while (!answer && stage_.now() < latest) {
-        stage_.ports.presenter.use_spare_time();
-        stage_.ports.clock.wait_until(stage_.now() + poll_interval);
+    while (!answer && state_.now() < latest) {
+        state_.ports.presenter.use_spare_time();
+        state_.ports.clock.wait_until(state_.now() + poll_interval);
         answer = recording.result();
     }
     if (!answer) {
-        stage_.note("answer recording", "was not complete two seconds after its end: the file may be short");
+        state_.note("answer recording", "was not complete two seconds after its end: the file may be short");
         return;
     }
     for (const std::string& warning : warnings_about(*answer))
-        stage_.note("answer recording", warning);
-    stage_.log().answer_recorded(*answer);
+        state_.note("answer recording", warning);
+    state_.log().answer_recorded(*answer);
 }
 
 /// A machine that slept in a trial lit nothing meanwhile, whatever the ledger says; a wall clock that was set
 /// does no harm to session time, but shifts what other programs wrote down.
 void TrialRun::note_disturbance(const Clock::Disturbance& before) {
-    const Clock::Disturbance now = stage_.ports.clock.disturbance();
+    const Clock::Disturbance now = state_.ports.clock.disturbance();
     const double slept_s = to_seconds(now.slept - before.slept);
     const double moved_s = to_seconds(now.wall_moved - before.wall_moved);
     if (slept_s > shortest_sleep_s)
-        stage_.note("machine slept",
+        state_.note("machine slept",
                     fmt::format("{:.3f} s, in which nothing was shown or recorded", slept_s));
     if (std::abs(moved_s) > smallest_wall_step_s)
-        stage_.note("wall clock was set",
+        state_.note("wall clock was set",
                     fmt::format("by {:+.3f} s; session time went on as before", moved_s));
 }
 
 void TrialRun::take_samples(int trial) noexcept {
     std::size_t taken = 0;
     do {
-        taken = stage_.ports.tracker.poll(samples_);
+        taken = state_.ports.tracker.poll(samples_);
         for (std::size_t i = 0; i < taken; ++i) {
             ++sample_count_;
             lost_count_ += samples_[i].gaze ? 0 : 1;
-            stage_.log().sample(trial, samples_[i]);
+            state_.log().sample(trial, samples_[i]);
         }
     } while (taken == samples_.size());
 }
 
 void TrialRun::wait_and_take_samples(int trial, SessionTime until) noexcept {
-    while (stage_.now() < until) {
+    while (state_.now() < until) {
         take_samples(trial);
-        stage_.ports.clock.wait_until(std::min(until, stage_.now() + poll_interval));
+        state_.ports.clock.wait_until(std::min(until, state_.now() + poll_interval));
     }
     take_samples(trial);
 }
 
 void TrialRun::read_clocks() noexcept {
     for (int i = 0; i < clock_readings; ++i)
-        stage_.log().clock_pair(stage_.ports.tracker.read_clocks());
+        state_.log().clock_pair(state_.ports.tracker.read_clocks());
 }
 
 } // namespace overt

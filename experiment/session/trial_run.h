@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiment/design/trial_queue.h"
-#include "experiment/session/operator_desk.h"
+#include "experiment/session/operator_control.h"
 #include "experiment/timing/refresh_ledger.h"
 
 namespace overt {
@@ -14,11 +14,11 @@ namespace overt {
 class TrialRun {
   public:
     /// Both must outlive this.
-    TrialRun(SessionStage& stage, OperatorDesk& desk, const ScreenPoint& screen_centre);
+    TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre);
 
     /// What an attempt was like.
     struct Attempt {
-        TrialOutcome outcome; ///< aborted: whether it counts is somebody else's to judge
+        TrialOutcome outcome; ///< status is aborted until the session has judged the attempt
         AttemptResult result;
     };
     /// `next`: the stimulus that probably comes after it. `is_practice`: its events are noted outside of
@@ -41,8 +41,8 @@ class TrialRun {
     void look_at_keys() noexcept;
     void note_disturbance(const Clock::Disturbance& before);
 
-    SessionStage& stage_;
-    OperatorDesk& desk_;
+    SessionState& state_;
+    OperatorControl& control_;
     ScreenPoint screen_centre_;
     PageCycle cycle_;
     RefreshLedger ledger_;

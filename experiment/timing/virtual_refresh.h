@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "experiment/base/random.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/clock.h"
+#include "experiment/ports/presentation_listener.h"
+#include "experiment/ports/presenter.h"
 #include "experiment/timing/display_faults.h"
 #include "experiment/timing/refresh_count.h"
 
@@ -12,10 +14,10 @@ namespace overt {
 
 /// The n-th refresh begins at n / rate of the session clock. On a virtual clock none is ever missed unless a
 /// fault says so; on a real one a late caller finds that refreshes went by. Faults strike presentations only:
-/// it has to be among the session's witnesses to know when there is one.
+/// it has to be among the session's listeners to know when there is one.
 ///
 /// After presentation_begins() nothing is allocated, and nothing throws.
-class VirtualRefresh final : public DisplayWitness {
+class VirtualRefresh final : public PresentationListener {
   public:
     /// The clock must outlive this.
     VirtualRefresh(Clock& clock, double refresh_hz, DisplayFaults faults = {});
@@ -37,8 +39,8 @@ class VirtualRefresh final : public DisplayWitness {
     const std::vector<DisplayFault>& struck() const noexcept { return struck_; }
 
     void presentation_begins(const Trial& trial) noexcept override;
-    void saw(const FlipRecord&) noexcept override {}
-    void saw_screen(const Screen&, SessionTime) noexcept override { in_presentation_ = false; }
+    void flipped(const FlipRecord&) noexcept override {}
+    void screen_shown(const Screen&, SessionTime) noexcept override { in_presentation_ = false; }
 
   private:
     std::int64_t first_after(SessionTime time) const noexcept;

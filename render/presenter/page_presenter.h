@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "experiment/ports/ports.h"
+#include "experiment/ports/presenter.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/stimulus/photodiode_patch.h"
 #include "render/image/linear_image.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "experiment/ports/ports.h"
+#include "experiment/ports/presenter.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/screen_geometry.h"
 #include "render/image/linear_image.h"

@@ -40,7 +40,7 @@ void LiveMaps::presentation_begins(const Trial& trial) noexcept {
     }
 }
 
-void LiveMaps::saw(const FlipRecord& flip) noexcept {
+void LiveMaps::flipped(const FlipRecord& flip) noexcept {
     collect(false);
     Figure& figure = figures_[static_cast<std::size_t>(current_)];
     const auto pose = static_cast<std::size_t>(flip.pose.value);
@@ -71,7 +71,7 @@ void LiveMaps::collect(bool wait) noexcept {
     }
 }
 
-void LiveMaps::saw_screen(const Screen&, SessionTime) noexcept { collect(true); }
+void LiveMaps::screen_shown(const Screen&, SessionTime) noexcept { collect(true); }
 
 std::vector<LiveMap> LiveMaps::take_finished() {
     std::vector<LiveMap> finished;

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "experiment/maps/triangle_map.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/presentation_listener.h"
+#include "experiment/ports/presenter.h"
 #include "experiment/stimulus/sculpture.h"
 #include "render/gl/pixel_readback.h"
 #include "render/stimulus/coordinate_pass.h"
@@ -22,7 +23,7 @@ struct LiveMap {
 
 /// Used on the session's thread, where the context is current. Between a presentation's first and last flip
 /// it allocates and throws nothing, and never waits for the card.
-class LiveMaps final : public DisplayWitness {
+class LiveMaps final : public PresentationListener {
   public:
     /// `sculptures` must outlive this. Uploads all meshes. Throws GraphicsError, or InputError as depth_range
     /// does.
@@ -30,9 +31,9 @@ class LiveMaps final : public DisplayWitness {
              glm::ivec2 image_px);
 
     void presentation_begins(const Trial& trial) noexcept override;
-    void saw(const FlipRecord& flip) noexcept override;
+    void flipped(const FlipRecord& flip) noexcept override;
     /// Ends a presentation: waits for what is still under way.
-    void saw_screen(const Screen& screen, SessionTime onset) noexcept override;
+    void screen_shown(const Screen& screen, SessionTime onset) noexcept override;
 
     /// The maps finished since the last call, to be written down. Each pose of a sculpture comes once.
     std::vector<LiveMap> take_finished();

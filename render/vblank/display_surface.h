@@ -1,7 +1,8 @@
 /// Where finished screens go: a display that exists, or one that only keeps time.
 #pragma once
 
-#include "experiment/ports/ports.h"
+#include "experiment/ports/clock.h"
+#include "experiment/ports/presenter.h"
 #include "experiment/timing/virtual_refresh.h"
 #include "render/gl/gl_objects.h"
 #include "render/vblank/window_flips.h"

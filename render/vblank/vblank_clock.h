@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "experiment/flip_report.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/clock.h"
 
 namespace overt {
 

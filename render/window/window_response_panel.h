@@ -4,7 +4,9 @@
 #include <array>
 #include <cstdint>
 
-#include "experiment/ports/ports.h"
+#include "experiment/ports/clock.h"
+#include "experiment/ports/response_panel.h"
+#include "experiment/ports/session_phase.h"
 #include "experiment/protocol/sitting_settings.h"
 #include "render/window/window_context.h"
 

@@ -16,7 +16,7 @@ AttemptFate fate_of(const TrialRecord& attempt) {
         return AttemptFate::interrupted;
     switch (attempt.outcome.afterwards) {
     case TrialOutcome::Afterwards::never:
-        return AttemptFate::given_up;
+        return AttemptFate::skipped;
     case TrialOutcome::Afterwards::now:
         return AttemptFate::comes_again_now;
     case TrialOutcome::Afterwards::end_of_block:
@@ -37,36 +37,37 @@ ResumePolicy policy_called(const std::string& word) {
 struct DatedStep {
     int sitting;
     SessionTime at;
-    PastStep step;
+    RecordedStep step;
 };
 
 } // namespace
 
-SessionSoFar SessionRecord::so_far() const {
+SessionHistory SessionRecord::history() const {
     std::vector<DatedStep> dated;
     for (const auto& [sitting, policy] : resumptions())
         dated.push_back(
-            {sitting, SessionTime::min(), {PastStep::Kind::resumed, -1, {}, policy_called(policy)}});
+            {sitting, SessionTime::min(), {RecordedStep::Kind::resumed, -1, {}, policy_called(policy)}});
     for (const TrialRecord& trial : trials_)
-        dated.push_back(
-            {trial.sitting, trial.started, {PastStep::Kind::trial, trial.trial.index, fate_of(trial), {}}});
+        dated.push_back({trial.sitting,
+                         trial.started,
+                         {RecordedStep::Kind::trial, trial.trial.index, fate_of(trial), {}}});
     for (const RecordedEvent& event : events()) {
         if (event.kind == practice_answered_event || event.kind == practice_skipped_event)
-            dated.push_back({event.sitting, event.at, {PastStep::Kind::practice, -1, {}, {}}});
+            dated.push_back({event.sitting, event.at, {RecordedStep::Kind::practice, -1, {}, {}}});
         if (event.kind == break_begins_event)
-            dated.push_back({event.sitting, event.at, {PastStep::Kind::pause, -1, {}, {}}});
+            dated.push_back({event.sitting, event.at, {RecordedStep::Kind::pause, -1, {}, {}}});
     }
     std::stable_sort(dated.begin(), dated.end(), [](const DatedStep& a, const DatedStep& b) {
         // In virtual time a trial begins at the very instant at which what was before it ended.
-        const auto rank = [](const DatedStep& entry) { return entry.step.kind == PastStep::Kind::trial; };
+        const auto rank = [](const DatedStep& entry) { return entry.step.kind == RecordedStep::Kind::trial; };
         return std::tuple(a.sitting, a.at, rank(a)) < std::tuple(b.sitting, b.at, rank(b));
     });
-    SessionSoFar so_far;
+    SessionHistory history;
     for (const DatedStep& entry : dated)
-        so_far.steps.push_back(entry.step);
-    so_far.counted_trials = static_cast<int>(
+        history.steps.push_back(entry.step);
+    history.counted_trials = static_cast<int>(
         std::count_if(trials_.begin(), trials_.end(), [](const TrialRecord& trial) { return trial.counts; }));
-    return so_far;
+    return history;
 }
 
 } // namespace overt

@@ -90,7 +90,7 @@ SessionTime SessionRecord::last_time() const {
 
 bool SessionRecord::is_complete() const {
     std::set<int> done;
-    for (const int trial : given_up())
+    for (const int trial : skipped_trials())
         done.insert(trial);
     for (const TrialRecord& attempt : trials_)
         if (attempt.counts || (attempt.status == TrialRecord::Status::aborted && !attempt.is_superseded &&

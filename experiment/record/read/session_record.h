@@ -14,8 +14,11 @@
 #include "experiment/analysis/flip_history.h"
 #include "experiment/clock_map.h"
 #include "experiment/gaze_event.h"
-#include "experiment/ports/past_step.h"
-#include "experiment/ports/ports.h"
+#include "experiment/ports/observer_field.h"
+#include "experiment/ports/recorded_answer.h"
+#include "experiment/ports/recorded_consent.h"
+#include "experiment/ports/session_history.h"
+#include "experiment/ports/trial_outcome.h"
 #include "experiment/record/recorded_box.h"
 #include "experiment/record/session_header.h"
 #include "experiment/timing/ledger_fit.h"
@@ -150,14 +153,14 @@ class SessionRecord {
     std::vector<std::pair<int, std::string>> resumptions() const;
 
     /// Indices of trials that were skipped when the session was taken up again.
-    std::vector<int> given_up() const;
+    std::vector<int> skipped_trials() const;
 
     /// Each trial has an attempt that counts or will not be attempted any more, and the session was closed in
     /// order.
     bool is_complete() const;
 
     /// What was done, for a session that is taken up again, or to see whether it is complete.
-    SessionSoFar so_far() const;
+    SessionHistory history() const;
 
     /// Reads the whole file and gives a sentence for each thing that is wrong with it; empty if it is sound.
     std::vector<std::string> damages() const;

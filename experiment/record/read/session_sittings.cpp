@@ -104,7 +104,7 @@ std::vector<std::pair<int, std::string>> SessionRecord::resumptions() const {
     });
 }
 
-std::vector<int> SessionRecord::given_up() const {
+std::vector<int> SessionRecord::skipped_trials() const {
     return reading_session(file_, [&] {
         return read_later_rows(*database_, "given_up", "SELECT trial FROM given_up ORDER BY trial",
                                [](Query& row) { return row.small(); });

@@ -113,8 +113,8 @@ void RowWriter::begin_sitting(const Sitting& sitting) {
         for (const int trial : resumed->restarted)
             run_statement(take_back, trial);
         SQLite::Statement give_up(database_, "INSERT OR REPLACE INTO given_up VALUES (?,?,?)");
-        if (resumed->given_up)
-            run_statement(give_up, *resumed->given_up, sitting_, "interrupted, and skipped");
+        if (resumed->skipped)
+            run_statement(give_up, *resumed->skipped, sitting_, "interrupted, and skipped");
     }
     forget_file_hash(database_);
     seals_.seal_rest(SealKind::sitting, sitting_);

@@ -7,7 +7,11 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "experiment/base/folder_lock.h"
-#include "experiment/ports/ports.h"
+#include "experiment/flip_report.h"
+#include "experiment/ports/observer_field.h"
+#include "experiment/ports/recorded_answer.h"
+#include "experiment/ports/recorded_consent.h"
+#include "experiment/ports/trial_outcome.h"
 #include "experiment/record/recorded_box.h"
 #include "experiment/record/resumption.h"
 #include "experiment/record/seal_chain.h"

@@ -7,7 +7,11 @@
 #include <optional>
 #include <string>
 
-#include "experiment/ports/ports.h"
+#include "experiment/ports/observer_field.h"
+#include "experiment/ports/recorded_answer.h"
+#include "experiment/ports/recorded_consent.h"
+#include "experiment/ports/session_log.h"
+#include "experiment/ports/trial_outcome.h"
 #include "experiment/record/recorded_box.h"
 #include "experiment/record/resumption.h"
 #include "experiment/record/session_header.h"

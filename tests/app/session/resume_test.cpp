@@ -114,10 +114,10 @@ TEST_CASE("an interrupted trial can be skipped, which is recorded", "[session]")
     const ProgramRun run = resume(experiment, {"--resume", "skip"});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    CHECK_THAT(run.out, Contains("trial 2 was interrupted, and is given up"));
+    CHECK_THAT(run.out, Contains("trial 2 was interrupted, and is skipped"));
     const SessionRecord record(experiment.session());
     CHECK(story(record) == "1c+ 2i- 3c+ 4c+ ");
-    CHECK(record.given_up() == std::vector<int>{1});
+    CHECK(record.skipped_trials() == std::vector<int>{1});
     CHECK(record.is_complete());
 }
 

@@ -42,7 +42,7 @@ TEST_CASE("a session is led by an operator's keys, and every trial that is not s
          "task screen@7+0.1=skip,no", "--simulate-operator", "task screen@77+0=pause"});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    CHECK_THAT(run.out, Contains("9 of 10 trials completed, 1 given up"));
+    CHECK_THAT(run.out, Contains("9 of 10 trials completed, 1 skipped"));
     CHECK_THAT(run.err, Contains("skipped: does not come again") &&
                             Contains("rejected: comes again at the end of the block") &&
                             Contains("task screen@77+0=pause: was not pressed"));

@@ -9,6 +9,7 @@
 #include "tests/support/virtual_screen.h"
 
 // Last: it defines words.
+#include "experiment/ports/session_phase.h"
 #include "tests/support/keyboard.h"
 
 using namespace overt;

@@ -19,7 +19,7 @@ TEST_CASE("from the begin of a presentation to its last sample nothing is alloca
     const PageCycle cycle = make_page_cycle(scene.animation, scene.refresh_hz);
     std::array<GazeSample, 256> samples;
     for (int trial = 0; trial < 3; ++trial) {
-        sitting.observer.saw_screen({}, sitting.clock.now());
+        sitting.observer.screen_shown({}, sitting.clock.now());
         tracker.start_recording();
         const long before = test::allocations;
         std::size_t taken = 0;
@@ -29,7 +29,7 @@ TEST_CASE("from the begin of a presentation to its last sample nothing is alloca
             sitting.clock.wait_until(sitting.clock.now() + from_seconds(1.0 / scene.refresh_hz));
             FlipRecord flip{trial, refresh, entry.frame, entry.frame, entry.pose, {}};
             flip.report.vertical_blank = sitting.clock.now();
-            sitting.observer.saw(flip);
+            sitting.observer.flipped(flip);
             taken += tracker.poll(samples);
             panel.poll();
         }

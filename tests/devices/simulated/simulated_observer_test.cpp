@@ -327,7 +327,7 @@ TEST_CASE("a sculpture of which only pictures exist is looked at within the pict
     observer.presentation_begins({0, 0, {}});
     FlipRecord flip;
     flip.report.vertical_blank = SessionTime(1s);
-    observer.saw(flip);
+    observer.flipped(flip);
     ScreenPoint last = scene.screen.centre();
     int places = 0;
     for (SessionTime time(1s); time < SessionTime(9s); time += 1ms) {

@@ -49,7 +49,7 @@ class Sitting {
         const PageCycle cycle = make_page_cycle(scene.animation, scene.refresh_hz);
         flips.clear();
         flips.reserve(static_cast<std::size_t>(cycle.total_refreshes));
-        observer.saw_screen({}, next_blank());
+        observer.screen_shown({}, next_blank());
         const SessionTime onset = next_blank();
         observer.presentation_begins(trial);
         int refresh = 0;
@@ -61,13 +61,13 @@ class Sitting {
             flip.report.vertical_blank = onset + from_seconds(flip.refresh_in_trial / scene.refresh_hz);
             clock.wait_until(flip.report.vertical_blank);
             flips.push_back(flip);
-            observer.saw(flip);
+            observer.flipped(flip);
             at_flip();
             refresh = flip.refresh_in_trial + 1;
         }
         const SessionTime end = onset + from_seconds(refresh / scene.refresh_hz);
         clock.wait_until(end);
-        observer.saw_screen({}, end);
+        observer.screen_shown({}, end);
     }
 
     SessionTime onset() const { return flips.front().report.vertical_blank; }

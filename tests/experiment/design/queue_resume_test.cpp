@@ -43,7 +43,7 @@ bool fails(std::uint64_t seed, const SessionStep& step) {
 AttemptFate fate_of(const AttemptVerdict& verdict) {
     if (verdict.counts)
         return AttemptFate::counted;
-    constexpr AttemptFate of[] = {AttemptFate::given_up, AttemptFate::comes_again_now,
+    constexpr AttemptFate of[] = {AttemptFate::skipped, AttemptFate::comes_again_now,
                                   AttemptFate::comes_again_at_end};
     return of[static_cast<int>(verdict.comes_again)];
 }
@@ -55,23 +55,23 @@ std::string word_of(const SessionStep& step) {
 
 /// Goes on until the end, or until `last_step` steps were begun; the last one is cut off. Gives the story
 /// without what was cut off, and notes what was done.
-std::string go_on(TrialQueue& queue, std::uint64_t seed, int last_step, std::vector<PastStep>& done) {
+std::string go_on(TrialQueue& queue, std::uint64_t seed, int last_step, std::vector<RecordedStep>& done) {
     std::string story;
     for (int number = 1; const auto step = queue.next(); ++number) {
         const bool is_cut_off = number == last_step;
         if (step->kind == SessionStep::Kind::trial) {
             if (is_cut_off) {
-                done.push_back({PastStep::Kind::trial, step->trial.index, AttemptFate::interrupted, {}});
+                done.push_back({RecordedStep::Kind::trial, step->trial.index, AttemptFate::interrupted, {}});
                 return story;
             }
             const AttemptVerdict verdict = queue.tell({.is_rejected = fails(seed, *step)});
-            done.push_back({PastStep::Kind::trial, step->trial.index, fate_of(verdict), {}});
+            done.push_back({RecordedStep::Kind::trial, step->trial.index, fate_of(verdict), {}});
         } else if (is_cut_off) {
             return story;
         } else if (step->kind == SessionStep::Kind::practice) {
-            done.push_back({PastStep::Kind::practice, -1, {}, {}});
+            done.push_back({RecordedStep::Kind::practice, -1, {}, {}});
         } else if (step->kind == SessionStep::Kind::pause) {
-            done.push_back({PastStep::Kind::pause, -1, {}, {}});
+            done.push_back({RecordedStep::Kind::pause, -1, {}, {}});
         }
         story += word_of(*step);
     }
@@ -92,17 +92,17 @@ TEST_CASE("however often a session is interrupted and redone, its steps are thos
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         const Protocol protocol = blocks_with_everything(random);
         const Schedule schedule = make_schedule(protocol, {"P", 1}, seed);
-        std::vector<PastStep> unused;
+        std::vector<RecordedStep> unused;
         TrialQueue whole(protocol, schedule);
         const std::string expected = without_texts(go_on(whole, seed, -1, unused));
 
         std::string story;
-        std::vector<PastStep> done;
+        std::vector<RecordedStep> done;
         for (bool is_done = false; !is_done;) {
             TrialQueue queue(protocol, schedule);
             queue.go_through(done);
             story += go_on(queue, seed, 1 + static_cast<int>(random.below(12)), done);
-            done.push_back({PastStep::Kind::resumed, -1, {}, ResumePolicy::redo});
+            done.push_back({RecordedStep::Kind::resumed, -1, {}, ResumePolicy::redo});
             TrialQueue look(protocol, schedule);
             look.go_through(done);
             is_done = look.is_done();
@@ -117,12 +117,12 @@ TEST_CASE("a skipped trial does not come again, whatever comes after it does", "
     protocol.practice.clear();
     protocol.breaks = {};
     const Schedule schedule = make_schedule(protocol, {"P", 1}, 1);
-    const std::vector<PastStep> past{{PastStep::Kind::trial, 0, AttemptFate::counted, {}},
-                                     {PastStep::Kind::trial, 1, AttemptFate::interrupted, {}}};
+    const std::vector<RecordedStep> past{{RecordedStep::Kind::trial, 0, AttemptFate::counted, {}},
+                                         {RecordedStep::Kind::trial, 1, AttemptFate::interrupted, {}}};
     TrialQueue queue(protocol, schedule);
     queue.go_through(past);
     CHECK_FALSE(queue.is_done());
-    CHECK(queue.resume(ResumePolicy::skip).given_up == 1);
+    CHECK(queue.resume(ResumePolicy::skip).skipped == 1);
     CHECK(queue.next()->trial.index == 2);
 }
 
@@ -131,14 +131,14 @@ TEST_CASE("a block that begins again has all its trials, in their order, and no 
     for (int round = 0; round < 100; ++round) {
         Protocol protocol = blocks_with_everything(random);
         const Schedule schedule = make_schedule(protocol, {"P", 1}, 1);
-        std::vector<PastStep> done;
+        std::vector<RecordedStep> done;
         TrialQueue before(protocol, schedule);
         const auto seed = static_cast<std::uint64_t>(round);
         go_on(before, seed, 1 + static_cast<int>(random.below(60)), done);
         TrialQueue queue(protocol, schedule);
         queue.go_through(done);
         const ResumeEffect effect = queue.resume(ResumePolicy::restart_block);
-        CHECK_FALSE(effect.given_up);
+        CHECK_FALSE(effect.skipped);
         std::vector<int> order;
         while (const auto step = queue.next()) {
             if (step->kind != SessionStep::Kind::trial)
@@ -160,8 +160,8 @@ TEST_CASE("a block that begins again has all its trials, in their order, and no 
 TEST_CASE("steps that an order does not have are refused", "[unit]") {
     const Protocol protocol = paper_protocol();
     const Schedule schedule = make_schedule(protocol, {"P", 1}, 1);
-    const std::vector<PastStep> other_trial{{PastStep::Kind::trial, 5, AttemptFate::counted, {}}};
-    const std::vector<PastStep> practice{{PastStep::Kind::practice, -1, {}, {}}};
+    const std::vector<RecordedStep> other_trial{{RecordedStep::Kind::trial, 5, AttemptFate::counted, {}}};
+    const std::vector<RecordedStep> practice{{RecordedStep::Kind::practice, -1, {}, {}}};
     CHECK_THROWS_AS(TrialQueue(protocol, schedule).go_through(other_trial), RecordError);
     CHECK_THROWS_AS(TrialQueue(protocol, schedule).go_through(practice), RecordError);
 }

@@ -177,7 +177,7 @@ struct Sitting {
                         .tracker = tracker,
                         .panel = panel,
                         .log = log,
-                        .witnesses = {},
+                        .listeners = {},
                         .observer = "P1",
                         .can_type = true,
                         .recorder = recorder},

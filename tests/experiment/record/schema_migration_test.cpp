@@ -58,7 +58,7 @@ TEST_CASE("sessions of earlier formats are read as they are, and nothing in them
     CHECK_FALSE(record.trials()[2].counts);
     CHECK(record.trials()[3].status == TrialRecord::Status::open);
     CHECK(record.samples(record.trials()[0]).size() == 50);
-    CHECK(record.given_up().empty());
+    CHECK(record.skipped_trials().empty());
     const Verification found = verify_session(session);
     CHECK(found.is_sound());
     CHECK_THAT(found.notes.at(0), Contains("without seals"));

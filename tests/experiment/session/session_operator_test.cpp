@@ -1,5 +1,6 @@
 /// What the operator's keys do in each phase, on ports that do what they are told.
-#include "experiment/ports/operator_key.h"
+#include "experiment/ports/response_panel.h"
+#include "experiment/ports/session_phase.h"
 #include "tests/experiment/record/plain_session.h"
 
 using namespace overt;

@@ -1,5 +1,6 @@
 /// Practice, breaks and repeated trials, on ports that do what they are told.
-#include "experiment/ports/operator_key.h"
+#include "experiment/ports/response_panel.h"
+#include "experiment/ports/session_phase.h"
 #include "tests/experiment/record/plain_session.h"
 
 using namespace overt;

@@ -30,9 +30,9 @@ void present(LiveMaps& live, const Animation& animation, const PoseTable& poses)
         FlipRecord flip;
         flip.shown = frame;
         flip.pose = poses.pose_of(frame);
-        live.saw(flip);
+        live.flipped(flip);
     }
-    live.saw_screen({}, {});
+    live.screen_shown({}, {});
 }
 
 } // namespace

@@ -1,11 +1,11 @@
-/// Waits for the observer's key while the operator may lead the session by others.
+/// Waits for the observer's keys and acts on the operator's.
 #pragma once
 
 #include <functional>
 #include <optional>
 #include <string>
 
-#include "experiment/session/session_stage.h"
+#include "experiment/session/session_state.h"
 
 namespace overt {
 
@@ -21,28 +21,28 @@ struct TrialDecision {
     std::string why; ///< of a skipped one
 };
 
-/// How a screen is waited at.
+/// A screen that stands until a key is pressed or a time is up.
 struct Waiting {
-    Screen screen; ///< that stands there; shown again after whatever came between
+    Screen screen; ///< shown again after a pause, a calibration or a question
     SessionTime onset;
     double min_s = 0.0; ///< earlier presses do not count
     double max_s = 0.0; ///< after which it ends by itself
-    /// Tells the panel what is waited for, from a time on; empty: a key.
+    /// Tells the panel which answer is expected, from a time on; empty: any key.
     std::function<void(SessionTime)> await = {};
     /// Called a few hundred times a second; may be empty.
     std::function<void()> meanwhile = {};
     bool turns_pages = false; ///< left and back go back, right goes on
-    bool takes_keys = true;   ///< of the observer; else only time ends it
-    bool starts_over = false; ///< after what came between: max_s counts from then
+    bool takes_keys = true;   ///< of the observer; else only time or the operator ends it
+    bool starts_over = false; ///< when it is shown again: max_s counts from then
 };
 
-/// Of a screen that stands until a key is pressed.
+/// max_s of a screen that only a key ends.
 inline constexpr double without_end_s = 1e9;
 
-class OperatorDesk {
+class OperatorControl {
   public:
-    /// The stage must outlive the desk.
-    explicit OperatorDesk(SessionStage& stage) : stage_(stage) {}
+    /// `state` must outlive this.
+    explicit OperatorControl(SessionState& state) : state_(state) {}
 
     enum class How : std::uint8_t { next, back, yes, no, timed_out, trial_over, session_over };
     struct Press {
@@ -53,8 +53,8 @@ class OperatorDesk {
     /// session. Pauses and calibrations in between are done here; pauses do not count as waiting.
     Press wait(const Waiting& waiting);
 
-    /// Acts on an operator's key, with a question before it where there is one, and notes when it was
-    /// pressed. Whether things go on: if not, the trial or the session is over.
+    /// Acts on an operator's key, after asking where the key needs confirmation, and records when it was
+    /// pressed. Gives false if the trial or the session is over by it.
     bool act_on(const ResponsePress& press);
 
     /// Shows a question and waits for yes or no. A digit up to `reasons` says yes, too. Gives that digit's
@@ -72,7 +72,7 @@ class OperatorDesk {
     bool end_trial(ResponsePress::Key key);
     void rest_a_little(SessionTime latest);
 
-    SessionStage& stage_;
+    SessionState& state_;
     TrialDecision decision_;
 };
 

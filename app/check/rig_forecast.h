@@ -1,4 +1,4 @@
-/// What a session in real time with a protocol will do on this machine, before anybody starts one.
+/// What a session in real time would use on this machine: screen and display box.
 #pragma once
 
 #include <string>
@@ -10,18 +10,18 @@
 
 namespace overt {
 
-struct OutlookLine {
+struct ForecastLine {
     std::string what, finding;
     bool is_refused = false; ///< a session would end here
 };
 
 /// Looks at screens and asks the display box, if one is needed. Opens no window. Never throws for what this
 /// machine lacks: that is a line.
-std::vector<OutlookLine> session_outlook(const Protocol& protocol);
+std::vector<ForecastLine> rig_forecast(const Protocol& protocol);
 
 /// A heading and the lines.
-std::string to_text(const std::vector<OutlookLine>& outlook);
+std::string to_text(const std::vector<ForecastLine>& forecast);
 
-nlohmann::ordered_json to_json(const std::vector<OutlookLine>& outlook);
+nlohmann::ordered_json to_json(const std::vector<ForecastLine>& forecast);
 
 } // namespace overt

@@ -1,4 +1,4 @@
-#include "app/bench/fault_rehearsal.h"
+#include "app/bench/fault_simulation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,44 +75,45 @@ FaultScript random_script(std::uint64_t seed, std::uint64_t index) {
     return script;
 }
 
-Rehearsal rehearse(const FaultScript& script) {
+SimulatedPresentation simulate_presentation(const FaultScript& script) {
     Animation animation;
     animation.frame_rate_hz = frame_rate_for(script.refresh_hz);
     animation.when_late = script.when_late;
-    Rehearsal rehearsal;
-    rehearsal.plan = make_page_cycle(animation, script.refresh_hz);
+    SimulatedPresentation presentation;
+    presentation.plan = make_page_cycle(animation, script.refresh_hz);
     VirtualClock clock;
     VirtualRefresh display(clock, script.refresh_hz, script.faults);
-    RefreshLedger ledger(rehearsal.plan, script.when_late);
+    RefreshLedger ledger(presentation.plan, script.when_late);
     clock.wait_until(clock.now() + std::chrono::milliseconds(1234));
     display.presentation_begins({});
     ledger.begin(0);
     std::int64_t onset = 0;
     while (!ledger.is_complete()) {
         const AnimationFrameIndex frame = ledger.next().frame;
-        const AnimationFrameIndex before = rehearsal.flips.empty() ? frame : rehearsal.flips.back().shown;
+        const AnimationFrameIndex before =
+            presentation.flips.empty() ? frame : presentation.flips.back().shown;
         const FlipRecord& flip = ledger.enter(display.next());
         for (int i = 0; i < ledger.missed_count(); ++i)
-            rehearsal.missed.push_back(ledger.missed(i));
-        rehearsal.flips.push_back(flip);
-        if (rehearsal.lit.empty())
+            presentation.missed.push_back(ledger.missed(i));
+        presentation.flips.push_back(flip);
+        if (presentation.lit.empty())
             onset = display.last_lit();
-        while (static_cast<std::int64_t>(rehearsal.lit.size()) < display.last_lit() - onset) {
-            rehearsal.begins.push_back(
-                display.time_of(onset + static_cast<std::int64_t>(rehearsal.lit.size())));
-            rehearsal.lit.push_back(before);
+        while (static_cast<std::int64_t>(presentation.lit.size()) < display.last_lit() - onset) {
+            presentation.begins.push_back(
+                display.time_of(onset + static_cast<std::int64_t>(presentation.lit.size())));
+            presentation.lit.push_back(before);
         }
-        rehearsal.begins.push_back(display.time_of(display.last_lit()));
-        rehearsal.lit.push_back(frame);
+        presentation.begins.push_back(display.time_of(display.last_lit()));
+        presentation.lit.push_back(frame);
     }
-    return rehearsal;
+    return presentation;
 }
 
-LedgerFit fit_of(const Rehearsal& rehearsal, const FaultScript& script) {
-    return LedgerFit(rehearsal.flips, script.refresh_hz);
+LedgerFit fit_of(const SimulatedPresentation& presentation, const FaultScript& script) {
+    return LedgerFit(presentation.flips, script.refresh_hz);
 }
 
-bool gives_back(const Rehearsal& rehearsal, const FaultScript& script, const LedgerFit& fit) {
+bool gives_back(const SimulatedPresentation& presentation, const FaultScript& script, const LedgerFit& fit) {
     const auto same_run = [](const MissedRun& a, const MissedRun& b) {
         return a.refresh_in_trial == b.refresh_in_trial && a.count == b.count && a.cause == b.cause;
     };
@@ -127,25 +128,25 @@ bool gives_back(const Rehearsal& rehearsal, const FaultScript& script, const Led
         if (!fit.times()[i].is_consistent)
             wrong.push_back(flip.refresh_in_trial);
         for (; refresh < static_cast<std::size_t>(flip.refresh_in_trial); ++refresh) {
-            if (refresh >= rehearsal.lit.size() || rehearsal.lit[refresh] != shown)
+            if (refresh >= presentation.lit.size() || presentation.lit[refresh] != shown)
                 return false;
         }
         shown = flip.shown;
-        if (refresh >= rehearsal.lit.size() || rehearsal.lit[refresh++] != shown)
+        if (refresh >= presentation.lit.size() || presentation.lit[refresh++] != shown)
             return false;
     }
-    return refresh == rehearsal.lit.size() && wrong == script.wrong_stamps;
+    return refresh == presentation.lit.size() && wrong == script.wrong_stamps;
 }
 
-bool accounts_for_all(const Rehearsal& rehearsal) {
-    std::vector<int> rows(static_cast<std::size_t>(rehearsal.plan.total_refreshes));
+bool accounts_for_all(const SimulatedPresentation& presentation) {
+    std::vector<int> rows(static_cast<std::size_t>(presentation.plan.total_refreshes));
     const auto count = [&](int refresh) {
-        if (refresh >= 0 && refresh < rehearsal.plan.total_refreshes)
+        if (refresh >= 0 && refresh < presentation.plan.total_refreshes)
             ++rows[static_cast<std::size_t>(refresh)];
     };
-    for (const FlipRecord& flip : rehearsal.flips)
+    for (const FlipRecord& flip : presentation.flips)
         count(flip.refresh_in_trial);
-    for (const MissedRefresh& missed : rehearsal.missed)
+    for (const MissedRefresh& missed : presentation.missed)
         count(missed.refresh_in_trial);
     return std::all_of(rows.begin(), rows.end(), [](int row) { return row == 1; });
 }

@@ -1,10 +1,10 @@
-#include "experiment/session/session_stage.h"
+#include "experiment/session/session_state.h"
 
 #include "experiment/base/error.h"
 
 namespace overt {
 
-void SessionStage::enter(SessionPhase phase, int trial) {
+void SessionState::enter(SessionPhase phase, int trial) {
     OVERT_EXPECTS(may_follow(phase_, phase));
     phase_ = phase;
     trial_ = trial;
@@ -12,24 +12,24 @@ void SessionStage::enter(SessionPhase phase, int trial) {
     note(phase_event, std::string(name_of(phase)));
 }
 
-void SessionStage::note(std::string_view kind, std::string detail) {
+void SessionState::note(std::string_view kind, std::string detail) {
     log_->event({now(), trial_, kind, std::move(detail)});
 }
 
-SessionTime SessionStage::show(const Screen& screen) {
+SessionTime SessionState::show(const Screen& screen) {
     const SessionTime onset = ports.presenter.show(screen).vertical_blank;
-    for (DisplayWitness* witness : ports.witnesses)
-        witness->saw_screen(screen, onset);
+    for (PresentationListener* listener : ports.listeners)
+        listener->screen_shown(screen, onset);
     return onset;
 }
 
-void SessionStage::end_session(std::string why) {
+void SessionState::end_session(std::string why) {
     if (!is_over_)
         why_over_ = std::move(why);
     is_over_ = true;
 }
 
-bool SessionStage::ends_by_itself() {
+bool SessionState::ends_by_itself() {
     if (!went_away())
         return false;
     end_session(ports.presenter.closed() ? ports.presenter.why_closed() : "the eye tracker was lost");

@@ -13,10 +13,10 @@ namespace overt {
 /// Kind of the events that say which text the observer was given to read.
 inline constexpr std::string_view text_shown_event = "text shown";
 
-class SessionStage {
+class SessionState {
   public:
-    /// Both must outlive the stage.
-    SessionStage(const Protocol& of, SessionPorts& on) : protocol(of), ports(on), log_(&on.log) {}
+    /// Both must outlive this.
+    SessionState(const Protocol& of, SessionPorts& on) : protocol(of), ports(on), log_(&on.log) {}
 
     const Protocol& protocol;
     SessionPorts& ports;
@@ -35,7 +35,7 @@ class SessionStage {
     /// An event now, of the trial that is running.
     void note(std::string_view kind, std::string detail = {});
 
-    /// Shows a screen and tells the witnesses; gives its onset.
+    /// Shows a screen and tells the listeners; gives its onset.
     SessionTime show(const Screen& screen);
 
     /// The display or the tracker has gone away.

@@ -1,10 +1,12 @@
-#include "experiment/session/operator_desk.h"
+#include "experiment/session/operator_control.h"
+#include "experiment/ports/eye_tracker.h"
+#include "experiment/ports/presenter.h"
+#include "experiment/ports/response_panel.h"
+#include "experiment/ports/session_phase.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
-
-#include "experiment/ports/operator_key.h"
 
 namespace overt {
 
@@ -23,28 +25,28 @@ std::string upper(std::string key) {
 
 } // namespace
 
-void OperatorDesk::rest_a_little(SessionTime latest) {
-    stage_.ports.presenter.use_spare_time();
-    stage_.ports.clock.wait_until(std::min(latest, stage_.now() + key_interval));
+void OperatorControl::rest_a_little(SessionTime latest) {
+    state_.ports.presenter.use_spare_time();
+    state_.ports.clock.wait_until(std::min(latest, state_.now() + key_interval));
 }
 
-OperatorDesk::Press OperatorDesk::wait(const Waiting& waiting) {
+OperatorControl::Press OperatorControl::wait(const Waiting& waiting) {
     SessionTime earliest = waiting.onset + from_seconds(waiting.min_s);
     SessionTime latest = waiting.onset + from_seconds(waiting.max_s);
     const auto await = [&](SessionTime since) {
         if (waiting.await)
             waiting.await(since);
         else
-            stage_.ports.panel.await_key(since);
+            state_.ports.panel.await_key(since);
     };
     await(waiting.onset);
-    while (stage_.now() < latest) {
-        while (const std::optional<ResponsePress> press = stage_.ports.panel.poll()) {
+    while (state_.now() < latest) {
+        while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
             if (is_operators(press->key)) {
-                const SessionTime began = stage_.now();
+                const SessionTime began = state_.now();
                 if (!act_on(*press))
-                    return {stage_.is_over() ? How::session_over : How::trial_over, press->pressed_at};
-                const SessionTime shown_again = stage_.show(waiting.screen);
+                    return {state_.is_over() ? How::session_over : How::trial_over, press->pressed_at};
+                const SessionTime shown_again = state_.show(waiting.screen);
                 earliest += shown_again - began;
                 latest = waiting.starts_over ? shown_again + from_seconds(waiting.max_s)
                                              : latest + (shown_again - began);
@@ -73,8 +75,8 @@ OperatorDesk::Press OperatorDesk::wait(const Waiting& waiting) {
                 break;
             }
         }
-        if (stage_.ends_by_itself())
-            return {How::session_over, stage_.now()};
+        if (state_.ends_by_itself())
+            return {How::session_over, state_.now()};
         if (waiting.meanwhile)
             waiting.meanwhile();
         rest_a_little(latest);
@@ -82,56 +84,56 @@ OperatorDesk::Press OperatorDesk::wait(const Waiting& waiting) {
     return {How::timed_out, latest};
 }
 
-bool OperatorDesk::act_on(const ResponsePress& press) {
+bool OperatorControl::act_on(const ResponsePress& press) {
     const Key key = press.key;
-    stage_.log().event({press.pressed_at, stage_.trial(), "operator pressed", std::string(name_of(key))});
-    const SessionPhase phase = stage_.phase();
-    const int trial = stage_.trial();
+    state_.log().event({press.pressed_at, state_.trial(), "operator pressed", std::string(name_of(key))});
+    const SessionPhase phase = state_.phase();
+    const int trial = state_.trial();
     switch (key) {
     case Key::pause:
         pause();
         break;
     case Key::recalibrate:
-        if (confirm(stage_.protocol.words.recalibrate))
+        if (confirm(state_.protocol.words.recalibrate))
             calibrate();
         break;
     case Key::repeat:
     case Key::reject:
     case Key::skip:
         if (!end_trial(key))
-            return !stage_.is_over();
+            return !state_.is_over();
         return false;
     case Key::abort:
-        if (confirm(is_in_trial(phase) ? stage_.protocol.words.abort_in_trial
-                                       : stage_.protocol.words.abort)) {
-            stage_.note("operator", "ends the session");
-            stage_.end_session("aborted by a key");
+        if (confirm(is_in_trial(phase) ? state_.protocol.words.abort_in_trial
+                                       : state_.protocol.words.abort)) {
+            state_.note("operator", "ends the session");
+            state_.end_session("aborted by a key");
         }
         break;
     default:
         break;
     }
-    if (stage_.is_over())
+    if (state_.is_over())
         return false;
-    if (stage_.phase() != phase)
-        stage_.enter(phase, trial);
+    if (state_.phase() != phase)
+        state_.enter(phase, trial);
     return true;
 }
 
 /// Whether the trial is over.
-bool OperatorDesk::end_trial(Key key) {
-    if (!is_in_trial(stage_.phase())) {
-        stage_.note("operator", "a key for trials had no effect: none is running");
+bool OperatorControl::end_trial(Key key) {
+    if (!is_in_trial(state_.phase())) {
+        state_.note("operator", "a key for trials had no effect: none is running");
         return false;
     }
-    const OperatorSettings& settings = stage_.protocol.operators;
-    const WordSettings& words = stage_.protocol.words;
+    const OperatorSettings& settings = state_.protocol.operators;
+    const WordSettings& words = state_.protocol.words;
     if (key != Key::skip) {
         const bool at_once = key == Key::repeat;
         if (!confirm(at_once ? words.repeat : words.reject))
             return false;
         decision_ = {at_once ? TrialDecision::Word::repeated : TrialDecision::Word::rejected, {}};
-        stage_.note("operator", at_once ? "repeats the trial" : "rejects the trial");
+        state_.note("operator", at_once ? "repeats the trial" : "rejects the trial");
         return true;
     }
     std::string question = words.skip;
@@ -144,21 +146,21 @@ bool OperatorDesk::end_trial(Key key) {
     decision_ = {TrialDecision::Word::skipped,
                  *answer == 0 ? "no reason given"
                               : settings.skip_reasons[static_cast<std::size_t>(*answer - 1)]};
-    stage_.note("operator", "skips the trial: " + decision_.why);
+    state_.note("operator", "skips the trial: " + decision_.why);
     return true;
 }
 
-std::optional<int> OperatorDesk::confirm(const std::string& question, int reasons) {
-    const OperatorSettings& keys = stage_.protocol.operators;
-    stage_.note("operator asked", question);
-    const WordSettings& words = stage_.protocol.words;
+std::optional<int> OperatorControl::confirm(const std::string& question, int reasons) {
+    const OperatorSettings& keys = state_.protocol.operators;
+    state_.note("operator asked", question);
+    const WordSettings& words = state_.protocol.words;
     const SessionTime onset =
-        stage_.show({Screen::Kind::text, fmt::format("{}\n\n{}: {}        {}: {}", question, upper(keys.yes),
+        state_.show({Screen::Kind::text, fmt::format("{}\n\n{}: {}        {}: {}", question, upper(keys.yes),
                                                      words.yes, upper(keys.no), words.no)});
-    stage_.ports.panel.await_decision(false, onset);
+    state_.ports.panel.await_decision(false, onset);
     std::optional<int> answer;
-    for (bool is_decided = false; !is_decided && !stage_.ends_by_itself();) {
-        while (const std::optional<ResponsePress> press = stage_.ports.panel.poll()) {
+    for (bool is_decided = false; !is_decided && !state_.ends_by_itself();) {
+        while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
             // A digit that stands for no reason is no yes, to whatever question.
             const int digit =
                 press->key == Key::character && press->character >= U'1' && press->character <= U'9'
@@ -176,42 +178,42 @@ std::optional<int> OperatorDesk::confirm(const std::string& question, int reason
         if (!is_decided)
             rest_a_little(SessionTime::max());
     }
-    stage_.note("operator answered", answer ? "yes" : "no");
-    return stage_.is_over() ? std::nullopt : answer;
+    state_.note("operator answered", answer ? "yes" : "no");
+    return state_.is_over() ? std::nullopt : answer;
 }
 
-void OperatorDesk::pause() {
-    stage_.note("operator", "pauses");
-    stage_.enter(SessionPhase::pause, stage_.trial());
-    const SessionTime onset = stage_.show({Screen::Kind::text, stage_.protocol.operators.pause_text});
-    stage_.ports.panel.await_key(onset);
-    for (bool goes_on = false; !goes_on && !stage_.ends_by_itself();) {
-        while (const std::optional<ResponsePress> press = stage_.ports.panel.poll()) {
+void OperatorControl::pause() {
+    state_.note("operator", "pauses");
+    state_.enter(SessionPhase::pause, state_.trial());
+    const SessionTime onset = state_.show({Screen::Kind::text, state_.protocol.operators.pause_text});
+    state_.ports.panel.await_key(onset);
+    for (bool goes_on = false; !goes_on && !state_.ends_by_itself();) {
+        while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
             // The observer's key does not end the operator's pause.
             if (press->key == Key::pause) {
-                stage_.log().event({press->pressed_at, stage_.trial(), "operator pressed", "pause"});
+                state_.log().event({press->pressed_at, state_.trial(), "operator pressed", "pause"});
                 goes_on = true;
                 break;
             }
             if (press->key == Key::abort || press->key == Key::recalibrate) {
                 if (!act_on(*press))
                     return;
-                stage_.ports.panel.await_key(
-                    stage_.show({Screen::Kind::text, stage_.protocol.operators.pause_text}));
+                state_.ports.panel.await_key(
+                    state_.show({Screen::Kind::text, state_.protocol.operators.pause_text}));
             }
         }
         if (!goes_on)
             rest_a_little(SessionTime::max());
     }
-    stage_.note("operator", fmt::format("goes on after {:.1f} s", to_seconds(stage_.now() - onset)));
+    state_.note("operator", fmt::format("goes on after {:.1f} s", to_seconds(state_.now() - onset)));
 }
 
-void OperatorDesk::calibrate() {
-    if (stage_.phase() != SessionPhase::calibration)
-        stage_.enter(SessionPhase::calibration, stage_.trial());
-    stage_.show({});
-    const ValidationResult result = stage_.ports.tracker.calibrate();
-    stage_.note("validation", fmt::format("mean error {:.3f} deg, largest {:.3f} deg",
+void OperatorControl::calibrate() {
+    if (state_.phase() != SessionPhase::calibration)
+        state_.enter(SessionPhase::calibration, state_.trial());
+    state_.show({});
+    const ValidationResult result = state_.ports.tracker.calibrate();
+    state_.note("validation", fmt::format("mean error {:.3f} deg, largest {:.3f} deg",
                                           result.mean_error.value, result.max_error.value));
 }
 

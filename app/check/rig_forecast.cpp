@@ -1,4 +1,4 @@
-#include "app/check/session_outlook.h"
+#include "app/check/rig_forecast.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,28 +21,28 @@ std::optional<MonitorInfo> monitor_for(const DisplaySettings& display,
     return std::nullopt;
 }
 
-void add_screen(const DisplaySettings& display, std::vector<OutlookLine>& outlook) {
+void add_screen(const DisplaySettings& display, std::vector<ForecastLine>& forecast) {
     const std::vector<MonitorInfo> monitors = list_monitors();
     const std::optional<MonitorInfo> monitor = monitor_for(display, monitors);
     if (!monitor) {
         std::string list;
         for (const MonitorInfo& other : monitors)
             list += (list.empty() ? "" : ", ") + describe(other);
-        outlook.push_back({"screen",
-                           fmt::format("none shows {} x {} px now; there is {}", display.width_px,
-                                       display.height_px, list.empty() ? "none" : list),
-                           true});
+        forecast.push_back({"screen",
+                            fmt::format("none shows {} x {} px now; there is {}", display.width_px,
+                                        display.height_px, list.empty() ? "none" : list),
+                            true});
         return;
     }
     const ScreenFacts facts = facts_at(*monitor, display.output == OutputMode::native_10bit ? 10 : 8);
-    outlook.push_back({"screen", "the whole of " + describe(*monitor)});
+    forecast.push_back({"screen", "the whole of " + describe(*monitor)});
     for (const ScreenFinding& finding : judge_screen(facts, display))
         if (finding.weight != ScreenFinding::Weight::good)
-            outlook.push_back({"", fmt::format("{}: {}", finding.what, finding.finding),
-                               finding.weight == ScreenFinding::Weight::refusal});
+            forecast.push_back({"", fmt::format("{}: {}", finding.what, finding.finding),
+                                finding.weight == ScreenFinding::Weight::refusal});
 }
 
-OutlookLine box_line(const DisplaySettings& display, bool in_window) {
+ForecastLine box_line(const DisplaySettings& display, bool in_window) {
     const BoxPlan plan = plan_box(display, in_window, false);
     if (plan.use != RecordedBox::Use::box) {
         RecordedBox none;
@@ -64,32 +64,32 @@ OutlookLine box_line(const DisplaySettings& display, bool in_window) {
 
 } // namespace
 
-std::vector<OutlookLine> session_outlook(const Protocol& protocol) {
-    std::vector<OutlookLine> outlook;
+std::vector<ForecastLine> rig_forecast(const Protocol& protocol) {
+    std::vector<ForecastLine> forecast;
     const bool in_window = display_is_available();
     if (in_window) {
         try {
-            add_screen(protocol.display, outlook);
+            add_screen(protocol.display, forecast);
         } catch (const GraphicsError& error) {
-            outlook.push_back({"screen", error.what(), true});
+            forecast.push_back({"screen", error.what(), true});
         }
     } else {
-        outlook.push_back({"screen", "none here: headless, with --simulate-observer"});
+        forecast.push_back({"screen", "none here: headless, with --simulate-observer"});
     }
-    outlook.push_back(box_line(protocol.display, in_window));
-    return outlook;
+    forecast.push_back(box_line(protocol.display, in_window));
+    return forecast;
 }
 
-std::string to_text(const std::vector<OutlookLine>& outlook) {
+std::string to_text(const std::vector<ForecastLine>& forecast) {
     std::string text = "\nA session in real time on this machine\n\n";
-    for (const OutlookLine& line : outlook)
+    for (const ForecastLine& line : forecast)
         text += fmt::format("  {:<12}{}{}\n", line.what, line.is_refused ? "refused: " : "", line.finding);
     return text;
 }
 
-nlohmann::ordered_json to_json(const std::vector<OutlookLine>& outlook) {
+nlohmann::ordered_json to_json(const std::vector<ForecastLine>& forecast) {
     auto list = nlohmann::ordered_json::array();
-    for (const OutlookLine& line : outlook)
+    for (const ForecastLine& line : forecast)
         list.push_back({{"what", line.what}, {"finding", line.finding}, {"refused", line.is_refused}});
     return list;
 }

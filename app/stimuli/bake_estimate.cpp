@@ -1,4 +1,4 @@
-#include "app/stimuli/bake_outlook.h"
+#include "app/stimuli/bake_estimate.h"
 
 #include <chrono>
 
@@ -78,17 +78,17 @@ double PathProbe::seconds_of_frame(const Condition& condition, const FrameGrade&
     return paths * seconds_per_path_[material] + pixels * writing_s_per_px;
 }
 
-BakeOutlook bake_outlook(const Experiment& experiment, const StimulusLibrary& library) {
-    BakeOutlook outlook;
-    outlook.wanted = experiment.protocol.bake.quality;
+BakeEstimate bake_estimate(const Experiment& experiment, const StimulusLibrary& library) {
+    BakeEstimate estimate;
+    estimate.wanted = experiment.protocol.bake.quality;
     const std::vector<Condition> stimuli = library.rendered_stimuli();
-    if (stimuli.empty() || outlook.wanted == BakeQuality::live)
-        return outlook;
-    outlook.for_session = library.grade_of_session();
+    if (stimuli.empty() || estimate.wanted == BakeQuality::live)
+        return estimate;
+    estimate.for_session = library.grade_of_session();
     std::optional<PathProbe> probe;
     for (const BakeQuality quality :
          {BakeQuality::preview, BakeQuality::draft, BakeQuality::standard, BakeQuality::reference}) {
-        GradeOutlook one{grade_of(quality, experiment.protocol.bake)};
+        GradeEstimate one{grade_of(quality, experiment.protocol.bake)};
         for (const Condition& stimulus : stimuli) {
             const auto missing = static_cast<int>(library.missing_frames(stimulus, one.grade).size());
             const int all = static_cast<int>(library.poses().angles.size());
@@ -100,9 +100,9 @@ BakeOutlook bake_outlook(const Experiment& experiment, const StimulusLibrary& li
                 probe.emplace(experiment.protocol, experiment.sculptures);
             one.seconds_left += missing * probe->seconds_of_frame(stimulus, one.grade);
         }
-        outlook.grades.push_back(one);
+        estimate.grades.push_back(one);
     }
-    return outlook;
+    return estimate;
 }
 
 std::string duration_text(double seconds) {
@@ -113,35 +113,35 @@ std::string duration_text(double seconds) {
     return fmt::format("{:.1f} h", seconds / 3600.0);
 }
 
-std::string to_text(const BakeOutlook& outlook) {
-    if (outlook.grades.empty())
+std::string to_text(const BakeEstimate& estimate) {
+    if (estimate.grades.empty())
         return {};
     std::string text = "\nRendered stimuli, and what the rest will take here if nothing else runs\n\n";
-    for (const GradeOutlook& one : outlook.grades) {
+    for (const GradeEstimate& one : estimate.grades) {
         const std::string left =
             one.there == one.frames ? "" : fmt::format(", about {} left", duration_text(one.seconds_left));
         text += fmt::format("  {:<28}{} of {} frames{}\n", describe(one.grade), one.there, one.frames, left);
     }
-    if (outlook.for_session)
-        text += fmt::format("  A session takes {}.\n", describe(*outlook.for_session));
-    else if (outlook.wanted == BakeQuality::preview)
+    if (estimate.for_session)
+        text += fmt::format("  A session takes {}.\n", describe(*estimate.for_session));
+    else if (estimate.wanted == BakeQuality::preview)
         text += "  A session renders previews before it begins.\n";
     else
         text += fmt::format("  A session is refused until `overt bake` has made {} quality.\n",
-                            name_of(outlook.wanted));
+                            name_of(estimate.wanted));
     return text;
 }
 
-nlohmann::ordered_json to_json(const BakeOutlook& outlook) {
+nlohmann::ordered_json to_json(const BakeEstimate& estimate) {
     auto grades = nlohmann::ordered_json::array();
-    for (const GradeOutlook& one : outlook.grades)
+    for (const GradeEstimate& one : estimate.grades)
         grades.push_back({{"quality", name_of(one.grade.quality)},
                           {"frames_there", one.there},
                           {"frames", one.frames},
                           {"seconds_left", one.seconds_left}});
     return {{"grades", grades},
-            {"session_takes", outlook.for_session ? name_of(outlook.for_session->quality) : "nothing"},
-            {"session_needs", name_of(outlook.wanted)}};
+            {"session_takes", estimate.for_session ? name_of(estimate.for_session->quality) : "nothing"},
+            {"session_needs", name_of(estimate.wanted)}};
 }
 
 } // namespace overt

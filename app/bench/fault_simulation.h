@@ -25,8 +25,8 @@ struct FaultScript {
 /// just do not.
 FaultScript random_script(std::uint64_t seed, std::uint64_t index);
 
-/// One presentation as it went.
-struct Rehearsal {
+/// One presentation as the ledger recorded it, and as it truly was.
+struct SimulatedPresentation {
     PageCycle plan;
     std::vector<FlipRecord> flips;
     std::vector<MissedRefresh> missed;
@@ -35,16 +35,16 @@ struct Rehearsal {
 };
 
 /// Plays the paper's 8 s, or less at rates at which 30 frames a second do not fit.
-Rehearsal rehearse(const FaultScript& script);
+SimulatedPresentation simulate_presentation(const FaultScript& script);
 
-/// The time stamps' line through one rehearsal.
-LedgerFit fit_of(const Rehearsal& rehearsal, const FaultScript& script);
+/// The time stamps' line through one presentation.
+LedgerFit fit_of(const SimulatedPresentation& presentation, const FaultScript& script);
 
 /// The ledger, read back, has the script's misses with their causes, its wrong stamps, the frame truly lit at
 /// each refresh, and nothing else.
-bool gives_back(const Rehearsal& rehearsal, const FaultScript& script, const LedgerFit& fit);
+bool gives_back(const SimulatedPresentation& presentation, const FaultScript& script, const LedgerFit& fit);
 
 /// Each refresh from the onset to the plan's end has exactly one row, a flip or a miss.
-bool accounts_for_all(const Rehearsal& rehearsal);
+bool accounts_for_all(const SimulatedPresentation& presentation);
 
 } // namespace overt

@@ -1,4 +1,4 @@
-/// What the record keeps of a sitting besides its trials.
+/// A spoken answer as it is recorded.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +8,6 @@
 #include "experiment/session_time.h"
 
 namespace overt {
-
-/// That the observer agreed to take part, or did not.
-struct RecordedConsent {
-    std::string observer; ///< label
-    bool accepted = false;
-    SessionTime at;
-    std::string utc; ///< the same by the wall clock, ISO 8601; set when it is written down
-    std::string text_sha256;
-    bool operator==(const RecordedConsent&) const = default;
-};
 
 /// A spoken answer: its file, and how that lies in time.
 struct RecordedAnswer {

@@ -1,4 +1,4 @@
-#include "experiment/ports/operator_key.h"
+#include "experiment/ports/response_panel.h"
 
 namespace overt {
 

@@ -1,4 +1,4 @@
-/// What an interrupted session had done, as far as it matters to what comes next.
+/// What an interrupted session had done, as far as it decides what comes next.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 
 namespace overt {
 
-/// What becomes of the trial that a session was interrupted in.
+/// What happens to the trial that a session was interrupted in.
 enum class ResumePolicy : std::uint8_t {
     redo,         ///< it is attempted again
-    skip,         ///< it is given up
+    skip,         ///< it is skipped
     restart_block ///< its block begins again with its first trial
 };
 constexpr std::string_view name_of(ResumePolicy policy) {
@@ -23,12 +23,12 @@ enum class AttemptFate : std::uint8_t {
     counted,
     comes_again_now,
     comes_again_at_end, ///< of its block
-    given_up,           ///< it failed and does not come again
+    skipped,            ///< it failed and does not come again; the table `given_up` of a session file
     interrupted         ///< the session ended in it
 };
 
 /// One thing that was done, in the order in which the record tells it.
-struct PastStep {
+struct RecordedStep {
     enum class Kind : std::uint8_t {
         practice, ///< was answered, or skipped
         pause,    ///< had begun
@@ -42,8 +42,8 @@ struct PastStep {
 };
 
 /// Everything that was done before a session is taken up again; empty for a new one.
-struct SessionSoFar {
-    std::vector<PastStep> steps;
+struct SessionHistory {
+    std::vector<RecordedStep> steps;
     int counted_trials = 0;
     bool is_opened = false; ///< consent and form are in the record
 };

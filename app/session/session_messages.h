@@ -1,4 +1,4 @@
-/// What `overt run` tells whoever started it.
+/// The messages of `overt run` in the operator's terminal.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "app/session/session_talk.h"
+#include "app/session/session_messages.h"
 
 #include <fstream>
 
@@ -84,7 +84,7 @@ void say_after(const RunOptions& options, const SessionResult& result, const Los
     const bool is_short = !result.aborted && result.completed_trials < planned;
     fmt::print("{} of {} completed{}, {} missed\nsession: {}\n", result.completed_trials,
                counted(planned, "trial"),
-               is_short ? fmt::format(", {} given up", planned - result.completed_trials) : "",
+               is_short ? fmt::format(", {} skipped", planned - result.completed_trials) : "",
                counted(result.missed_refreshes, "refresh", "refreshes"), folder.string());
     if (!options.print_session_to.empty()) {
         std::ofstream file(options.print_session_to);

@@ -12,14 +12,14 @@
 
 namespace overt {
 
-struct GradeOutlook {
+struct GradeEstimate {
     FrameGrade grade;
     int there = 0, frames = 0; ///< distinct poses of all stimuli that are rendered
     double seconds_left = 0.0; ///< for what is missing, by a probe
 };
 
-struct BakeOutlook {
-    std::vector<GradeOutlook> grades;      ///< preview to reference; empty if nothing is rendered
+struct BakeEstimate {
+    std::vector<GradeEstimate> grades;     ///< preview to reference; empty if nothing is rendered
     std::optional<FrameGrade> for_session; ///< what a session takes now
     BakeQuality wanted = BakeQuality::preview;
 };
@@ -40,12 +40,12 @@ class PathProbe {
 };
 
 /// Looks into the cache; measures only if something is missing.
-BakeOutlook bake_outlook(const Experiment& experiment, const StimulusLibrary& library);
+BakeEstimate bake_estimate(const Experiment& experiment, const StimulusLibrary& library);
 
 /// "40 s", "12 min", "7.5 h".
 std::string duration_text(double seconds);
 
-std::string to_text(const BakeOutlook& outlook);
-nlohmann::ordered_json to_json(const BakeOutlook& outlook);
+std::string to_text(const BakeEstimate& estimate);
+nlohmann::ordered_json to_json(const BakeEstimate& estimate);
 
 } // namespace overt

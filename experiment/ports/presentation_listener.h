@@ -1,0 +1,21 @@
+/// The port of those that follow what is shown: a simulated observer, live maps, a simulated display.
+#pragma once
+
+#include "experiment/flip_report.h"
+#include "experiment/ports/presenter.h"
+#include "experiment/trial.h"
+
+namespace overt {
+
+/// Is told of each flip and each screen on the session's thread, also between a presentation's first and last
+/// flip: allocates and throws nothing.
+class PresentationListener {
+  public:
+    virtual ~PresentationListener() = default;
+    /// A presentation of this trial begins with the next flip.
+    virtual void presentation_begins(const Trial& trial) noexcept = 0;
+    virtual void flipped(const FlipRecord& flip) noexcept = 0;
+    virtual void screen_shown(const Screen& screen, SessionTime onset) noexcept = 0;
+};
+
+} // namespace overt

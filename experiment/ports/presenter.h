@@ -1,0 +1,73 @@
+/// The port through which a session shows pictures and texts.
+#pragma once
+
+#include <string>
+
+#include "experiment/flip_report.h"
+#include "experiment/session_time.h"
+#include "experiment/trial.h"
+
+namespace overt {
+
+/// A screen that is not a stimulus.
+struct Screen {
+    enum class Kind : std::uint8_t {
+        blank,
+        text,
+        form, ///< a text whose lines begin below each other instead of being centred
+        drift_target
+    };
+    Kind kind = Kind::blank;
+    std::string text; ///< UTF-8, for text and form; paragraphs split by newlines
+};
+
+/// How the display shows things: known once the presenter is open.
+struct DisplayTiming {
+    double refresh_hz = 0.0; ///< nominal
+    VblankSource source = VblankSource::virtual_display;
+};
+
+/// A level meter of the microphone; lengths are shares of the whole bar.
+struct LevelBar {
+    double mean = 0.0, peak = 0.0;
+    std::string warning; ///< UTF-8; empty: nothing is wrong
+    bool operator==(const LevelBar&) const = default;
+};
+
+/// Shows pictures at refreshes of the display. Loading may take long and throw; flipping does neither.
+class Presenter {
+  public:
+    virtual ~Presenter() = default;
+
+    virtual DisplayTiming timing() const = 0;
+
+    /// Puts the frames of a stimulus into the frame store, replacing those loaded before. Throws
+    /// GraphicsError or InputError.
+    virtual void load_frames(const Condition& condition) = 0;
+
+    /// The stimulus that will be loaded next: a presenter may begin with it now, in the background.
+    virtual void expect_frames(const Condition& /*condition*/) noexcept {}
+    /// Called repeatedly while the screen stands still: a presenter may use a few milliseconds for work that
+    /// it has put off.
+    virtual void use_spare_time() noexcept {}
+
+    /// Draws a screen and shows it at the next refresh; it stays until the next call. Lays out text, so not
+    /// for use between a presentation's first and last flip.
+    virtual FlipReport show(const Screen& screen) = 0;
+
+    /// Draws a level meter below the middle of the screen that is shown, at the next refresh. Not for use
+    /// between a presentation's first and last flip.
+    virtual void show_level(const LevelBar& /*bar*/) {}
+
+    /// Shows a frame of the loaded stimulus at the next refresh and returns when that refresh has begun.
+    /// Allocates, opens and throws nothing.
+    virtual FlipReport flip(AnimationFrameIndex frame) noexcept = 0;
+
+    /// The window was closed or the display went away. The session ends the trial and then itself.
+    virtual bool closed() const noexcept = 0;
+
+    /// Why, once closed(): what follows "the session ended early: ".
+    virtual std::string why_closed() const { return "the display was closed"; }
+};
+
+} // namespace overt

@@ -1,0 +1,68 @@
+/// The port of the keys and buttons that observer and operator press.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "experiment/ports/session_phase.h"
+#include "experiment/session_time.h"
+#include "experiment/trial.h"
+
+namespace overt {
+
+/// A key or button with which the observer or the operator answers.
+struct ResponsePress {
+    enum class Key : std::uint8_t {
+        next,
+        back,
+        // Of a decision.
+        yes,
+        no,
+        // Of an entry; digits of a decision, too, are characters.
+        character,
+        erase,
+        up,
+        down,
+        left,
+        right,
+        // The operator's.
+        pause,
+        recalibrate,
+        repeat, ///< the trial that is running, at once
+        reject, ///< the same, when the protocol says
+        skip,   ///< the trial: it does not come again
+        abort,  ///< the session
+    };
+    Key key = Key::next;
+    SessionTime pressed_at;
+    char32_t character = 0;
+};
+constexpr bool is_operators(ResponsePress::Key key) { return key >= ResponsePress::Key::pause; }
+
+/// An operator's key as [operator] and the record call it; empty for the observer's.
+std::string_view name_of(ResponsePress::Key key) noexcept;
+
+/// Keys that the operator pressed are never forgotten, whatever is waited for.
+class ResponsePanel {
+  public:
+    virtual ~ResponsePanel() = default;
+    /// A text is being read until a key is pressed. Forgets earlier presses.
+    virtual void await_key(SessionTime since) = 0;
+    /// The question of a trial is to be answered from now on. Forgets earlier presses.
+    virtual void await_response(const Trial& trial, SessionTime since) = 0;
+    /// Yes or no, or a digit. `is_consent`: the observer decides whether to take part, else the operator.
+    /// Forgets earlier presses.
+    virtual void await_decision(bool is_consent, SessionTime since) = 0;
+    /// A form is being filled in: keys of letters are letters. Forgets earlier presses.
+    virtual void await_entry(SessionTime since) = 0;
+    /// The next press, if there was one. Allocates and throws nothing: it is called during presentations.
+    virtual std::optional<ResponsePress> poll() noexcept = 0;
+    /// What was said or typed in answer, once the press has come; empty if the panel takes none.
+    virtual std::string answer() = 0;
+    /// The session has come to this phase; `trial` is -1 outside of trials.
+    virtual void entered(SessionPhase /*phase*/, int /*trial*/) noexcept {}
+};
+
+} // namespace overt

@@ -1,0 +1,47 @@
+/// The port through which a session is recorded.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiment/flip_report.h"
+#include "experiment/gaze.h"
+#include "experiment/ports/observer_field.h"
+#include "experiment/ports/recorded_answer.h"
+#include "experiment/ports/recorded_consent.h"
+#include "experiment/ports/trial_outcome.h"
+#include "experiment/trial.h"
+
+namespace overt {
+
+/// What happened, besides flips and samples.
+struct SessionEvent {
+    SessionTime at;
+    int trial = -1; ///< -1: outside of trials
+    std::string_view kind;
+    std::string detail;
+};
+
+/// Records a session. flip(), missed() and sample() allocate, open and throw nothing and may
+/// wait for the disk only where time is virtual; the others may throw RecordError.
+class SessionLog {
+  public:
+    virtual ~SessionLog() = default;
+    virtual void flip(const FlipRecord& flip) noexcept = 0;
+    /// Comes before the flip that ended it.
+    virtual void missed(const MissedRefresh& refresh) noexcept = 0;
+    virtual void sample(int trial, const GazeSample& sample) noexcept = 0;
+    virtual void clock_pair(const ClockPair& pair) noexcept = 0;
+    virtual void event(const SessionEvent& event) = 0;
+    /// What the observer filled in; replaces what was noted before.
+    virtual void observer_fields(const std::vector<RecordedObserverField>& /*fields*/) {}
+    virtual void consent(const RecordedConsent& /*consent*/) {}
+    /// Of the attempt that was started last.
+    virtual void answer_recorded(const RecordedAnswer& /*answer*/) {}
+    virtual void trial_started(const Trial& trial, SessionTime at) = 0;
+    /// All of the trial's rows are on disk when this returns.
+    virtual void trial_finished(const Trial& trial, const TrialOutcome& outcome) = 0;
+};
+
+} // namespace overt

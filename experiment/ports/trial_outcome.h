@@ -1,0 +1,28 @@
+/// How an attempt at a trial went.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "experiment/session_time.h"
+#include "experiment/units.h"
+
+namespace overt {
+
+/// How a trial went.
+struct TrialOutcome {
+    enum class Status : std::uint8_t { completed, aborted };
+    /// Whether the trial is attempted again, as far as that is decided.
+    enum class Afterwards : std::uint8_t { undecided, never, now, end_of_block };
+    Status status = Status::completed;
+    std::string failure;                           ///< by which it does not count, or would not; empty: none
+    Afterwards afterwards = Afterwards::undecided; ///< undecided: the session ended in it
+    SessionTime task_screen_onset, presentation_onset, presentation_end, response_screen_onset, responded_at;
+    int shown_refreshes = 0;
+    int missed_refreshes = 0;
+    std::optional<Degrees> drift;
+    std::string answer;
+};
+
+} // namespace overt
