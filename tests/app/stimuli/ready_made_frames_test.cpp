@@ -1,4 +1,4 @@
-/// Frames of another renderer, from 16-bit files to the bytes on the display's wire.
+/// Frames of another renderer, from 16-bit files to the bytes of the display's signal.
 #include <catch2/catch.hpp>
 
 #include <OpenImageIO/imageio.h>
@@ -6,8 +6,8 @@
 
 #include "app/inputs/protocol_inputs.h"
 #include "devices/host/clocks.h"
-#include "render/gl/headless_context.h"
 #include "experiment/base/random.h"
+#include "render/gl/headless_context.h"
 #include "render/presenter/page_presenter.h"
 #include "render/stimulus/stimulus_library.h"
 #include "tests/app/small_experiment.h"
