@@ -25,8 +25,8 @@ std::vector<StimulusLight> measure_light(const Experiment& experiment) {
     const int materials = static_cast<int>(protocol.materials.size()),
               count = materials * static_cast<int>(protocol.sculptures.size());
     // What a session would show; where it would be refused, the best that there is.
-    if (const std::optional<FrameGrade> grade = library.grade_of_session()) {
-        library.take_frames(*grade);
+    if (const std::optional<FrameQuality> quality = library.quality_of_session()) {
+        library.take_frames(*quality);
     } else {
         for (int i = 0; i < count; ++i)
             library.prepare_frames({i / materials, i % materials}, show);

@@ -126,7 +126,8 @@ struct Stage {
     }
 };
 
-void add_findings(const std::string& what, const WireFindings& found, bool dithered, BenchFigures& figures) {
+void add_findings(const std::string& what, const SignalFindings& found, bool dithered,
+                  BenchFigures& figures) {
     figures.push_back(at_most(fmt::format("{}: differences among {} values", what, found.compared),
                               static_cast<double>(found.different), "values", 0.0));
     if (dithered && found.largest_mean_error > 0.0)
@@ -184,7 +185,7 @@ void verify_output(ContextKind kind, const Output& output, DisplaySettings displ
         display.onset_trigger = pixel_mode_trigger;
     Stage stage(kind, screen, output.mode);
     const std::string where = fmt::format("{}, {}", name_of(kind), output.name());
-    WireFindings all;
+    SignalFindings all;
     std::optional<int> wrong_in_rows;
     for (const TestPicture& picture : test_pictures(screen)) {
         ScreenGeometry geometry;
@@ -197,7 +198,7 @@ void verify_output(ContextKind kind, const Output& output, DisplaySettings displ
         presenter.flip({0});
         const std::vector<std::byte> bytes = presenter.read_canvas();
         const LinearImage light = pages.page({0, 0}, 0);
-        const WireFindings found = check_wire({screen, bytes}, display, {&light, picture.origin_px});
+        const SignalFindings found = check_signal({screen, bytes}, display, {&light, picture.origin_px});
         if (found.different > 0)
             fmt::print(stderr, "{}, {}: {}\n", where, picture.name, found.first);
         all += found;
@@ -237,7 +238,7 @@ void verify_stimuli(ContextKind kind, const Experiment& experiment, const Displa
     for (const Condition& stimulus : stimuli) {
         library.prepare_frames(stimulus, show);
         bar.update("verifying", done++, static_cast<int>(stimuli.size()));
-        WireFindings all;
+        SignalFindings all;
         for (const PageVerification& page :
              verify_pages(presenter, library, stimulus, geometry, protocol.display))
             all += page.findings;

@@ -9,7 +9,7 @@
 #include "experiment/base/error.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "render/gl/headless_context.h"
-#include "render/signal/wire_decoder.h"
+#include "render/signal/signal_decoder.h"
 #include "render/window/window_system.h"
 
 namespace overt {
@@ -128,8 +128,8 @@ glm::dvec3 PatchStage::received_signal() const {
     const std::vector<std::byte> bytes = presenter_->read_canvas();
     const glm::ivec2 middle = geometry_.image_origin_px + geometry_.image_px / 2;
     const auto stride = static_cast<std::size_t>(4 * geometry_.screen_px.x);
-    const WireScreen row{{geometry_.screen_px.x, 1},
-                         std::span(bytes).subspan(static_cast<std::size_t>(middle.y) * stride, stride)};
+    const SignalScreen row{{geometry_.screen_px.x, 1},
+                           std::span(bytes).subspan(static_cast<std::size_t>(middle.y) * stride, stride)};
     const ReceivedLight light = receive_light(row, mode_);
     const auto& levels = light.at(joins_pixels_in_pairs(mode_) ? middle.x / 2 : middle.x, 0);
     return glm::dvec3(levels[0], levels[1], levels[2]) / static_cast<double>(light.highest);

@@ -21,7 +21,7 @@ std::vector<Condition> distinct_stimuli(const Schedule& schedule) {
 
 /// What the record says of a page.
 std::string sentence_on(const PageVerification& page, const std::string& stimulus) {
-    const WireFindings& found = page.findings;
+    const SignalFindings& found = page.findings;
     std::string text = fmt::format("{} page {}: {} of {} values differ from the prediction", stimulus,
                                    page.page, found.different, found.compared);
     if (found.different > 0)
@@ -33,7 +33,7 @@ std::string sentence_on(const PageVerification& page, const std::string& stimulu
             100.0 * (page.clipped.share_below(1) + page.clipped.share_above(1)),
             100.0 * (page.clipped.share_below(2) + page.clipped.share_above(2)));
     }
-    return text + "; wire sha256 " + page.wire_sha256;
+    return text + "; wire sha256 " + page.signal_sha256;
 }
 
 } // namespace
@@ -47,7 +47,7 @@ std::vector<PageVerification> verify_pages(PagePresenter& presenter, const Frame
         const LinearImage picture = pages.page(condition, page);
         const std::vector<std::byte> bytes = presenter.read_page(page);
         verified.push_back(
-            {page, check_wire({geometry.screen_px, bytes}, display, {&picture, geometry.image_origin_px}),
+            {page, check_signal({geometry.screen_px, bytes}, display, {&picture, geometry.image_origin_px}),
              ContentHasher().add_bytes(bytes).finish(), count_clipped(picture, display.background)});
     }
     return verified;

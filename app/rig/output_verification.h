@@ -11,15 +11,15 @@
 #include "experiment/ports/session_log.h"
 #include "render/image/gamut.h"
 #include "render/presenter/page_presenter.h"
-#include "render/signal/wire_check.h"
+#include "render/signal/signal_check.h"
 
 namespace overt {
 
 struct PageVerification {
     int page = 0;
-    WireFindings findings;
-    ContentHash wire_sha256; ///< of all bytes of the screen, as they go to the display
-    ClippedPixels clipped;   ///< of the page's light
+    SignalFindings findings;
+    ContentHash signal_sha256; ///< of all bytes of the screen, as they go to the display
+    ClippedPixels clipped;     ///< of the page's light
 };
 
 /// Draws each page of a stimulus once, without showing it. `pages` and `presenter` belong together; `display`

@@ -26,7 +26,7 @@ namespace {
 
 /// What is asked for, made sense of.
 struct BakeJob {
-    FrameGrade grade;
+    FrameQuality quality;
     std::vector<Condition> stimuli;
     FrameExportOptions output; ///< without a folder: frames go to the cache only
     std::vector<BakeUnit> units;
@@ -34,17 +34,17 @@ struct BakeJob {
     bool exports() const { return !output.folder.empty(); }
 };
 
-FrameGrade grade_asked_for(const BakeOptions& options, const BakingSettings& baking) {
+FrameQuality quality_asked_for(const BakeOptions& options, const BakingSettings& baking) {
     // Who bakes wants more than what is there without baking.
-    FrameGrade grade =
-        grade_of(options.quality.value_or(std::max(baking.quality, BakeQuality::standard)), baking);
+    FrameQuality quality =
+        quality_of(options.quality.value_or(std::max(baking.quality, BakeQuality::standard)), baking);
     if (!options.quality && baking.quality == BakeQuality::draft)
-        grade = grade_of(BakeQuality::draft, baking);
+        quality = quality_of(BakeQuality::draft, baking);
     if (options.samples)
-        grade.samples = options.samples;
+        quality.samples = options.samples;
     if (options.target_error_de)
-        grade.target_error_de = options.target_error_de;
-    return grade;
+        quality.target_error_de = options.target_error_de;
+    return quality;
 }
 
 std::vector<Condition> stimuli_asked_for(const BakeOptions& options, const Protocol& protocol,
@@ -81,7 +81,7 @@ void check_combinations(const BakeOptions& options) {
 BakeJob job_of(const BakeOptions& options, const Protocol& protocol, const StimulusLibrary& library) {
     check_combinations(options);
     BakeJob job;
-    job.grade = grade_asked_for(options, protocol.bake);
+    job.quality = quality_asked_for(options, protocol.bake);
     job.stimuli = stimuli_asked_for(options, protocol, library);
     job.output.frames = frame_range_called(options.frames, protocol.animation);
     job.output.folder = options.out;
@@ -90,7 +90,7 @@ BakeJob job_of(const BakeOptions& options, const Protocol& protocol, const Stimu
                                               : ExportedLight::display;
     job.output.png16 = options.png16;
     job.output.force = options.force;
-    job.units = bake_units(job.stimuli, job.output.frames, library.poses(), job.grade, protocol);
+    job.units = bake_units(job.stimuli, job.output.frames, library.poses(), job.quality, protocol);
     if (!options.shard.empty())
         job.units = dealt_to(shard_called(options.shard), job.units);
     return job;
@@ -105,7 +105,7 @@ struct BakeOutcome {
 };
 
 bool is_cached(const StimulusLibrary& library, const BakeJob& job, const BakeUnit& unit) {
-    return std::filesystem::exists(library.frame_file_of(unit.condition, job.grade, unit.pose));
+    return std::filesystem::exists(library.frame_file_of(unit.condition, job.quality, unit.pose));
 }
 
 /// Renders what is missing. While one frame is written, the next is traced; each is on the disk, whole, or
@@ -127,7 +127,7 @@ void render(const std::vector<BakeUnit>& missing, const BakeJob& job, StimulusLi
         };
         SpectralFrame frame;
         if (go_on(0.0))
-            frame = library.trace(unit.condition, unit.pose, job.grade, go_on);
+            frame = library.trace(unit.condition, unit.pose, job.quality, go_on);
         if (writing.valid())
             writing.get();
         if (!frame.is_complete) {
@@ -139,7 +139,7 @@ void render(const std::vector<BakeUnit>& missing, const BakeJob& job, StimulusLi
         ++outcome.rendered;
         writing = std::async(std::launch::async, [&, unit, frame = std::move(frame)] {
             if (!is_cached(library, job, unit))
-                library.store(unit.condition, unit.pose, job.grade, frame);
+                library.store(unit.condition, unit.pose, job.quality, frame);
             if (job.output.as == ExportedLight::spectra)
                 output.write(unit, &frame);
         });
@@ -173,7 +173,7 @@ void export_cached(const BakeJob& job, const FrameExport& output, BakeOutcome& o
 void remove_remnants(const BakeJob& job, const StimulusLibrary& library, const FrameExport& output) {
     std::set<std::filesystem::path> folders;
     for (const BakeUnit& unit : job.units) {
-        folders.insert(library.frame_file_of(unit.condition, job.grade, unit.pose).parent_path());
+        folders.insert(library.frame_file_of(unit.condition, job.quality, unit.pose).parent_path());
         folders.insert(library.map_file(unit.condition.sculpture, unit.pose).parent_path());
         if (job.exports())
             folders.insert(output.folder_of(unit.condition));
@@ -184,34 +184,34 @@ void remove_remnants(const BakeJob& job, const StimulusLibrary& library, const F
 
 void say_plan(const BakeJob& job, const Experiment& experiment, const std::vector<BakeUnit>& missing) {
     fmt::print("{}: {}, {} quality, {}, {} of them there already\n", experiment.protocol.name,
-               counted(job.stimuli.size(), "stimulus", "stimuli"), describe(job.grade),
+               counted(job.stimuli.size(), "stimulus", "stimuli"), describe(job.quality),
                counted(job.units.size(), "frame"), job.units.size() - missing.size());
     if (missing.empty())
         return;
     const PathProbe probe(experiment.protocol, experiment.sculptures);
     double seconds = 0.0;
     for (const BakeUnit& unit : missing)
-        seconds += probe.seconds_of_frame(unit.condition, job.grade);
+        seconds += probe.seconds_of_frame(unit.condition, job.quality);
     fmt::print("{} to render, about {} on this machine\n", missing.size(), duration_text(seconds));
 }
 
-/// Where grade and protocol disagree, a session would not find the frames.
+/// Where quality and protocol disagree, a session would not find the frames.
 void say_use(const BakeJob& job, const Protocol& protocol) {
-    if (job.grade == grade_of(job.grade.quality, protocol.bake))
+    if (job.quality == quality_of(job.quality.level, protocol.bake))
         return;
     fmt::print(
         "note: a session takes these frames if the protocol says so too:\n  [bake]\n  quality = \"{}\"\n",
-        name_of(job.grade.quality));
-    if (job.grade.samples)
-        fmt::print("  samples = {}\n", *job.grade.samples);
-    if (job.grade.target_error_de)
-        fmt::print("  target_error_de = {}\n", *job.grade.target_error_de);
+        name_of(job.quality.level));
+    if (job.quality.samples)
+        fmt::print("  samples = {}\n", *job.quality.samples);
+    if (job.quality.target_error_de)
+        fmt::print("  target_error_de = {}\n", *job.quality.target_error_de);
 }
 
 void say_outcome(const BakeOptions& options, const BakeJob& job, const BakeOutcome& outcome,
                  const Protocol& protocol) {
     if (options.json) {
-        const nlohmann::ordered_json json{{"quality", name_of(job.grade.quality)},
+        const nlohmann::ordered_json json{{"quality", name_of(job.quality.level)},
                                           {"frames", outcome.units},
                                           {"there_before", outcome.kept},
                                           {"rendered", outcome.rendered},
@@ -251,7 +251,7 @@ Condition stimulus_of_strip(const BakeJob& job) {
 /// All frames of the pictures have to be there.
 void draw_overviews(const BakeOptions& options, const BakeJob& job, const Protocol& protocol,
                     StimulusLibrary& library) {
-    library.take_frames(job.grade);
+    library.take_frames(job.quality);
     if (!options.sheet.empty()) {
         write_srgb_png(options.sheet, contact_sheet(protocol, library, job.output.frames.first, 400));
         fmt::print("sheet: {}\n", options.sheet.string());
@@ -275,7 +275,7 @@ int run_bake(const BakeOptions& options) {
         stimulus_of_strip(job);
     if (!options.sheet.empty() && job.stimuli.size() != library.rendered_stimuli().size())
         throw InputError("--sheet shows all stimuli: leave out --only");
-    const FrameExport output(job.output, protocol, experiment.sculptures, library, job.grade);
+    const FrameExport output(job.output, protocol, experiment.sculptures, library, job.quality);
     if (job.exports())
         output.refuse_to_replace(job.units);
     std::vector<BakeUnit> missing;

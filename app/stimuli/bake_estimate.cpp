@@ -69,9 +69,10 @@ PathProbe::PathProbe(const Protocol& protocol, std::span<const Sculpture> sculpt
     }
 }
 
-double PathProbe::seconds_of_frame(const Condition& condition, const FrameGrade& grade) const {
+double PathProbe::seconds_of_frame(const Condition& condition, const FrameQuality& quality) const {
     const auto material = static_cast<std::size_t>(condition.material);
-    const BakeSettings settings = bake_settings(grade, protocol_->bake, protocol_->materials[material].kind);
+    const BakeSettings settings =
+        bake_settings(quality, protocol_->bake, protocol_->materials[material].kind);
     const double pixels = static_cast<double>(protocol_->view.width_px) * protocol_->view.height_px;
     const double paths = pixels * traced_share_[static_cast<std::size_t>(condition.sculpture)] *
                          settings.samples / (settings.pixel_step * settings.pixel_step);
@@ -84,13 +85,13 @@ BakeEstimate bake_estimate(const Experiment& experiment, const StimulusLibrary& 
     const std::vector<Condition> stimuli = library.rendered_stimuli();
     if (stimuli.empty() || estimate.wanted == BakeQuality::live)
         return estimate;
-    estimate.for_session = library.grade_of_session();
+    estimate.for_session = library.quality_of_session();
     std::optional<PathProbe> probe;
     for (const BakeQuality quality :
          {BakeQuality::preview, BakeQuality::draft, BakeQuality::standard, BakeQuality::reference}) {
-        GradeEstimate one{grade_of(quality, experiment.protocol.bake)};
+        QualityEstimate one{quality_of(quality, experiment.protocol.bake)};
         for (const Condition& stimulus : stimuli) {
-            const auto missing = static_cast<int>(library.missing_frames(stimulus, one.grade).size());
+            const auto missing = static_cast<int>(library.missing_frames(stimulus, one.quality).size());
             const int all = static_cast<int>(library.poses().angles.size());
             one.there += all - missing;
             one.frames += all;
@@ -98,9 +99,9 @@ BakeEstimate bake_estimate(const Experiment& experiment, const StimulusLibrary& 
                 continue;
             if (!probe)
                 probe.emplace(experiment.protocol, experiment.sculptures);
-            one.seconds_left += missing * probe->seconds_of_frame(stimulus, one.grade);
+            one.seconds_left += missing * probe->seconds_of_frame(stimulus, one.quality);
         }
-        estimate.grades.push_back(one);
+        estimate.qualities.push_back(one);
     }
     return estimate;
 }
@@ -114,13 +115,14 @@ std::string duration_text(double seconds) {
 }
 
 std::string to_text(const BakeEstimate& estimate) {
-    if (estimate.grades.empty())
+    if (estimate.qualities.empty())
         return {};
     std::string text = "\nRendered stimuli, and what the rest will take here if nothing else runs\n\n";
-    for (const GradeEstimate& one : estimate.grades) {
+    for (const QualityEstimate& one : estimate.qualities) {
         const std::string left =
             one.there == one.frames ? "" : fmt::format(", about {} left", duration_text(one.seconds_left));
-        text += fmt::format("  {:<28}{} of {} frames{}\n", describe(one.grade), one.there, one.frames, left);
+        text +=
+            fmt::format("  {:<28}{} of {} frames{}\n", describe(one.quality), one.there, one.frames, left);
     }
     if (estimate.for_session)
         text += fmt::format("  A session takes {}.\n", describe(*estimate.for_session));
@@ -133,14 +135,14 @@ std::string to_text(const BakeEstimate& estimate) {
 }
 
 nlohmann::ordered_json to_json(const BakeEstimate& estimate) {
-    auto grades = nlohmann::ordered_json::array();
-    for (const GradeEstimate& one : estimate.grades)
-        grades.push_back({{"quality", name_of(one.grade.quality)},
-                          {"frames_there", one.there},
-                          {"frames", one.frames},
-                          {"seconds_left", one.seconds_left}});
-    return {{"grades", grades},
-            {"session_takes", estimate.for_session ? name_of(estimate.for_session->quality) : "nothing"},
+    auto qualities = nlohmann::ordered_json::array();
+    for (const QualityEstimate& one : estimate.qualities)
+        qualities.push_back({{"quality", name_of(one.quality.level)},
+                             {"frames_there", one.there},
+                             {"frames", one.frames},
+                             {"seconds_left", one.seconds_left}});
+    return {{"grades", qualities},
+            {"session_takes", estimate.for_session ? name_of(estimate.for_session->level) : "nothing"},
             {"session_needs", name_of(estimate.wanted)}};
 }
 

@@ -12,15 +12,15 @@
 
 namespace overt {
 
-struct GradeEstimate {
-    FrameGrade grade;
+struct QualityEstimate {
+    FrameQuality quality;
     int there = 0, frames = 0; ///< distinct poses of all stimuli that are rendered
     double seconds_left = 0.0; ///< for what is missing, by a probe
 };
 
 struct BakeEstimate {
-    std::vector<GradeEstimate> grades;     ///< preview to reference; empty if nothing is rendered
-    std::optional<FrameGrade> for_session; ///< what a session takes now
+    std::vector<QualityEstimate> qualities;   ///< preview to reference; empty if nothing is rendered
+    std::optional<FrameQuality> for_session; ///< what a session takes now
     BakeQuality wanted = BakeQuality::preview;
 };
 
@@ -31,7 +31,7 @@ class PathProbe {
     PathProbe(const Protocol& protocol, std::span<const Sculpture> sculptures);
 
     /// For one frame of a stimulus, writing it included.
-    double seconds_of_frame(const Condition& condition, const FrameGrade& grade) const;
+    double seconds_of_frame(const Condition& condition, const FrameQuality& quality) const;
 
   private:
     const Protocol* protocol_;

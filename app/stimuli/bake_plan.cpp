@@ -53,7 +53,8 @@ FrameRange frame_range_called(const std::string& text, const Animation& animatio
 }
 
 std::vector<BakeUnit> bake_units(const std::vector<Condition>& stimuli, const FrameRange& frames,
-                                 const PoseTable& poses, const FrameGrade& grade, const Protocol& protocol) {
+                                 const PoseTable& poses, const FrameQuality& quality,
+                                 const Protocol& protocol) {
     std::vector<bool> is_shown(poses.angles.size());
     for (int frame = frames.first; frame <= frames.last; ++frame)
         is_shown[static_cast<std::size_t>(poses.pose_of({frame}).value)] = true;
@@ -62,7 +63,8 @@ std::vector<BakeUnit> bake_units(const std::vector<Condition>& stimuli, const Fr
         const MaterialKind kind = protocol.materials[static_cast<std::size_t>(condition.material)].kind;
         for (std::size_t pose = 0; pose < is_shown.size(); ++pose) {
             if (is_shown[pose])
-                units.push_back({condition, {static_cast<int>(pose)}, expected_cost(grade, protocol, kind)});
+                units.push_back(
+                    {condition, {static_cast<int>(pose)}, expected_cost(quality, protocol, kind)});
         }
     }
     return units;

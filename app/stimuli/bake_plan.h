@@ -35,7 +35,8 @@ FrameRange frame_range_called(const std::string& text, const Animation& animatio
 /// All frames of the stimuli, in their order and that of poses; a pose is among them if a frame of the range
 /// shows it.
 std::vector<BakeUnit> bake_units(const std::vector<Condition>& stimuli, const FrameRange& frames,
-                                 const PoseTable& poses, const FrameGrade& grade, const Protocol& protocol);
+                                 const PoseTable& poses, const FrameQuality& quality,
+                                 const Protocol& protocol);
 
 /// What one shard has to do of it: dealt out by expected cost, the dearest first, each to whoever has least.
 /// It depends on nothing but the arguments, and the shards 1/n … n/n have each unit once.

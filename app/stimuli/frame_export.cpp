@@ -81,8 +81,9 @@ std::vector<std::uint16_t> codes_of(const ChannelPicture& picture, double backgr
 
 FrameExport::FrameExport(const FrameExportOptions& options, const Protocol& protocol,
                          std::span<const Sculpture> sculptures, const StimulusLibrary& library,
-                         const FrameGrade& grade)
-    : options_(&options), protocol_(&protocol), sculptures_(sculptures), library_(&library), grade_(&grade) {}
+                         const FrameQuality& quality)
+    : options_(&options), protocol_(&protocol), sculptures_(sculptures), library_(&library),
+      quality_(&quality) {}
 
 std::filesystem::path FrameExport::folder_of(const Condition& condition) const {
     return options_->folder /
@@ -102,7 +103,7 @@ std::vector<std::filesystem::path> FrameExport::files_of(const BakeUnit& unit) c
 
 ContentHash FrameExport::key_of(const BakeUnit& unit) const {
     ContentHasher hasher;
-    hasher.add(export_version).add(std::string_view(library_->frame_key(unit.condition, *grade_)));
+    hasher.add(export_version).add(std::string_view(library_->frame_key(unit.condition, *quality_)));
     hasher.add(library_->poses().angles[static_cast<std::size_t>(unit.pose.value)].value);
     hasher.add(static_cast<int>(options_->as)).add(options_->png16 ? 1 : 0);
     hasher.add(protocol_->light.exposure);
@@ -162,9 +163,9 @@ ChannelPicture FrameExport::picture_of(const BakeUnit& unit, const SpectralFrame
         }
         return picture;
     }
-    LinearImage image = read_linear_image(library_->frame_file_of(unit.condition, *grade_, unit.pose));
+    LinearImage image = read_linear_image(library_->frame_file_of(unit.condition, *quality_, unit.pose));
     transform(image, options_->as == ExportedLight::display
-                         ? library_->display_from_frame(*grade_)
+                         ? library_->display_from_frame(*quality_)
                          : protocol_->light.exposure * xyz_from(rendered_colours(protocol_->bake.observer)));
     picture.size_px = image.size_px;
     for (const glm::vec4& pixel : image.pixels)
@@ -178,7 +179,7 @@ ImageAttributes FrameExport::attributes_of(const BakeUnit& unit) const {
     const Degrees angle = library_->poses().angles[static_cast<std::size_t>(unit.pose.value)];
     ImageAttributes attributes = describe_stimulus(
         *protocol_, sculptures_[static_cast<std::size_t>(unit.condition.sculpture)], material, angle);
-    for (auto& attribute : describe_tracing(*grade_, *protocol_, material.kind))
+    for (auto& attribute : describe_tracing(*quality_, *protocol_, material.kind))
         attributes.push_back(std::move(attribute));
     attributes.emplace_back("overt:exposure", fmt::format("{}", protocol_->light.exposure));
     const auto& light = protocol_->display.characterisation;

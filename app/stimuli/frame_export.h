@@ -28,7 +28,7 @@ class FrameExport {
     /// All must outlive it.
     FrameExport(const FrameExportOptions& options, const Protocol& protocol,
                 std::span<const Sculpture> sculptures, const StimulusLibrary& library,
-                const FrameGrade& grade);
+                const FrameQuality& quality);
 
     /// Whether the files of a unit are there, whole and made of the very same.
     bool has(const BakeUnit& unit) const;
@@ -55,7 +55,7 @@ class FrameExport {
     const Protocol* protocol_;
     std::span<const Sculpture> sculptures_;
     const StimulusLibrary* library_;
-    const FrameGrade* grade_;
+    const FrameQuality* quality_;
 };
 
 } // namespace overt

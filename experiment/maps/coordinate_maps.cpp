@@ -7,7 +7,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
-#include "experiment/maps/sheet_check.h"
+#include "experiment/maps/continuity_check.h"
 #include "experiment/maps/visible_depth.h"
 
 namespace overt {
@@ -49,7 +49,7 @@ CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene, std::ve
         const auto pose = static_cast<std::size_t>(index);
         PixelFlags contested = contours.touched_pixels(
             sight_lines_[pose], image_px_, farthest_visible_depths(maps[pose], sight_lines_[pose], walk_));
-        flag_broken_sheets(maps[pose], sight_lines_[pose], walk_, contested);
+        flag_discontinuities(maps[pose], sight_lines_[pose], walk_, contested);
         cells[pose].emplace(maps[pose], contested);
         maps[pose] = {};
     });

@@ -87,7 +87,7 @@ struct DisplaySettings {
     /// The box that reads mono++, color++ and bits++: "auto", "none", or its serial port.
     std::string box = "auto";
     int onset_trigger = 0; ///< digital outputs that a presentation's first refresh raises, a bit each
-    /// Exponent between wire value and light; 1 for a display that linearises itself. Without a
+    /// Exponent between signal and light; 1 for a display that linearises itself. Without a
     /// characterisation.
     double gamma = 1.0;
     std::filesystem::path characterisation_file; ///< or empty; resolved against the protocol's folder

@@ -67,8 +67,8 @@ PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, 
     background_.upload(bytes);
     if (encoder_.leaves_last_step()) {
         last_step_.emplace(context, display_);
-        wire_.emplace(context, geometry.screen_px, last_step_->format());
-        wire_target_.emplace(context, std::initializer_list<const Texture2D*>{&*wire_}, false);
+        signal_.emplace(context, geometry.screen_px, last_step_->format());
+        signal_target_.emplace(context, std::initializer_list<const Texture2D*>{&*signal_}, false);
     }
     if (display.output == OutputMode::bits_plus_plus)
         colour_table_row_ = t_lock::row_of(encoder_.colour_table());
@@ -239,7 +239,7 @@ FlipReport PagePresenter::present() noexcept {
 
 void PagePresenter::compose() noexcept {
     if (last_step_)
-        last_step_->draw(picture_, *wire_target_, refreshes_);
+        last_step_->draw(picture_, *signal_target_, refreshes_);
 }
 
 void PagePresenter::send_with_next_flip(int row, const t_lock::Packet& packet) noexcept {
@@ -253,7 +253,7 @@ void PagePresenter::send_with_next_flip(int row, const t_lock::Packet& packet) n
     OVERT_EXPECTS(false);
 }
 
-void PagePresenter::put_row(int row, int first_px, std::span<const WirePixel> pixels) noexcept {
+void PagePresenter::put_row(int row, int first_px, std::span<const SignalPixel> pixels) noexcept {
     const GladGLContext& gl = context_->gl();
     gl.BindTexture(GL_TEXTURE_2D, final_texture().name());
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -271,7 +271,7 @@ void PagePresenter::put_messages() noexcept {
     if (display_.output == OutputMode::bits_plus_plus)
         put_row(t_lock::colour_table_row, 0, colour_table_row_);
     if (has_psync(display_.output)) {
-        const std::array<WirePixel, 1> outputs{psync::outputs_pixel(outputs_)};
+        const std::array<SignalPixel, 1> outputs{psync::outputs_pixel(outputs_)};
         put_row(psync::row, 0, outputs);
         put_row(psync::row, psync::first_px, psync::pixels_of(static_cast<std::uint8_t>(refreshes_ + 1)));
         outputs_ = 0;

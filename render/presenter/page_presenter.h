@@ -11,8 +11,8 @@
 #include "render/image/linear_image.h"
 #include "render/presenter/frame_store.h"
 #include "render/signal/display_encoder.h"
+#include "render/signal/signal_pass.h"
 #include "render/signal/t_lock.h"
-#include "render/signal/wire_pass.h"
 #include "render/vblank/display_surface.h"
 
 namespace overt {
@@ -56,8 +56,8 @@ class PagePresenter final : public Presenter {
 
   private:
     bool is_interrupted() const noexcept { return interrupted_ && interrupted_->load(); }
-    const Texture2D& final_texture() const { return wire_ ? *wire_ : picture_; }
-    const Framebuffer& canvas() const { return wire_ ? *wire_target_ : picture_target_; }
+    const Texture2D& final_texture() const { return signal_ ? *signal_ : picture_; }
+    const Framebuffer& canvas() const { return signal_ ? *signal_target_ : picture_target_; }
     void check_depth() const;
     void clear_picture() noexcept;
     void put_page(int page) noexcept;
@@ -66,7 +66,7 @@ class PagePresenter final : public Presenter {
     void put_patch(bool white) noexcept;
     void compose() noexcept;
     FlipReport present() noexcept;
-    void put_row(int row, int first_px, std::span<const WirePixel> pixels) noexcept;
+    void put_row(int row, int first_px, std::span<const SignalPixel> pixels) noexcept;
     void put_messages() noexcept;
 
     const GlContext* context_;
@@ -80,9 +80,9 @@ class PagePresenter final : public Presenter {
     // What is shown, as the encoder writes it; where the encoder leaves the last step, what becomes of it.
     Texture2D picture_;
     Framebuffer picture_target_;
-    std::optional<WirePass> last_step_;
-    std::optional<Texture2D> wire_;
-    std::optional<Framebuffer> wire_target_;
+    std::optional<SignalPass> last_step_;
+    std::optional<Texture2D> signal_;
+    std::optional<Framebuffer> signal_target_;
     FrameStore store_;
     Framebuffer page_target_;
     const StoredStimulus* loaded_ = nullptr; ///< null: nothing

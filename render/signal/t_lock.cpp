@@ -7,29 +7,29 @@ namespace overt {
 
 namespace {
 
-constexpr WirePixel black{0, 0, 0, 255};
+constexpr SignalPixel black{0, 0, 0, 255};
 
-WirePixel pixel(int red, int green, int blue) {
+SignalPixel pixel(int red, int green, int blue) {
     return {static_cast<std::uint8_t>(red), static_cast<std::uint8_t>(green), static_cast<std::uint8_t>(blue),
             255};
 }
 
-constexpr std::array<WirePixel, 8> colour_table_key{{{36, 106, 133, 255},
-                                                     {63, 136, 163, 255},
-                                                     {8, 19, 138, 255},
-                                                     {211, 25, 46, 255},
-                                                     {3, 115, 164, 255},
-                                                     {112, 68, 9, 255},
-                                                     {56, 41, 49, 255},
-                                                     {34, 159, 208, 255}}};
-constexpr std::array<WirePixel, 8> packet_key{{{69, 33, 56, 255},
-                                               {40, 230, 208, 255},
-                                               {19, 190, 102, 255},
-                                               {119, 84, 207, 255},
-                                               {52, 12, 192, 255},
-                                               {233, 108, 172, 255},
-                                               {41, 201, 80, 255},
-                                               {183, 124, 221, 255}}};
+constexpr std::array<SignalPixel, 8> colour_table_key{{{36, 106, 133, 255},
+                                                       {63, 136, 163, 255},
+                                                       {8, 19, 138, 255},
+                                                       {211, 25, 46, 255},
+                                                       {3, 115, 164, 255},
+                                                       {112, 68, 9, 255},
+                                                       {56, 41, 49, 255},
+                                                       {34, 159, 208, 255}}};
+constexpr std::array<SignalPixel, 8> packet_key{{{69, 33, 56, 255},
+                                                 {40, 230, 208, 255},
+                                                 {19, 190, 102, 255},
+                                                 {119, 84, 207, 255},
+                                                 {52, 12, 192, 255},
+                                                 {233, 108, 172, 255},
+                                                 {41, 201, 80, 255},
+                                                 {183, 124, 221, 255}}};
 
 // Addresses of a packet's words.
 constexpr int command_address = 6, mask_address = 7, first_output_address = 8;
@@ -86,12 +86,12 @@ Packet pulse(std::uint16_t lines, double begin_ms, double duration_ms) noexcept 
 
 } // namespace t_lock
 
-WirePixel psync::outputs_pixel(int outputs) noexcept {
+SignalPixel psync::outputs_pixel(int outputs) noexcept {
     return {static_cast<std::uint8_t>(outputs & 255), static_cast<std::uint8_t>((outputs >> 8) & 255),
             static_cast<std::uint8_t>((outputs >> 16) & 255), 255};
 }
 
-std::array<WirePixel, 8> psync::pixels_of(std::uint8_t count) noexcept {
+std::array<SignalPixel, 8> psync::pixels_of(std::uint8_t count) noexcept {
     return {pixel(255, 0, 0),   pixel(0, 255, 0),   pixel(0, 0, 255),     pixel(255, 255, 0),
             pixel(255, 0, 255), pixel(0, 255, 255), pixel(255, 255, 255), pixel(0, count, 0)};
 }

@@ -12,7 +12,7 @@
 namespace overt {
 
 /// Red, green, blue, alpha as they are sent.
-using WirePixel = std::array<std::uint8_t, 4>;
+using SignalPixel = std::array<std::uint8_t, 4>;
 
 /// The 16-bit colours that the 256 indices of Bits++ stand for.
 using ColourTable = std::array<std::array<std::uint16_t, 3>, 256>;
@@ -24,8 +24,8 @@ inline constexpr int colour_table_row = 0;
 inline constexpr int clock_reset_row = 1;
 inline constexpr int outputs_row = 2;
 
-using ColourTableRow = std::array<WirePixel, 524>;
-using PacketRow = std::array<WirePixel, 508>;
+using ColourTableRow = std::array<SignalPixel, 524>;
+using PacketRow = std::array<SignalPixel, 508>;
 
 /// Slots of 0.1 ms, from the beginning of a refresh.
 inline constexpr int slots = 248;
@@ -62,10 +62,10 @@ inline constexpr int first_px = 10;
 
 /// The top left pixel, whose colour a VPixx device in Pixel Mode puts on its 24 digital outputs for the
 /// refresh: red on 0 … 7, green on 8 … 15, blue on 16 … 23.
-WirePixel outputs_pixel(int outputs) noexcept;
+SignalPixel outputs_pixel(int outputs) noexcept;
 
 /// The eight pixels; `count` is that of the refresh, modulo 256.
-std::array<WirePixel, 8> pixels_of(std::uint8_t count) noexcept;
+std::array<SignalPixel, 8> pixels_of(std::uint8_t count) noexcept;
 
 } // namespace psync
 

@@ -46,10 +46,11 @@ ImageAttributes describe_stimulus(const Protocol& protocol, const Sculpture& scu
             {"overt:light_rotation_deg", fmt::format("{}", protocol.light.rotation_deg)}};
 }
 
-ImageAttributes describe_tracing(const FrameGrade& grade, const Protocol& protocol, MaterialKind material) {
-    const BakeSettings settings = bake_settings(grade, protocol.bake, material);
+ImageAttributes describe_tracing(const FrameQuality& quality, const Protocol& protocol,
+                                 MaterialKind material) {
+    const BakeSettings settings = bake_settings(quality, protocol.bake, material);
     ImageAttributes attributes{{"overt:renderer", fmt::format("path tracer {}", frame_baker_version)},
-                               {"overt:quality", std::string(name_of(grade.quality))},
+                               {"overt:quality", std::string(name_of(quality.level))},
                                {"overt:samples", fmt::format("{}", settings.samples)},
                                {"overt:pixel_step", fmt::format("{}", settings.pixel_step)},
                                {"overt:filter", std::string(name_of(settings.filter))},

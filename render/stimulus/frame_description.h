@@ -3,7 +3,7 @@
 
 #include "experiment/stimulus/sculpture.h"
 #include "render/image/linear_image.h"
-#include "render/stimulus/frame_grade.h"
+#include "render/stimulus/frame_quality.h"
 
 namespace overt {
 
@@ -12,6 +12,7 @@ ImageAttributes describe_stimulus(const Protocol& protocol, const Sculpture& scu
                                   const MaterialSettings& material, Degrees angle);
 
 /// Quality, samples, filter, seed, observer and the tracer's version.
-ImageAttributes describe_tracing(const FrameGrade& grade, const Protocol& protocol, MaterialKind material);
+ImageAttributes describe_tracing(const FrameQuality& quality, const Protocol& protocol,
+                                 MaterialKind material);
 
 } // namespace overt

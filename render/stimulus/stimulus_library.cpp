@@ -18,7 +18,8 @@ StimulusLibrary::StimulusLibrary(const GlContext& context, const Protocol& proto
                                  std::span<const Sculpture> sculptures, std::filesystem::path cache)
     : context_(&context), protocol_(&protocol), sculptures_(sculptures), cache_(std::move(cache)),
       poses_(distinct_poses(protocol.animation)), surroundings_(hash_of_surroundings(protocol.light)),
-      grades_(sculptures.size() * protocol.materials.size(), grade_of(protocol.bake.quality, protocol.bake)),
+      qualities_(sculptures.size() * protocol.materials.size(),
+                 quality_of(protocol.bake.quality, protocol.bake)),
       tracer_(protocol, sculptures) {}
 
 void StimulusLibrary::prepare_frames(const Progress& progress, std::optional<BakeQuality> least) {
@@ -29,21 +30,21 @@ void StimulusLibrary::prepare_frames(const Progress& progress, std::optional<Bak
     for (const Condition& stimulus : stimuli)
         require_mesh(stimulus);
     const BakeQuality wanted = least.value_or(protocol_->bake.quality);
-    if (const std::optional<FrameGrade> best = best_grade(stimuli, wanted)) {
+    if (const std::optional<FrameQuality> best = best_quality(stimuli, wanted)) {
         take_frames(*best);
         return;
     }
-    const FrameGrade grade = grade_of(wanted, protocol_->bake);
+    const FrameQuality quality = quality_of(wanted, protocol_->bake);
     if (wanted > BakeQuality::preview) {
         std::size_t missing = 0;
         for (const Condition& stimulus : stimuli)
-            missing += missing_frames(stimulus, grade).size();
+            missing += missing_frames(stimulus, quality).size();
         throw InputError(fmt::format("{}: [bake] asks for {} quality, and {} of {} frames are not baked yet: "
                                      "run `overt bake {}`, or be content with --quality preview",
-                                     protocol_->file.string(), describe(grade), missing,
+                                     protocol_->file.string(), describe(quality), missing,
                                      stimuli.size() * poses_.angles.size(), protocol_->file.string()));
     }
-    make_frames(stimuli, grade, progress);
+    make_frames(stimuli, quality, progress);
 }
 
 void StimulusLibrary::prepare_frames(const Condition& condition, const Progress& progress) {
@@ -55,54 +56,55 @@ void StimulusLibrary::prepare_frames(const Condition& condition, const Progress&
     require_mesh(condition);
     const std::span<const Condition> one(&condition, 1);
     const BakeQuality least = std::min(protocol_->bake.quality, BakeQuality::preview);
-    if (const std::optional<FrameGrade> best = best_grade(one, least)) {
-        grades_[index_of(condition)] = *best;
+    if (const std::optional<FrameQuality> best = best_quality(one, least)) {
+        qualities_[index_of(condition)] = *best;
         return;
     }
-    make_frames(one, grade_of(least, protocol_->bake), progress);
+    make_frames(one, quality_of(least, protocol_->bake), progress);
 }
 
-bool StimulusLibrary::is_complete(std::span<const Condition> conditions, const FrameGrade& grade) const {
-    return std::all_of(conditions.begin(), conditions.end(),
-                       [&](const Condition& condition) { return missing_frames(condition, grade).empty(); });
+bool StimulusLibrary::is_complete(std::span<const Condition> conditions, const FrameQuality& quality) const {
+    return std::all_of(conditions.begin(), conditions.end(), [&](const Condition& condition) {
+        return missing_frames(condition, quality).empty();
+    });
 }
 
-std::optional<FrameGrade> StimulusLibrary::best_grade(std::span<const Condition> conditions,
-                                                      BakeQuality least) const {
-    std::vector<BakeQuality> qualities{BakeQuality::reference, BakeQuality::standard, BakeQuality::draft,
-                                       BakeQuality::preview};
+std::optional<FrameQuality> StimulusLibrary::best_quality(std::span<const Condition> conditions,
+                                                          BakeQuality least) const {
+    std::vector<BakeQuality> levels{BakeQuality::reference, BakeQuality::standard, BakeQuality::draft,
+                                    BakeQuality::preview};
     // Who asks for live frames gets live frames.
     if (least == BakeQuality::live)
-        qualities = {BakeQuality::live};
-    for (const BakeQuality quality : qualities) {
-        const FrameGrade grade = grade_of(quality, protocol_->bake);
-        if (quality >= least && is_complete(conditions, grade))
-            return grade;
+        levels = {BakeQuality::live};
+    for (const BakeQuality level : levels) {
+        const FrameQuality quality = quality_of(level, protocol_->bake);
+        if (level >= least && is_complete(conditions, quality))
+            return quality;
     }
     return std::nullopt;
 }
 
-void StimulusLibrary::make_frames(std::span<const Condition> conditions, const FrameGrade& grade,
+void StimulusLibrary::make_frames(std::span<const Condition> conditions, const FrameQuality& quality,
                                   const Progress& progress) {
     double all = 0.0, done = 0.0;
     int count = 0, frames = 0;
     const auto cost_of = [&](const Condition& condition) {
-        return grade.is_live() ? 1.0 : expected_cost(grade, *protocol_, material_of(condition).kind);
+        return quality.is_live() ? 1.0 : expected_cost(quality, *protocol_, material_of(condition).kind);
     };
     for (const Condition& condition : conditions) {
-        grades_[index_of(condition)] = grade;
-        remove_abandoned_files(frame_file_of(condition, grade, {0}).parent_path());
-        const auto missing = static_cast<int>(missing_frames(condition, grade).size());
+        qualities_[index_of(condition)] = quality;
+        remove_abandoned_files(frame_file_of(condition, quality, {0}).parent_path());
+        const auto missing = static_cast<int>(missing_frames(condition, quality).size());
         all += missing * cost_of(condition);
         count += missing;
     }
-    const std::string what = grade.is_live() ? "drawing frames" : "rendering previews";
+    const std::string what = quality.is_live() ? "drawing frames" : "rendering previews";
     // While one frame is compressed and written, the next is made.
     std::future<void> writing;
     // The tracer's threads hear from a progress that throws only that they are to stop.
     std::exception_ptr stopped;
     for (const Condition& condition : conditions) {
-        for (const PoseIndex pose : missing_frames(condition, grade)) {
+        for (const PoseIndex pose : missing_frames(condition, quality)) {
             const double cost = cost_of(condition);
             const auto tell = [&](double share_of_frame) {
                 try {
@@ -115,18 +117,18 @@ void StimulusLibrary::make_frames(std::span<const Condition> conditions, const F
             };
             if (!tell(0.0))
                 std::rethrow_exception(stopped);
-            if (grade.is_live()) {
+            if (quality.is_live()) {
                 draw_live_frame(condition, pose, writing);
             } else {
-                SpectralFrame frame = trace(condition, pose, grade, tell);
+                SpectralFrame frame = trace(condition, pose, quality, tell);
                 if (writing.valid())
                     writing.get();
                 if (stopped)
                     std::rethrow_exception(stopped);
-                writing =
-                    std::async(std::launch::async, [this, condition, pose, grade, frame = std::move(frame)] {
-                        store(condition, pose, grade, frame);
-                    });
+                writing = std::async(std::launch::async,
+                                     [this, condition, pose, quality, frame = std::move(frame)] {
+                                         store(condition, pose, quality, frame);
+                                     });
             }
             done += cost;
             ++frames;
@@ -142,7 +144,7 @@ void StimulusLibrary::draw_live_frame(const Condition& condition, PoseIndex pose
                                       std::future<void>& writing) {
     const Sculpture& sculpture = sculptures_[static_cast<std::size_t>(condition.sculpture)];
     const MaterialSettings& material = material_of(condition);
-    const std::filesystem::path file = frame_file_of(condition, grades_[index_of(condition)], pose);
+    const std::filesystem::path file = frame_file_of(condition, qualities_[index_of(condition)], pose);
     std::filesystem::create_directories(file.parent_path());
     if (!renderer_)
         renderer_.emplace(*context_, protocol_->light, sculpture.scene.view.image_px);
@@ -161,31 +163,31 @@ void StimulusLibrary::draw_live_frame(const Condition& condition, PoseIndex pose
         });
 }
 
-SpectralFrame StimulusLibrary::trace(const Condition& condition, PoseIndex pose, const FrameGrade& grade,
+SpectralFrame StimulusLibrary::trace(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
                                      const BakeProgress& progress) {
     draw_missing_map(condition.sculpture, pose);
     return tracer_.trace(condition, poses_.angles[static_cast<std::size_t>(pose.value)],
                          read_triangle_map(map_file(condition.sculpture, pose)),
-                         bake_settings(grade, protocol_->bake, material_of(condition).kind), progress);
+                         bake_settings(quality, protocol_->bake, material_of(condition).kind), progress);
 }
 
-void StimulusLibrary::store(const Condition& condition, PoseIndex pose, const FrameGrade& grade,
+void StimulusLibrary::store(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
                             const SpectralFrame& frame) const {
     OVERT_EXPECTS(frame.is_complete);
-    const std::filesystem::path file = frame_file_of(condition, grade, pose);
+    const std::filesystem::path file = frame_file_of(condition, quality, pose);
     std::filesystem::create_directories(file.parent_path());
     const Degrees angle = poses_.angles[static_cast<std::size_t>(pose.value)];
     const MaterialSettings& material = material_of(condition);
     ImageAttributes attributes = describe_stimulus(
         *protocol_, sculptures_[static_cast<std::size_t>(condition.sculpture)], material, angle);
-    for (auto& attribute : describe_tracing(grade, *protocol_, material.kind))
+    for (auto& attribute : describe_tracing(quality, *protocol_, material.kind))
         attributes.push_back(std::move(attribute));
-    attributes.emplace_back("overt:key", frame_key(condition, grade));
+    attributes.emplace_back("overt:key", frame_key(condition, quality));
     write_linear_exr(file, seen_by(protocol_->bake.observer, frame), attributes);
 }
 
-const FrameGrade& StimulusLibrary::grade_of_frames(const Condition& condition) const {
-    return grades_[index_of(condition)];
+const FrameQuality& StimulusLibrary::quality_of_frames(const Condition& condition) const {
+    return qualities_[index_of(condition)];
 }
 
 std::vector<Condition> StimulusLibrary::rendered_stimuli() const {
@@ -209,9 +211,9 @@ void StimulusLibrary::require_mesh(const Condition& condition) const {
 }
 
 std::vector<PoseIndex> StimulusLibrary::missing_frames(const Condition& condition,
-                                                       const FrameGrade& grade) const {
+                                                       const FrameQuality& quality) const {
     std::vector<PoseIndex> missing;
-    const ContentHash key = frame_key(condition, grade);
+    const ContentHash key = frame_key(condition, quality);
     for (int pose = 0; pose < static_cast<int>(poses_.angles.size()); ++pose) {
         if (!std::filesystem::exists(cached("frames", key, pose)))
             missing.push_back({pose});
@@ -219,22 +221,22 @@ std::vector<PoseIndex> StimulusLibrary::missing_frames(const Condition& conditio
     return missing;
 }
 
-std::filesystem::path StimulusLibrary::frame_file_of(const Condition& condition, const FrameGrade& grade,
+std::filesystem::path StimulusLibrary::frame_file_of(const Condition& condition, const FrameQuality& quality,
                                                      PoseIndex pose) const {
-    return cached("frames", frame_key(condition, grade), pose.value);
+    return cached("frames", frame_key(condition, quality), pose.value);
 }
 
-ContentHash StimulusLibrary::frame_key(const Condition& condition, const FrameGrade& grade) const {
+ContentHash StimulusLibrary::frame_key(const Condition& condition, const FrameQuality& quality) const {
     const Sculpture& sculpture = sculptures_[static_cast<std::size_t>(condition.sculpture)];
     const MaterialSettings& material = material_of(condition);
-    if (grade.is_live())
+    if (quality.is_live())
         return live_key(sculpture, material, surroundings_, protocol_->light.exposure);
     return traced_key(sculpture, material, surroundings_, protocol_->light.exposure,
-                      bake_settings(grade, protocol_->bake, material.kind), protocol_->bake.observer);
+                      bake_settings(quality, protocol_->bake, material.kind), protocol_->bake.observer);
 }
 
-glm::dmat3 StimulusLibrary::display_from_frame(const FrameGrade& grade) const {
-    if (grade.is_live())
+glm::dmat3 StimulusLibrary::display_from_frame(const FrameQuality& quality) const {
+    if (quality.is_live())
         return display_from(PictureColours::rec709, protocol_->display);
     return protocol_->light.exposure *
            display_from(rendered_colours(protocol_->bake.observer), protocol_->display);
@@ -261,20 +263,20 @@ const LinearImage& StimulusLibrary::read_page(const Condition& condition, int pa
         transform(room, sequence->exposure * display_from(colours_of(*sequence), protocol_->display));
         return room;
     }
-    const FrameGrade& grade = grades_[index_of(condition)];
-    read_linear_image(frame_file_of(condition, grade, {page}), FrameEncoding::linear, room);
-    transform(room, display_from_frame(grade));
+    const FrameQuality& quality = qualities_[index_of(condition)];
+    read_linear_image(frame_file_of(condition, quality, {page}), FrameEncoding::linear, room);
+    transform(room, display_from_frame(quality));
     return room;
 }
 
 std::string StimulusLibrary::source_of(const Condition& condition) const {
     if (const FrameSequenceSettings* sequence = sequence_of(condition))
         return "frames " + sequence->files;
-    const FrameGrade& grade = grades_[index_of(condition)];
-    if (grade.is_live())
+    const FrameQuality& quality = qualities_[index_of(condition)];
+    if (quality.is_live())
         return "OpenGL preview";
-    const BakeSettings settings = bake_settings(grade, protocol_->bake, material_of(condition).kind);
-    return fmt::format("path traced, {}: {} samples, {}", name_of(grade.quality), settings.samples,
+    const BakeSettings settings = bake_settings(quality, protocol_->bake, material_of(condition).kind);
+    return fmt::format("path traced, {}: {} samples, {}", name_of(quality.level), settings.samples,
                        protocol_->bake.observer == StandardObserver::cie2006 ? "CIE 2006" : "CIE 1931");
 }
 
@@ -291,7 +293,7 @@ ContentHash StimulusLibrary::frames_hash(const Condition& condition) const {
             return hasher.finish();
         hasher.add(static_cast<int>(sequence->colour_space));
     } else {
-        hasher.add(std::string_view(frame_key(condition, grades_[index_of(condition)])));
+        hasher.add(std::string_view(frame_key(condition, qualities_[index_of(condition)])));
         hasher.add(protocol_->light.exposure);
     }
     if (light)

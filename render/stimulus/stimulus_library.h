@@ -14,7 +14,7 @@
 #include "render/presenter/page_presenter.h"
 #include "render/signal/display_light.h"
 #include "render/stimulus/coordinate_pass.h"
-#include "render/stimulus/frame_grade.h"
+#include "render/stimulus/frame_quality.h"
 #include "render/stimulus/frame_tracer.h"
 #include "render/stimulus/stimulus_renderer.h"
 
@@ -40,40 +40,40 @@ class StimulusLibrary final : public FrameSource {
     /// For a look at one stimulus: the best there is of it, or else a preview. Throws likewise.
     void prepare_frames(const Condition& condition, const Progress& progress);
 
-    /// Has page() give frames of this grade of all stimuli that are not ready-made. They have to be there.
-    void take_frames(const FrameGrade& grade) { grades_.assign(grades_.size(), grade); }
+    /// Has page() give frames of this quality of all stimuli that are not ready-made. They have to be there.
+    void take_frames(const FrameQuality& quality) { qualities_.assign(qualities_.size(), quality); }
 
-    /// The best grade of which the cache has every frame of every stimulus, no less than [bake] asks for.
-    std::optional<FrameGrade> grade_of_session() const {
-        return best_grade(rendered_stimuli(), protocol_->bake.quality);
+    /// The best quality of which the cache has every frame of every stimulus, no less than [bake] asks for.
+    std::optional<FrameQuality> quality_of_session() const {
+        return best_quality(rendered_stimuli(), protocol_->bake.quality);
     }
 
     /// The frames that page() gives of a stimulus that is not ready-made.
-    const FrameGrade& grade_of_frames(const Condition& condition) const;
+    const FrameQuality& quality_of_frames(const Condition& condition) const;
 
     /// All stimuli that are rendered.
     std::vector<Condition> rendered_stimuli() const;
 
-    /// Poses of which the cache has no frame of that grade.
-    std::vector<PoseIndex> missing_frames(const Condition& condition, const FrameGrade& grade) const;
+    /// Poses of which the cache has no frame of that quality.
+    std::vector<PoseIndex> missing_frames(const Condition& condition, const FrameQuality& quality) const;
 
     /// A frame in the cache: linear light without exposure, in rendered_colours(). Live ones are in Rec. 709
     /// and have the exposure.
-    std::filesystem::path frame_file_of(const Condition& condition, const FrameGrade& grade,
+    std::filesystem::path frame_file_of(const Condition& condition, const FrameQuality& quality,
                                         PoseIndex pose) const;
 
     /// Everything that makes a stimulus's frames but the angle.
-    ContentHash frame_key(const Condition& condition, const FrameGrade& grade) const;
+    ContentHash frame_key(const Condition& condition, const FrameQuality& quality) const;
 
     /// What turns a cached frame into the display's light; the exposure is in it.
-    glm::dmat3 display_from_frame(const FrameGrade& grade) const;
+    glm::dmat3 display_from_frame(const FrameQuality& quality) const;
 
     /// Traces one frame, drawing its map before if the cache lacks it. Not complete if `progress` stopped it.
-    SpectralFrame trace(const Condition& condition, PoseIndex pose, const FrameGrade& grade,
+    SpectralFrame trace(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
                         const BakeProgress& progress);
 
     /// Puts a traced frame into the cache. From any thread.
-    void store(const Condition& condition, PoseIndex pose, const FrameGrade& grade,
+    void store(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
                const SpectralFrame& frame) const;
 
     /// Brings ready-made maps (see given_maps.h) into the cache as maps of coordinates. Throws as
@@ -120,9 +120,9 @@ class StimulusLibrary final : public FrameSource {
     const FrameSequenceSettings* sequence_of(const Condition& condition) const;
     const MaterialSettings& material_of(const Condition& condition) const;
     std::size_t index_of(const Condition& condition) const;
-    bool is_complete(std::span<const Condition> conditions, const FrameGrade& grade) const;
-    std::optional<FrameGrade> best_grade(std::span<const Condition> conditions, BakeQuality least) const;
-    void make_frames(std::span<const Condition> conditions, const FrameGrade& grade,
+    bool is_complete(std::span<const Condition> conditions, const FrameQuality& quality) const;
+    std::optional<FrameQuality> best_quality(std::span<const Condition> conditions, BakeQuality least) const;
+    void make_frames(std::span<const Condition> conditions, const FrameQuality& quality,
                      const Progress& progress);
     void draw_live_frame(const Condition& condition, PoseIndex pose, std::future<void>& writing);
     bool draw_missing_map(int sculpture, PoseIndex pose);
@@ -135,7 +135,7 @@ class StimulusLibrary final : public FrameSource {
     std::filesystem::path cache_;
     PoseTable poses_;
     ContentHash surroundings_;
-    std::vector<FrameGrade> grades_; ///< of each stimulus's frames
+    std::vector<FrameQuality> qualities_; ///< of each stimulus's frames
     FrameTracer tracer_;
     std::optional<StimulusRenderer> renderer_;
     int live_material_ = -1; ///< that the renderer is prepared for

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "render/signal/wire_decoder.h"
+#include "render/signal/signal_decoder.h"
 #include "tests/devices/display_box/bits_box_model.h"
 #include "tests/devices/link/terminal_device.h"
 #include "tests/support/seen_screen.h"

@@ -1,4 +1,4 @@
-/// Frames of another renderer, from 16-bit files to the bytes on the display's wire.
+/// Frames of another renderer, from 16-bit files to the bytes of the display's signal.
 #include <catch2/catch.hpp>
 
 #include <OpenImageIO/imageio.h>

@@ -1,4 +1,4 @@
-/// A characterised display: light through the curves of its channels onto the wire.
+/// A characterised display: light through the curves of its channels onto the video signal.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@
 #include "experiment/scene/spectra.h"
 #include "render/gl/headless_context.h"
 #include "render/presenter/page_presenter.h"
-#include "render/signal/wire_check.h"
+#include "render/signal/signal_check.h"
 #include "tests/support/gl_contexts.h"
 #include "tests/support/sample_display.h"
 
@@ -137,14 +137,14 @@ TEST_CASE("in every mode a characterised display receives what is predicted", "[
         const glm::ivec2 origin{101, 7};
         const auto bytes = drawn(ContextKind::osmesa, display, pages, {301, 160}, origin);
         const LinearImage picture = random_picture({301, 160});
-        const WireScreen screen{{600, 200}, bytes};
-        const WireFindings found = check_wire(screen, display, {&picture, origin});
+        const SignalScreen screen{{600, 200}, bytes};
+        const SignalFindings found = check_signal(screen, display, {&picture, origin});
         CAPTURE(static_cast<int>(mode), found.first);
         CHECK(found.different == 0);
         CHECK(found.compared >= 59100);
         // And not what another display would receive.
         display.characterisation->curves[1] = ChannelCurve::power(2.0);
-        CHECK(check_wire(screen, display, {&picture, origin}).different > 1000);
+        CHECK(check_signal(screen, display, {&picture, origin}).different > 1000);
     }
 }
 
@@ -153,7 +153,7 @@ TEST_CASE("dithered light of a characterised display keeps its mean", "[gl]") {
     display.dither = Dithering::blue_noise;
     const PlainPage pages({256, 128}, {0.013f, 0.31f, 0.002f});
     const auto bytes = drawn(ContextKind::osmesa, display, pages, {256, 128}, {0, 0});
-    const WireFindings found = check_wire({{256, 128}, bytes}, display, {&pages.picture(), {0, 0}});
+    const SignalFindings found = check_signal({{256, 128}, bytes}, display, {&pages.picture(), {0, 0}});
     CHECK(found.different == 0);
     CHECK(found.largest_mean_error < 0.5);
 }

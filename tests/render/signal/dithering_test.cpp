@@ -9,7 +9,7 @@
 #include "render/gl/headless_context.h"
 #include "render/presenter/page_presenter.h"
 #include "render/signal/dither_tile.h"
-#include "render/signal/wire_check.h"
+#include "render/signal/signal_check.h"
 #include "tests/support/gl_contexts.h"
 
 using namespace overt;
@@ -70,7 +70,8 @@ TEST_CASE("dithering keeps the mean of every 64 x 64 patch to half a code of 16 
                         presenter.flip({page});
                         const auto bytes = presenter.read_canvas();
                         const LinearImage picture = pages.page({0, 0}, page);
-                        const WireFindings found = check_wire({screen, bytes}, settings, {&picture, {0, 0}});
+                        const SignalFindings found =
+                            check_signal({screen, bytes}, settings, {&picture, {0, 0}});
                         CHECK(found.different == 0);
                         worst = std::max(worst, found.largest_mean_error);
                     }
@@ -89,15 +90,15 @@ TEST_CASE("over 4096 refreshes dithering keeps each pixel's own mean to half a c
     DisplaySettings settings;
     settings.output = OutputMode::native_8bit;
     settings.dither = Dithering::blue_noise;
-    const WirePass pass(*context, settings);
+    const SignalPass pass(*context, settings);
     Texture2D codes(*context, screen, PixelFormat::rgba16);
     std::vector<std::uint16_t> content(4 * 256);
     RandomStream random(4, "codes");
     for (std::uint16_t& code : content)
         code = static_cast<std::uint16_t>(random.below(65536));
     codes.upload(std::as_bytes(std::span(content)));
-    Texture2D wire(*context, screen, PixelFormat::rgba8);
-    const Framebuffer target(*context, {&wire}, false);
+    Texture2D signal(*context, screen, PixelFormat::rgba8);
+    const Framebuffer target(*context, {&signal}, false);
     std::vector<double> sums(content.size(), 0.0), short_sums;
     std::vector<std::byte> bytes(content.size());
     for (int refresh = 0; refresh < 4096; ++refresh) {

@@ -3,7 +3,7 @@
 
 #include "experiment/base/error.h"
 #include "render/gl/headless_context.h"
-#include "tests/render/signal/wire_bench.h"
+#include "tests/render/signal/signal_bench.h"
 #include "tests/support/gl_contexts.h"
 #include "tests/support/virtual_screen.h"
 
@@ -24,10 +24,10 @@ void check_all_levels(GlContext& context, OutputMode mode, glm::ivec2 screen) {
                            {{1, 5}, {screen.x - 1, 3}},
                            {{37, 9}, {0, screen.y - 9}}};
     for (const Spot& place : places) {
-        Wire wire(context, mode, place, screen);
+        SignalBench bench(context, mode, place, screen);
         for (int page = 0; page < 3; ++page) {
-            wire.presenter->flip({page});
-            const WireFindings found = wire.check(page, wire.presenter->read_canvas());
+            bench.presenter->flip({page});
+            const SignalFindings found = bench.check(page, bench.presenter->read_canvas());
             CAPTURE(static_cast<int>(mode), place.image.x, page, found.first);
             CHECK(found.compared > 0);
             CHECK(found.different == 0);
@@ -51,7 +51,7 @@ TEST_CASE("all levels arrive in a window's back buffer, and a window of 8 bits i
     WindowContext window({{640, 300}, "test"});
     for (const OutputMode mode : every_mode) {
         if (mode == OutputMode::native_10bit)
-            CHECK_THROWS_AS((Wire{window, mode, Spot{{8, 8}, {0, 8}}}), GraphicsError);
+            CHECK_THROWS_AS((SignalBench{window, mode, Spot{{8, 8}, {0, 8}}}), GraphicsError);
         else
             check_all_levels(window, mode, {640, 300});
     }
@@ -64,16 +64,16 @@ TEST_CASE("all levels arrive in a window of 10 bits, and the packed modes refuse
     WindowContext window(request);
     REQUIRE(window.bits_per_channel() == 10);
     check_all_levels(window, OutputMode::native_10bit, {640, 300});
-    CHECK_THROWS_AS((Wire{window, OutputMode::color_plus_plus, Spot{{8, 8}, {0, 8}}}), GraphicsError);
+    CHECK_THROWS_AS((SignalBench{window, OutputMode::color_plus_plus, Spot{{8, 8}, {0, 8}}}), GraphicsError);
 }
 
 TEST_CASE("with a display's exponent, too, every value is the predicted one", "[gl]") {
     const auto context = make_headless_context(ContextKind::osmesa);
     for (const OutputMode mode : every_mode) {
         for (const double gamma : {0.45, 2.2}) {
-            Wire wire(*context, mode, {{512, 256}, {64, 10}}, {640, 300}, Dithering::none, gamma);
+            SignalBench bench(*context, mode, {{512, 256}, {64, 10}}, {640, 300}, Dithering::none, gamma);
             for (int page = 0; page < 2; ++page) {
-                const WireFindings found = wire.check(page, wire.presenter->read_page(page));
+                const SignalFindings found = bench.check(page, bench.presenter->read_page(page));
                 CAPTURE(static_cast<int>(mode), gamma, found.first);
                 CHECK(found.different == 0);
             }
@@ -85,7 +85,7 @@ TEST_CASE("stimuli that cover rows of messages, leave the screen or split its la
           "[gl]") {
     const auto context = make_headless_context(ContextKind::osmesa);
     const auto make = [&](OutputMode mode, Spot place, glm::ivec2 screen) {
-        Wire(*context, mode, place, screen);
+        SignalBench(*context, mode, place, screen);
     };
     const Spot top{{8, 8}, {0, 2}}, low{{8, 8}, {0, 293}}, sound{{8, 8}, {0, 8}};
     CHECK_THROWS_AS(make(OutputMode::color_plus_plus, top, {640, 300}), GraphicsError);

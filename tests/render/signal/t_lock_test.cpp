@@ -23,7 +23,7 @@ template <class Row> bool begins_with(const Row& row, const int (&key)[3][8]) {
     return same;
 }
 
-const WirePixel black{0, 0, 0, 255};
+const SignalPixel black{0, 0, 0, 255};
 
 } // namespace
 
@@ -40,14 +40,14 @@ TEST_CASE("a table of colours is a row of 524 pixels: key, four black, high and 
         CHECK(row[x] == black);
     for (std::size_t i = 0; i < 256; ++i) {
         const auto byte = static_cast<std::uint8_t>(i);
-        const WirePixel same{byte, byte, byte, 255};
+        const SignalPixel same{byte, byte, byte, 255};
         if (i != 7) {
             CHECK(row[12 + 2 * i] == same);
             CHECK(row[13 + 2 * i] == same);
         }
     }
-    CHECK(row[26] == WirePixel{0x12, 0xAB, 0x80, 255});
-    CHECK(row[27] == WirePixel{0x34, 0xCD, 0x00, 255});
+    CHECK(row[26] == SignalPixel{0x12, 0xAB, 0x80, 255});
+    CHECK(row[27] == SignalPixel{0x34, 0xCD, 0x00, 255});
 }
 
 TEST_CASE("a packet is a row of 508 pixels: key, length, command, mask, and 248 words between black pixels",
@@ -60,23 +60,23 @@ TEST_CASE("a packet is a row of 508 pixels: key, length, command, mask, and 248 
     const auto row = t_lock::row_of(packet);
     CHECK(row.size() == 508);
     CHECK(begins_with(row, data_key));
-    CHECK(row[8] == WirePixel{0, 0, 249, 255});
-    CHECK(row[9] == WirePixel{6, 0, 2, 255});
-    CHECK(row[11] == WirePixel{7, 0x03, 0x35, 255});
-    CHECK(row[13] == WirePixel{8, 0x02, 0x01, 255});
+    CHECK(row[8] == SignalPixel{0, 0, 249, 255});
+    CHECK(row[9] == SignalPixel{6, 0, 2, 255});
+    CHECK(row[11] == SignalPixel{7, 0x03, 0x35, 255});
+    CHECK(row[13] == SignalPixel{8, 0x02, 0x01, 255});
     for (std::size_t slot = 1; slot < 247; ++slot)
-        CHECK(row[13 + 2 * slot] == WirePixel{static_cast<std::uint8_t>(8 + slot), 0, 0, 255});
-    CHECK(row[507] == WirePixel{255, 0, 0xFF, 255});
+        CHECK(row[13 + 2 * slot] == SignalPixel{static_cast<std::uint8_t>(8 + slot), 0, 0, 255});
+    CHECK(row[507] == SignalPixel{255, 0, 0xFF, 255});
     for (std::size_t x = 10; x < 508; x += 2)
         CHECK(row[x] == black);
 }
 
 TEST_CASE("the clock is reset by command 12, which touches no output", "[unit]") {
     const auto row = t_lock::row_of(t_lock::clock_reset());
-    CHECK(row[9] == WirePixel{6, 12, 2, 255});
-    CHECK(row[11] == WirePixel{7, 0, 0, 255});
+    CHECK(row[9] == SignalPixel{6, 12, 2, 255});
+    CHECK(row[11] == SignalPixel{7, 0, 0, 255});
     for (std::size_t slot = 0; slot < 248; ++slot)
-        CHECK(row[13 + 2 * slot] == WirePixel{static_cast<std::uint8_t>(8 + slot), 0, 0, 255});
+        CHECK(row[13 + 2 * slot] == SignalPixel{static_cast<std::uint8_t>(8 + slot), 0, 0, 255});
 }
 
 TEST_CASE("a pulse of 4 ms from 2 ms on line 1 is the words 20 to 59", "[unit]") {
@@ -90,13 +90,13 @@ TEST_CASE("a pulse of 4 ms from 2 ms on line 1 is the words 20 to 59", "[unit]")
 
 TEST_CASE("PSYNC is seven fixed colours and a count in green", "[unit]") {
     const auto pixels = psync::pixels_of(201);
-    const std::array<WirePixel, 8> expected{{{255, 0, 0, 255},
-                                             {0, 255, 0, 255},
-                                             {0, 0, 255, 255},
-                                             {255, 255, 0, 255},
-                                             {255, 0, 255, 255},
-                                             {0, 255, 255, 255},
-                                             {255, 255, 255, 255},
-                                             {0, 201, 0, 255}}};
+    const std::array<SignalPixel, 8> expected{{{255, 0, 0, 255},
+                                               {0, 255, 0, 255},
+                                               {0, 0, 255, 255},
+                                               {255, 255, 0, 255},
+                                               {255, 0, 255, 255},
+                                               {0, 255, 255, 255},
+                                               {255, 255, 255, 255},
+                                               {0, 201, 0, 255}}};
     CHECK(pixels == expected);
 }

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "render/stimulus/frame_grade.h"
+#include "render/stimulus/frame_quality.h"
 #include "tests/support/figures.h"
 #include "tests/support/temporary_folder.h"
 
@@ -116,9 +116,9 @@ TEST_CASE("samples and target of a protocol belong to its own quality", "[unit]"
     baking.samples = 96;
     baking.target_error_de = 0.5;
     baking.seed = 5;
-    CHECK(grade_of(BakeQuality::draft, baking) == FrameGrade{BakeQuality::draft, {}, {}});
-    const FrameGrade own = grade_of(BakeQuality::standard, baking);
-    CHECK(own == FrameGrade{BakeQuality::standard, 96, 0.5});
+    CHECK(quality_of(BakeQuality::draft, baking) == FrameQuality{BakeQuality::draft, {}, {}});
+    const FrameQuality own = quality_of(BakeQuality::standard, baking);
+    CHECK(own == FrameQuality{BakeQuality::standard, 96, 0.5});
     const BakeSettings settings = bake_settings(own, baking, MaterialKind::smooth_conductor);
     CHECK(settings.samples == 96);
     CHECK(settings.target_error_de == 0.5);

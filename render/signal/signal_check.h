@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "render/signal/wire_decoder.h"
-#include "render/signal/wire_prediction.h"
+#include "render/signal/signal_decoder.h"
+#include "render/signal/signal_prediction.h"
 
 namespace overt {
 
-struct WireFindings {
+struct SignalFindings {
     std::int64_t compared = 0;  ///< values: three for each pixel or pair, one in grey modes
     std::int64_t different = 0; ///< from the predicted level, or with dithering from both levels around it
     int largest_difference = 0; ///< in levels of the mode
@@ -17,11 +17,12 @@ struct WireFindings {
     /// between the mean that was received and the light's code of 16 bits, in such codes.
     double largest_mean_error = 0.0;
 
-    WireFindings& operator+=(const WireFindings& other);
+    SignalFindings& operator+=(const SignalFindings& other);
 };
 
 /// Compares all of a screen but the rows reserved for messages. Throws GraphicsError if the bytes cannot be
 /// decoded in the display's mode.
-WireFindings check_wire(const WireScreen& screen, const DisplaySettings& display, const ShownPicture& shown);
+SignalFindings check_signal(const SignalScreen& screen, const DisplaySettings& display,
+                            const ShownPicture& shown);
 
 } // namespace overt

@@ -10,10 +10,10 @@
 
 namespace overt {
 
-class WirePass {
+class SignalPass {
   public:
     /// For native_8bit or native_10bit.
-    WirePass(const GlContext& context, const DisplaySettings& display);
+    SignalPass(const GlContext& context, const DisplaySettings& display);
 
     /// What it draws into.
     PixelFormat format() const { return levels_ == 1023 ? PixelFormat::rgb10_a2 : PixelFormat::rgba8; }

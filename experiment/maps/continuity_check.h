@@ -12,7 +12,7 @@ namespace overt {
 /// arrive at what the map shows there. Flags the pixels around each place where it does not: there the mesh
 /// pierces itself, or the map has taken the wrong one of two surfaces. `flags` holds what contours touch, and
 /// gets the new ones added.
-void flag_broken_sheets(const TriangleMap& map, const SightLines& lines, const SurfaceWalk& walk,
-                        PixelFlags& flags);
+void flag_discontinuities(const TriangleMap& map, const SightLines& lines, const SurfaceWalk& walk,
+                          PixelFlags& flags);
 
 } // namespace overt

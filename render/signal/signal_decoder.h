@@ -1,4 +1,4 @@
-/// What a display makes of the bytes it receives. Written from the descriptions of the wire formats alone: it
+/// What a display makes of the bytes it receives. Written from the descriptions of the formats alone: it
 /// shares neither code nor constants with what packs them, so that neither can hide the other's errors.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace overt {
 
 /// A screen as it is scanned out: top row first, four bytes to a pixel, red first; in native_10bit
 /// little-endian words with red in the lowest ten bits.
-struct WireScreen {
+struct SignalScreen {
     glm::ivec2 size_px{0};
     std::span<const std::byte> bytes;
 };
@@ -67,9 +67,9 @@ struct ReceivedPulse {
 
 /// The light of a screen in a mode. In Bits++ by the table in the screen's own top row: throws GraphicsError
 /// if there is none. Overlay colours of Mono++ and transparent pixels are no light of ours and an error, too.
-ReceivedLight receive_light(const WireScreen& screen, OutputMode mode);
+ReceivedLight receive_light(const SignalScreen& screen, OutputMode mode);
 
-ReceivedMessages receive_messages(const WireScreen& screen);
+ReceivedMessages receive_messages(const SignalScreen& screen);
 
 /// The pulses that a packet makes on the lines of its mask.
 std::vector<ReceivedPulse> pulses_of(const ReceivedPacket& packet);

@@ -1,4 +1,4 @@
-#include "render/signal/wire_check.h"
+#include "render/signal/signal_check.h"
 
 #include <array>
 #include <cmath>
@@ -12,9 +12,9 @@ namespace overt {
 namespace {
 
 /// One row's part of the findings.
-WireFindings check_row(const ReceivedLight& received, const WirePrediction& prediction, bool dithered,
-                       int y) {
-    WireFindings found;
+SignalFindings check_row(const ReceivedLight& received, const SignalPrediction& prediction, bool dithered,
+                         int y) {
+    SignalFindings found;
     const std::size_t channels = received.is_grey ? 1 : 3;
     // Neighbours are often alike, above all in the background: what was reckoned last is kept.
     std::array<double, 3> last_light{-1.0, -1.0, -1.0}, last_signal{};
@@ -53,7 +53,7 @@ WireFindings check_row(const ReceivedLight& received, const WirePrediction& pred
 }
 
 /// The largest error of the mean over tiles in which the light is the same everywhere.
-double worst_mean(const ReceivedLight& received, const WirePrediction& prediction, int first_row) {
+double worst_mean(const ReceivedLight& received, const SignalPrediction& prediction, int first_row) {
     constexpr int side = 64;
     double worst = 0.0;
     for (int top = first_row; top + side <= received.size.y; top += side) {
@@ -95,7 +95,7 @@ double worst_mean(const ReceivedLight& received, const WirePrediction& predictio
 
 } // namespace
 
-WireFindings& WireFindings::operator+=(const WireFindings& other) {
+SignalFindings& SignalFindings::operator+=(const SignalFindings& other) {
     if (different == 0)
         first = other.first;
     compared += other.compared;
@@ -105,17 +105,18 @@ WireFindings& WireFindings::operator+=(const WireFindings& other) {
     return *this;
 }
 
-WireFindings check_wire(const WireScreen& screen, const DisplaySettings& display, const ShownPicture& shown) {
+SignalFindings check_signal(const SignalScreen& screen, const DisplaySettings& display,
+                            const ShownPicture& shown) {
     const ReceivedLight received = receive_light(screen, display.output);
-    const WirePrediction prediction(display, shown);
+    const SignalPrediction prediction(display, shown);
     const int first_row = reserved_rows(display.output);
     const bool dithered = display.dither != Dithering::none;
-    std::vector<WireFindings> rows(static_cast<std::size_t>(std::max(0, received.size.y - first_row)));
+    std::vector<SignalFindings> rows(static_cast<std::size_t>(std::max(0, received.size.y - first_row)));
     parallel_for(static_cast<int>(rows.size()), [&](int i) {
         rows[static_cast<std::size_t>(i)] = check_row(received, prediction, dithered, first_row + i);
     });
-    WireFindings found;
-    for (const WireFindings& row : rows)
+    SignalFindings found;
+    for (const SignalFindings& row : rows)
         found += row;
     if (dithered)
         found.largest_mean_error = worst_mean(received, prediction, first_row);

@@ -1,7 +1,7 @@
 #version 330 core
 // 16-bit codes into the levels of the video signal, in whole numbers: floor(code * levels / 65535 + share). The share is a half, or
 // runs through 4096 equal steps over a tile of pixels and over the refreshes.
-out vec4 wire;
+out vec4 signal;
 
 uniform sampler2D codes;       // RGBA16
 uniform usampler2D ranks;      // the tile, 64 x 64, each of 0 … 4095 once
@@ -21,5 +21,5 @@ void main() {
         share = step * 65535u / 4096u;
     }
     uvec3 level = (code * uint(levels) + share) / 65535u;
-    wire = vec4(vec3(level) / float(levels), 1.0);
+    signal = vec4(vec3(level) / float(levels), 1.0);
 }

@@ -7,7 +7,7 @@
 #include "devices/host/clocks.h"
 #include "experiment/base/random.h"
 #include "render/presenter/page_presenter.h"
-#include "render/signal/wire_check.h"
+#include "render/signal/signal_check.h"
 
 namespace overt::test {
 
@@ -53,7 +53,7 @@ struct Spot {
 };
 
 /// A presenter of all levels.
-struct Wire {
+struct SignalBench {
     DisplaySettings settings;
     ScreenGeometry geometry;
     ScreenSettings screens;
@@ -62,8 +62,8 @@ struct Wire {
     std::unique_ptr<DisplaySurface> surface;
     std::unique_ptr<PagePresenter> presenter;
 
-    Wire(GlContext& context, OutputMode mode, const Spot& place, glm::ivec2 screen = {640, 300},
-         Dithering dither = Dithering::none, double gamma = 1.0, int onset_trigger = 0)
+    SignalBench(GlContext& context, OutputMode mode, const Spot& place, glm::ivec2 screen = {640, 300},
+                Dithering dither = Dithering::none, double gamma = 1.0, int onset_trigger = 0)
         : pages(place.image, is_grey(mode)) {
         settings.output = mode;
         settings.dither = dither;
@@ -86,9 +86,9 @@ struct Wire {
         presenter->load_frames({0, 0});
     }
 
-    WireFindings check(int page, const std::vector<std::byte>& bytes) const {
+    SignalFindings check(int page, const std::vector<std::byte>& bytes) const {
         const LinearImage picture = pages.page({0, 0}, page);
-        return check_wire({geometry.screen_px, bytes}, settings, {&picture, geometry.image_origin_px});
+        return check_signal({geometry.screen_px, bytes}, settings, {&picture, geometry.image_origin_px});
     }
     ReceivedMessages messages() const {
         const std::vector<std::byte> bytes = presenter->read_canvas();

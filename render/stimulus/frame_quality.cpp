@@ -1,4 +1,4 @@
-#include "render/stimulus/frame_grade.h"
+#include "render/stimulus/frame_quality.h"
 
 #include <fmt/format.h>
 
@@ -28,33 +28,33 @@ constexpr double writing_cost = 0.8;
 
 } // namespace
 
-FrameGrade grade_of(BakeQuality quality, const BakingSettings& baking) {
-    if (quality != baking.quality)
-        return {quality, {}, {}};
-    return {quality, baking.samples, baking.target_error_de};
+FrameQuality quality_of(BakeQuality level, const BakingSettings& baking) {
+    if (level != baking.quality)
+        return {level, {}, {}};
+    return {level, baking.samples, baking.target_error_de};
 }
 
-std::string describe(const FrameGrade& grade) {
-    std::string text(name_of(grade.quality));
-    if (grade.samples)
-        text += fmt::format(" with {} samples", *grade.samples);
-    if (grade.target_error_de)
-        text += fmt::format("{} to {} Delta-E", grade.samples ? "," : "", *grade.target_error_de);
+std::string describe(const FrameQuality& quality) {
+    std::string text(name_of(quality.level));
+    if (quality.samples)
+        text += fmt::format(" with {} samples", *quality.samples);
+    if (quality.target_error_de)
+        text += fmt::format("{} to {} Delta-E", quality.samples ? "," : "", *quality.target_error_de);
     return text;
 }
 
-BakeSettings bake_settings(const FrameGrade& grade, const BakingSettings& baking, MaterialKind material) {
-    BakeSettings settings = settings_of(grade.quality, material);
-    settings.samples = grade.samples.value_or(settings.samples);
-    settings.target_error_de = grade.target_error_de.value_or(0.0);
+BakeSettings bake_settings(const FrameQuality& quality, const BakingSettings& baking, MaterialKind material) {
+    BakeSettings settings = settings_of(quality.level, material);
+    settings.samples = quality.samples.value_or(settings.samples);
+    settings.target_error_de = quality.target_error_de.value_or(0.0);
     settings.filter = baking.filter;
     settings.filter_width_px = baking.filter_width_px;
     settings.seed = baking.seed.value_or(0);
     return settings;
 }
 
-double expected_cost(const FrameGrade& grade, const Protocol& protocol, MaterialKind material) {
-    const BakeSettings settings = bake_settings(grade, protocol.bake, material);
+double expected_cost(const FrameQuality& quality, const Protocol& protocol, MaterialKind material) {
+    const BakeSettings settings = bake_settings(quality, protocol.bake, material);
     const double pixels = static_cast<double>(protocol.view.width_px) * protocol.view.height_px;
     const double paths = settings.samples / static_cast<double>(settings.pixel_step * settings.pixel_step);
     return pixels * (paths * path_cost(material) + writing_cost);

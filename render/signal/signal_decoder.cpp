@@ -1,4 +1,4 @@
-#include "render/signal/wire_decoder.h"
+#include "render/signal/signal_decoder.h"
 
 #include <algorithm>
 #include <string_view>
@@ -19,7 +19,7 @@ struct Rgb {
 /// Reads pixels, and refuses what lies outside or is transparent.
 class Reader {
   public:
-    explicit Reader(const WireScreen& screen) : screen_(screen) {
+    explicit Reader(const SignalScreen& screen) : screen_(screen) {
         const std::int64_t wanted = std::int64_t{4} * screen.size_px.x * screen.size_px.y;
         if (static_cast<std::int64_t>(screen.bytes.size()) != wanted) {
             throw GraphicsError(fmt::format("a screen of {} x {} pixels has {} bytes where {} are expected",
@@ -47,7 +47,7 @@ class Reader {
     int height() const { return screen_.size_px.y; }
 
   private:
-    WireScreen screen_;
+    SignalScreen screen_;
 };
 
 /// The eight colours that open a row of data, as a printed table has them: all reds, all greens, all blues.
@@ -142,7 +142,7 @@ bool holds_message(const Reader& reader, int row) {
 
 } // namespace
 
-ReceivedLight receive_light(const WireScreen& screen, OutputMode mode) {
+ReceivedLight receive_light(const SignalScreen& screen, OutputMode mode) {
     const Reader reader(screen);
     ReceivedLight light;
     const bool in_pairs = mode == OutputMode::color_plus_plus || mode == OutputMode::vpixx_c48;
@@ -204,7 +204,7 @@ ReceivedLight receive_light(const WireScreen& screen, OutputMode mode) {
     return light;
 }
 
-ReceivedMessages receive_messages(const WireScreen& screen) {
+ReceivedMessages receive_messages(const SignalScreen& screen) {
     const Reader reader(screen);
     ReceivedMessages messages;
     for (int row = 0; row < reader.height() && reader.width() >= 9; ++row) {

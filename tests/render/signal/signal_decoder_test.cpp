@@ -1,4 +1,4 @@
-#include "render/signal/wire_decoder.h"
+#include "render/signal/signal_decoder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "experiment/base/error.h"
 #include "experiment/base/random.h"
 #include "render/signal/display_encoder.h"
-#include "render/signal/wire_check.h"
+#include "render/signal/signal_check.h"
 
 using namespace overt;
 
@@ -38,7 +38,7 @@ struct Screen600 {
                 {static_cast<std::uint8_t>(grey), static_cast<std::uint8_t>(grey),
                  static_cast<std::uint8_t>(grey), 255});
     }
-    void put(int x, int y, WirePixel pixel) {
+    void put(int x, int y, SignalPixel pixel) {
         for (std::size_t i = 0; i < 4; ++i)
             bytes[static_cast<std::size_t>(4 * (y * width + x)) + i] = static_cast<std::byte>(pixel[i]);
     }
@@ -46,7 +46,7 @@ struct Screen600 {
         for (std::size_t x = 0; x < row.size(); ++x)
             put(static_cast<int>(x), y, row[x]);
     }
-    WireScreen screen() const { return {{width, height}, bytes}; }
+    SignalScreen screen() const { return {{width, height}, bytes}; }
 };
 
 /// The whole of a screen as the encoder has it.
@@ -190,8 +190,8 @@ TEST_CASE("random pictures of any size at any place arrive as predicted, in ever
                     display.height_px = 32;
                     const LinearImage picture = random_picture(place.size, seed++);
                     const Bytes bytes = encoded_screen(display, picture, place.origin);
-                    const WireScreen screen{{display.width_px, display.height_px}, bytes};
-                    const WireFindings found = check_wire(screen, display, {&picture, place.origin});
+                    const SignalScreen screen{{display.width_px, display.height_px}, bytes};
+                    const SignalFindings found = check_signal(screen, display, {&picture, place.origin});
                     CAPTURE(static_cast<int>(mode), gamma, place.size.x, place.origin.x, found.first);
                     CHECK(found.different == 0);
                     CHECK(found.compared > 0);
@@ -209,7 +209,7 @@ TEST_CASE("a single changed byte is found, and where it is", "[unit]") {
     Bytes bytes = encoded_screen(display, picture, {5, 6});
     const std::size_t at = 4 * (10 * 64 + 21) + 1; // low byte of green of pair 10 in row 10
     bytes[at] ^= std::byte{1};
-    const WireFindings found = check_wire({{64, 32}, bytes}, display, {&picture, {5, 6}});
+    const SignalFindings found = check_signal({{64, 32}, bytes}, display, {&picture, {5, 6}});
     CHECK(found.different == 1);
     CHECK(found.largest_difference == 1);
     CHECK(found.first.rfind("(10, 10) G: received", 0) == 0);

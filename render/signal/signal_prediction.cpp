@@ -1,4 +1,4 @@
-#include "render/signal/wire_prediction.h"
+#include "render/signal/signal_prediction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ double lanczos3(double t) {
 
 } // namespace
 
-WirePrediction::WirePrediction(const DisplaySettings& display, const ShownPicture& shown)
+SignalPrediction::SignalPrediction(const DisplaySettings& display, const ShownPicture& shown)
     : display_(&display), shown_(shown) {
     if (!display.characterisation)
         return;
@@ -31,7 +31,7 @@ WirePrediction::WirePrediction(const DisplaySettings& display, const ShownPictur
     }
 }
 
-std::array<double, 3> WirePrediction::light_at(int x, int y) const {
+std::array<double, 3> SignalPrediction::light_at(int x, int y) const {
     const double around = display_->background;
     if (!shown_.picture)
         return {around, around, around};
@@ -43,7 +43,7 @@ std::array<double, 3> WirePrediction::light_at(int x, int y) const {
     return {double{pixel.r} + through, double{pixel.g} + through, double{pixel.b} + through};
 }
 
-std::array<double, 3> WirePrediction::pair_light_at(int pair, int y) const {
+std::array<double, 3> SignalPrediction::pair_light_at(int pair, int y) const {
     std::array<double, 3> colour{};
     if (display_->pair_filter == PairFilter::box) {
         const auto left = light_at(2 * pair, y), right = light_at(2 * pair + 1, y);
@@ -66,7 +66,7 @@ std::array<double, 3> WirePrediction::pair_light_at(int pair, int y) const {
     return colour;
 }
 
-std::array<double, 3> WirePrediction::shown_light_at(int x, int y) const {
+std::array<double, 3> SignalPrediction::shown_light_at(int x, int y) const {
     std::array<double, 3> light{};
     switch (display_->output) {
     case OutputMode::native_8bit:
@@ -94,7 +94,7 @@ std::array<double, 3> WirePrediction::shown_light_at(int x, int y) const {
     return light;
 }
 
-double WirePrediction::grey_signal_of(double light) const {
+double SignalPrediction::grey_signal_of(double light) const {
     // The channels drawn singly enclose the signal that they need together.
     double low = 1.0, high = 0.0;
     for (const PredictedCurve& curve : curves_) {
@@ -113,7 +113,7 @@ double WirePrediction::grey_signal_of(double light) const {
     return high;
 }
 
-double WirePrediction::signal_of(std::size_t channel, double light, int highest) const {
+double SignalPrediction::signal_of(std::size_t channel, double light, int highest) const {
     if (!display_->characterisation)
         return highest * (display_->gamma == 1.0 ? light : std::pow(light, 1.0 / display_->gamma));
     const bool is_grey =

@@ -1,4 +1,4 @@
-#include "render/signal/wire_pass.h"
+#include "render/signal/signal_pass.h"
 
 #include "experiment/base/error.h"
 #include "render/signal/dither_tile.h"
@@ -6,8 +6,8 @@
 
 namespace overt {
 
-WirePass::WirePass(const GlContext& context, const DisplaySettings& display)
-    : context_(&context), program_(context, "last step", embedded::encode_vert, embedded::wire_frag),
+SignalPass::SignalPass(const GlContext& context, const DisplaySettings& display)
+    : context_(&context), program_(context, "last step", embedded::encode_vert, embedded::signal_frag),
       no_attributes_(context), ranks_(context, glm::ivec2(dither_tile_px), PixelFormat::r32ui),
       levels_(display.output == OutputMode::native_10bit ? 1023 : 255),
       dithered_(display.dither != Dithering::none) {
@@ -17,7 +17,8 @@ WirePass::WirePass(const GlContext& context, const DisplaySettings& display)
     }
 }
 
-void WirePass::draw(const Texture2D& codes, const Framebuffer& target, std::int64_t refresh) const noexcept {
+void SignalPass::draw(const Texture2D& codes, const Framebuffer& target,
+                      std::int64_t refresh) const noexcept {
     OVERT_EXPECTS(codes.size_px() == target.size_px());
     const GladGLContext& gl = context_->gl();
     target.bind();

@@ -16,10 +16,10 @@ struct ShownPicture {
     glm::ivec2 origin_px{0};
 };
 
-class WirePrediction {
+class SignalPrediction {
   public:
     /// `display` says mode, size, background, gamma, dithering and filter; it must outlive the prediction.
-    WirePrediction(const DisplaySettings& display, const ShownPicture& shown);
+    SignalPrediction(const DisplaySettings& display, const ShownPicture& shown);
 
     /// Linear light of red, green and blue at a pixel of the screen; beyond its edges, the background.
     std::array<double, 3> light_at(int x, int y) const;

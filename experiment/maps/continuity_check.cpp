@@ -1,4 +1,4 @@
-#include "experiment/maps/sheet_check.h"
+#include "experiment/maps/continuity_check.h"
 
 #include <algorithm>
 #include <vector>
@@ -14,9 +14,9 @@ bool share_a_corner(const WalkTriangle& one, const WalkTriangle& other) {
 }
 
 /// Checks the pixels of one map.
-class SheetCheck {
+class ContinuityCheck {
   public:
-    SheetCheck(const TriangleMap& map, const SightLines& lines, const SurfaceWalk& walk)
+    ContinuityCheck(const TriangleMap& map, const SightLines& lines, const SurfaceWalk& walk)
         : map_(map), lines_(lines), walk_(walk) {}
 
     /// The sheet seen at one pixel's centre is that seen at the other's, or none is seen at either.
@@ -46,9 +46,9 @@ class SheetCheck {
 
 } // namespace
 
-void flag_broken_sheets(const TriangleMap& map, const SightLines& lines, const SurfaceWalk& walk,
-                        PixelFlags& flags) {
-    const SheetCheck check(map, lines, walk);
+void flag_discontinuities(const TriangleMap& map, const SightLines& lines, const SurfaceWalk& walk,
+                          PixelFlags& flags) {
+    const ContinuityCheck check(map, lines, walk);
     const glm::ivec2 size = map.size_px;
     const auto is_flagged = [&](glm::ivec2 pixel) {
         return flags[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(size.x) +
