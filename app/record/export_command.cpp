@@ -1,20 +1,33 @@
 #include <algorithm>
+#include <filesystem>
+#include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "app/cli/command_options.h"
 #include "app/cli/interruption.h"
 #include "app/cli/progress_bar.h"
+#include "app/record/export_formats.h"
 #include "app/record/record_commands.h"
-#include "app/record/recorded_surface.h"
-#include "experiment/base/counted.h"
-#include "experiment/record/asc/asc_export.h"
-#include "experiment/record/bids/bids_export.h"
 #include "experiment/record/session_schema.h"
-#include "experiment/record/tables/table_export.h"
 
 namespace overt {
 
 namespace {
+
+struct ExportOptions {
+    std::vector<std::filesystem::path> sessions;
+    std::string format = "tsv"; ///< by its name
+    std::filesystem::path out;
+    bool overwrite = false;
+
+    struct Format {
+        const ExportFormatEntry* entry;
+        std::shared_ptr<ExportFormat> format;
+    };
+    std::map<std::string, Format> formats; ///< by name; names of one entry share its options
+};
 
 /// With no dots and no separator at its end; the session file itself may be named.
 std::filesystem::path folder_at(const std::filesystem::path& session) {
@@ -23,10 +36,11 @@ std::filesystem::path folder_at(const std::filesystem::path& session) {
 }
 
 /// Where one of the sessions goes.
-std::filesystem::path folder_of(const ExportOptions& options, const SessionRecord& record) {
+std::filesystem::path folder_of(const ExportOptions& options, const ExportFormatEntry& format,
+                                const SessionRecord& record) {
     if (options.out.empty())
         return record.directory() / ("export_" + options.format);
-    if (options.sessions.size() == 1)
+    if (options.sessions.size() == 1 || format.joins_sessions)
         return options.out;
     // Observers of several protocols have folders of the same names.
     const std::filesystem::path folder = folder_at(record.directory());
@@ -39,82 +53,60 @@ std::filesystem::path folder_of(const ExportOptions& options, const SessionRecor
                           : options.out / folder.parent_path().filename() / folder.filename();
 }
 
-std::function<void(int, int)> progress_on(ProgressBar& bar, const SessionRecord& record) {
-    return
-        [&bar, title = "exporting " + folder_at(record.directory()).filename().string()](int done, int all) {
-            bar.update(title, done, all);
-            Interruption::check("The export");
-        };
-}
-
-void export_as_tables(const ExportOptions& options, const SessionRecord& record) {
-    RecordedSurfaces surfaces(record);
-    ProgressBar bar;
-    TableExportOptions tables;
-    tables.format = options.format == "csv"     ? TableFormat::csv
-                    : options.format == "jsonl" ? TableFormat::jsonl
-                                                : TableFormat::tsv;
-    tables.overwrite = options.overwrite;
-    if (options.cone_deg)
-        tables.cone_accuracy = Degrees{*options.cone_deg};
-    tables.progress = progress_on(bar, record);
-    const std::filesystem::path out = folder_of(options, record);
-    const TableExportCounts counts = export_tables(
-        record, [&](int sculpture) { return surfaces.lookup_of(sculpture); }, out, tables);
-    bar.finish();
-    const auto share = [&](std::int64_t part) {
-        return counts.samples > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(counts.samples)
-                                  : 0.0;
-    };
-    fmt::print("{}, {}, {}: {:.1f} % on the sculpture, {:.1f} % without gaze, "
-               "{} that the planned times would have put on another frame\nexport: {}\n",
-               counted(counts.trials, "trial"), counted(counts.flips, "refresh", "refreshes"),
-               counted(counts.samples, "sample"), share(counts.samples_on_object),
-               share(counts.samples_without_gaze), counts.samples_off_plan, out.string());
-}
-
-void export_as_asc(const ExportOptions& options, const SessionRecord& record) {
-    ProgressBar bar;
-    const std::filesystem::path out = folder_of(options, record);
-    const AscExportCounts counts =
-        export_asc(record, out, {options.overwrite, options.fractional_times, progress_on(bar, record)});
-    bar.finish();
-    if (counts.sittings_without_samples > 0)
-        fmt::print("{} without samples, and without a file\n",
-                   counted(counts.sittings_without_samples, "sitting"));
-    fmt::print("{} at trials, {}, {}\nexport: {}\n", counted(counts.trials, "attempt"),
-               counted(counts.samples, "sample"), counted(counts.files, "file"), out.string());
-}
-
-void export_as_bids(const ExportOptions& options, const SessionRecord& record) {
-    RecordedSurfaces surfaces(record);
-    ProgressBar bar;
-    const std::filesystem::path out =
-        options.out.empty() ? record.directory() / "export_bids" : options.out; // one dataset of all
-    const BidsExportCounts counts =
-        export_bids(record, [&](int sculpture) { return surfaces.lookup_of(sculpture); }, out,
-                    {options.overwrite, options.with_answers, progress_on(bar, record)});
-    bar.finish();
-    for (const std::string& remark : counts.remarks)
-        fmt::print("{}\n", remark);
-    fmt::print("runs: {}, recordings of an eye: {}, samples: {}\ndataset: {}\n", counts.runs,
-               counts.recordings, counts.samples, out.string());
+int run_export(const ExportOptions& options) {
+    const Interruption interruption;
+    const auto& [entry, format] = options.formats.at(options.format);
+    for (const std::filesystem::path& session : options.sessions) {
+        const SessionRecord record(session);
+        ProgressBar bar;
+        const std::string title = "exporting " + folder_at(record.directory()).filename().string();
+        const std::string said = format->write({record, options.format, folder_of(options, *entry, record),
+                                                options.overwrite, [&](int done, int all) {
+                                                    bar.update(title, done, all);
+                                                    Interruption::check("The export");
+                                                }});
+        bar.finish();
+        fmt::print("{}", said);
+    }
+    return 0;
 }
 
 } // namespace
 
-int run_export(const ExportOptions& options) {
-    const Interruption interruption;
-    for (const std::filesystem::path& session : options.sessions) {
-        const SessionRecord record(session);
-        if (options.format == "asc")
-            export_as_asc(options, record);
-        else if (options.format == "bids")
-            export_as_bids(options, record);
-        else
-            export_as_tables(options, record);
+void add_export(CLI::App& app, ChosenCommand& chosen) {
+    const auto given = std::make_shared<ExportOptions>();
+    ExportOptions& options = *given;
+    CLI::App& command =
+        add_command(app, "export", "Writes sessions as tables or files for other tools",
+                    "overt export sessions/overt_2019/sub-07_ses-01 --format tsv --out tables\n"
+                    "  overt export sessions/overt_2019/* --format bids --out dataset\n"
+                    "  overt export sessions/overt_2019/sub-07_ses-01 --format asc --out asc");
+    command.add_option("SESSION", options.sessions, "Folders of sessions")->required();
+    std::vector<std::string> names, explained, joining;
+    std::vector<std::shared_ptr<ExportFormat>> formats;
+    for (const ExportFormatEntry& entry : export_formats()) {
+        formats.push_back(entry.make());
+        explained.push_back(fmt::format("{}: {}", fmt::join(entry.names, ", "), entry.help));
+        for (const std::string& name : entry.names) {
+            names.push_back(name);
+            options.formats[name] = {&entry, formats.back()};
+            if (entry.joins_sessions)
+                joining.push_back("--format " + name);
+        }
     }
-    return 0;
+    command.add_option("--format", options.format, fmt::format("{}", fmt::join(explained, "; ")))
+        ->check(CLI::IsMember(names))
+        ->capture_default_str();
+    command
+        .add_option("--out", options.out,
+                    fmt::format("Folder to write to (default: export_FORMAT in the session; for several "
+                                "sessions a folder each is made in it, but one dataset of all with {})",
+                                fmt::join(joining, " and ")))
+        ->type_name("DIR");
+    for (const auto& format : formats)
+        format->add_options(command);
+    command.add_flag("--overwrite", options.overwrite, "Replace an export that is there");
+    run_when_chosen(command, chosen, [given] { return run_export(*given); });
 }
 
 } // namespace overt

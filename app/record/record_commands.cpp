@@ -6,45 +6,6 @@ namespace overt {
 
 namespace {
 
-void add_export(CLI::App& app, ChosenCommand& chosen) {
-    const auto given = std::make_shared<ExportOptions>();
-    ExportOptions& options = *given;
-    CLI::App& command =
-        add_command(app, "export", "Writes sessions as tables or files for other tools",
-                    "overt export sessions/overt_2019/sub-07_ses-01 --format tsv --out tables\n"
-                    "  overt export sessions/overt_2019/* --format bids --out dataset\n"
-                    "  overt export sessions/overt_2019/sub-07_ses-01 --format asc --out asc");
-    command.add_option("SESSION", options.sessions, "Folders of sessions")->required();
-    command
-        .add_option(
-            "--format", options.format,
-            "tsv, csv, jsonl: tables with a dictionary of their columns; bids: a BIDS dataset that all "
-            "sessions join; asc: as EyeLink's edf2asc writes recordings")
-        ->check(CLI::IsMember({"tsv", "csv", "jsonl", "bids", "asc"}))
-        ->capture_default_str();
-    command
-        .add_option(
-            "--out", options.out,
-            "Folder to write to (default: export_FORMAT in the session; for several sessions a folder "
-            "each is made in it, but one dataset of all with --format bids)")
-        ->type_name("DIR");
-    command
-        .add_option("--cone-deg", options.cone_deg,
-                    "Add the probability that the gaze was on the sculpture, and on each of its parts, for a "
-                    "tracker that is so far off on average (a usual accuracy: 0.5); in tables")
-        ->type_name("DEG")
-        ->check(CLI::Range(0.0, 20.0));
-    command.add_flag(
-        "--with-answers", options.with_answers,
-        "Copy the spoken answers into sourcedata, though a voice tells who somebody is; in bids");
-    command.add_flag(
-        "--fractional-times", options.fractional_times,
-        "Samples' times with their microseconds, for MNE above 1000 Hz; PyGazeAnalyser reads whole "
-        "milliseconds only; in asc");
-    command.add_flag("--overwrite", options.overwrite, "Replace an export that is there");
-    run_when_chosen(command, chosen, [given] { return run_export(*given); });
-}
-
 void add_import(CLI::App& app, ChosenCommand& chosen) {
     const auto given = std::make_shared<ImportOptions>();
     ImportOptions& options = *given;

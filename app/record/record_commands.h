@@ -14,16 +14,8 @@ namespace overt {
 /// Adds them to the command line.
 void add_record_commands(CLI::App& app, ChosenCommand& chosen);
 
-struct ExportOptions {
-    std::vector<std::filesystem::path> sessions;
-    std::string format = "tsv"; ///< or csv, asc, bids
-    std::filesystem::path out;
-    bool overwrite = false;
-    std::optional<double> cone_deg; ///< add the probabilities of a gaze cone of this accuracy
-    bool fractional_times = false;  ///< of the samples in ASC
-    bool with_answers = false;      ///< spoken ones, in BIDS
-};
-int run_export(const ExportOptions& options);
+/// `export`, whose options come from its formats.
+void add_export(CLI::App& app, ChosenCommand& chosen);
 
 struct ImportOptions {
     std::filesystem::path file;

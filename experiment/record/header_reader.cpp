@@ -1,76 +1,23 @@
-#include <charconv>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
 #include "experiment/record/header_rows.h"
+#include "experiment/record/header_tables.h"
 #include "experiment/record/sql.h"
 
 namespace overt {
 namespace {
 
-std::uint64_t seed_from(const std::string& text) {
-    std::uint64_t seed = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-    if (error != std::errc() || end != text.data() + text.size())
-        throw RecordError(fmt::format("table session: the seed is no number: {}", text));
-    return seed;
-}
-
-glm::dvec3 read_vector(Query& row) {
-    const double x = row.real(), y = row.real(), z = row.real();
-    return {x, y, z};
-}
-glm::ivec2 read_pixels(Query& row) {
-    const int x = row.small(), y = row.small();
-    return {x, y};
-}
-
-void read_session(Query& row, SessionHeader& header) {
-    header.protocol = {row.text(), row.text(), row.text(), row.text(), {}};
-    header.schedule.observer = {row.text(), row.small()};
-    header.session_number = row.small();
-    header.schedule.seed = seed_from(row.text());
-    header.started_utc = row.text();
-    header.clock = row.text() == "steady" ? ClockKind::steady : ClockKind::virtual_time;
-    header.program = {row.text(), row.text(), row.text(), row.text()};
-    header.graphics = {row.text(), row.text(), row.text(), row.text()};
-    header.tracker = {row.text(), row.real(), row.text() == "left" ? Eye::left : Eye::right};
-    ScreenGeometry& screen = header.display.screen;
-    screen.screen_px = read_pixels(row);
-    screen.screen_mm.x = row.real();
-    screen.screen_mm.y = row.real();
-    screen.viewing_distance_mm = row.real();
-    screen.image_origin_px = read_pixels(row);
-    screen.image_px = read_pixels(row);
-    header.display.refresh_hz = row.real();
-    header.display.latency = SessionDuration(row.integer());
-    header.display.output_mode = row.text();
-    header.display.background = row.real();
-    header.animation.frame_count = row.small();
-    header.animation.frame_rate_hz = row.real();
-    header.animation.amplitude.value = row.real();
-    header.animation.playback = row.text() == "cycle" ? Playback::cycle : Playback::ping_pong;
-    header.animation.duration_s = row.real();
-    header.animation.when_late = row.text() == "stretch" ? WhenLate::stretch : WhenLate::drop;
-}
-
 void read_characterisation(const SQLite::Database& database, SessionHeader& header) {
     // Sessions of earlier programs have no such table.
     if (!has_table(database, "characterisation"))
         return;
-    Query row(database, "SELECT display, date, instrument, sha256, black_x, black_y, black_z, red_x, red_y, "
-                        "red_z, green_x, green_y, green_z, blue_x, blue_y, blue_z FROM characterisation");
-    if (!row.step())
+    std::vector<RecordedCharacterisation> rows = read_table(database, characterisation_table());
+    if (rows.empty())
         return;
-    RecordedCharacterisation light;
-    light.display = row.text();
-    light.date = row.text();
-    light.instrument = row.text();
-    light.sha256 = row.text();
-    light.black_xyz = read_vector(row);
-    for (glm::dvec3& primary : light.primaries_xyz)
-        primary = read_vector(row);
+    RecordedCharacterisation& light = rows.front();
     for (Query file(database, "SELECT name, text FROM characterisation_file ORDER BY n"); file.step();) {
         std::string name = file.text();
         light.files.push_back({std::move(name), file.text()});
@@ -115,28 +62,8 @@ void read_design(const SQLite::Database& database, SessionHeader& header) {
         header.poses.of_frame.push_back({row.small()});
 }
 
-RecordedSculpture read_sculpture(Query& row) {
-    RecordedSculpture sculpture;
-    sculpture.id = row.text();
-    sculpture.title = row.text();
-    sculpture.mesh_sha256 = row.text();
-    sculpture.mesh_file = row.text();
-    sculpture.camera.position = read_vector(row);
-    sculpture.camera.target = read_vector(row);
-    sculpture.camera.vertical_fov.value = row.real();
-    sculpture.axis_point = read_vector(row);
-    sculpture.bounds.min = read_vector(row);
-    sculpture.bounds.max = read_vector(row);
-    return sculpture;
-}
-
 void read_sculptures(const SQLite::Database& database, SessionHeader& header) {
-    for (Query row(database,
-                   "SELECT id, title, mesh_sha256, mesh_file, camera_x, camera_y, camera_z, target_x, "
-                   "target_y, target_z, vertical_fov_deg, axis_x, axis_y, axis_z, min_x, min_y, "
-                   "min_z, max_x, max_y, max_z FROM sculpture ORDER BY sculpture");
-         row.step();)
-        header.sculptures.push_back(read_sculpture(row));
+    header.sculptures = read_table(database, sculpture_table());
     for (Query row(database, "SELECT sculpture, name FROM part ORDER BY sculpture, part"); row.step();) {
         const auto sculpture = static_cast<std::size_t>(row.small());
         if (sculpture >= header.sculptures.size())
@@ -163,27 +90,15 @@ void read_sculptures(const SQLite::Database& database, SessionHeader& header) {
 } // namespace
 
 SessionHeader read_session_header(const SQLite::Database& database) {
-    SessionHeader header;
-    // By name, so that columns added by a later version of the program change nothing here.
-    const char* const when_late = has_column(database, "session", "when_late") ? "when_late" : "'drop'";
-    const std::string sql = fmt::format(
-        "SELECT protocol_name, protocol_title, protocol_text, protocol_sha256, observer_label, "
-        "observer_number, session_number, seed, started_utc, clock, program_version, compiler, "
-        "compiler_flags, commit_id, gl_context, gl_vendor, gl_renderer, gl_version, tracker_name, "
-        "tracker_rate_hz, tracker_eye, screen_width_px, screen_height_px, screen_width_mm, "
-        "screen_height_mm, viewing_distance_mm, image_left_px, image_top_px, image_width_px, "
-        "image_height_px, refresh_hz, display_latency_ns, output_mode, background, frame_count, "
-        "frame_rate_hz, amplitude_deg, playback, duration_s, {} FROM session",
-        when_late);
-    Query row(database, sql.c_str());
-    if (!row.step())
+    std::vector<SessionHeader> rows = read_table(database, session_table());
+    if (rows.empty())
         throw RecordError(fmt::format("{}: table session: the one row that describes the session is missing",
                                       database.getFilename()));
-    read_session(row, header);
+    SessionHeader& header = rows.front();
     read_characterisation(database, header);
     read_design(database, header);
     read_sculptures(database, header);
-    return header;
+    return std::move(header);
 }
 
 } // namespace overt

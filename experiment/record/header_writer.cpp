@@ -2,6 +2,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/record/header_rows.h"
+#include "experiment/record/header_tables.h"
 #include "experiment/record/seal_chain.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
@@ -14,34 +15,8 @@ template <class... Values> void insert(SQLite::Database& database, const char* s
     run_statement(statement, values...);
 }
 
-void insert_session(SQLite::Database& database, const SessionHeader& header) {
-    const ScreenGeometry& screen = header.display.screen;
-    insert(database,
-           "INSERT INTO session VALUES (1, ?,?,?,?, ?,?,?,?,?, ?, ?,?,?,?, ?,?,?,?, ?,?,?, "
-           "?,?,?,?,?, ?,?,?,?, ?,?,?,?, ?,?,?,?,?,?)",
-           header.protocol.name, header.protocol.title, header.protocol.text, header.protocol.sha256,
-           header.schedule.observer.label, header.schedule.observer.number, header.session_number,
-           std::to_string(header.schedule.seed), header.started_utc,
-           header.clock == ClockKind::steady ? "steady" : "virtual", header.program.version,
-           header.program.compiler, header.program.flags, header.program.commit, header.graphics.context,
-           header.graphics.vendor, header.graphics.renderer, header.graphics.version, header.tracker.name,
-           header.tracker.sample_rate_hz, header.tracker.eye == Eye::left ? "left" : "right",
-           screen.screen_px.x, screen.screen_px.y, screen.screen_mm.x, screen.screen_mm.y,
-           screen.viewing_distance_mm, screen.image_origin_px.x, screen.image_origin_px.y, screen.image_px.x,
-           screen.image_px.y, header.display.refresh_hz,
-           static_cast<std::int64_t>(header.display.latency.count()), header.display.output_mode,
-           header.display.background, header.animation.frame_count, header.animation.frame_rate_hz,
-           header.animation.amplitude.value,
-           header.animation.playback == Playback::cycle ? "cycle" : "ping-pong", header.animation.duration_s,
-           header.animation.when_late == WhenLate::drop ? "drop" : "stretch");
-}
-
 void insert_characterisation(SQLite::Database& database, const RecordedCharacterisation& light) {
-    const auto& [red, green, blue] = light.primaries_xyz;
-    const glm::dvec3& black = light.black_xyz;
-    insert(database, "INSERT INTO characterisation VALUES (1, ?,?,?,?, ?,?,?, ?,?,?, ?,?,?, ?,?,?)",
-           light.display, light.date, light.instrument, light.sha256, black.x, black.y, black.z, red.x, red.y,
-           red.z, green.x, green.y, green.z, blue.x, blue.y, blue.z);
+    insert_row(database, characterisation_table(), 1, light);
     int index = 0;
     for (const RecordedCharacterisation::File& file : light.files)
         insert(database, "INSERT INTO characterisation_file VALUES (?,?,?)", index++, file.name, file.text);
@@ -78,14 +53,7 @@ void insert_design(SQLite::Database& database, const SessionHeader& header) {
 void insert_sculptures(SQLite::Database& database, const SessionHeader& header) {
     int index = 0;
     for (const RecordedSculpture& sculpture : header.sculptures) {
-        const Camera& camera = sculpture.camera;
-        const Bounds& bounds = sculpture.bounds;
-        insert(database, "INSERT INTO sculpture VALUES (?,?,?,?,?, ?,?,?, ?,?,?,?, ?,?,?, ?,?,?, ?,?,?)",
-               index, sculpture.id, sculpture.title, sculpture.mesh_sha256, sculpture.mesh_file,
-               camera.position.x, camera.position.y, camera.position.z, camera.target.x, camera.target.y,
-               camera.target.z, camera.vertical_fov.value, sculpture.axis_point.x, sculpture.axis_point.y,
-               sculpture.axis_point.z, bounds.min.x, bounds.min.y, bounds.min.z, bounds.max.x, bounds.max.y,
-               bounds.max.z);
+        insert_row(database, sculpture_table(), index, sculpture);
         int part = 0;
         for (const std::string& name : sculpture.part_names)
             insert(database, "INSERT INTO part VALUES (?,?,?)", index, part++, name);
@@ -113,7 +81,7 @@ void create_session_file(const std::filesystem::path& file, const SessionHeader&
                                   session_application_id, session_schema_version));
         SQLite::Transaction transaction(database);
         make_session_tables(database);
-        insert_session(database, header);
+        insert_row(database, session_table(), 1, header);
         if (header.characterisation)
             insert_characterisation(database, *header.characterisation);
         insert_design(database, header);

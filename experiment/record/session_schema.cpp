@@ -2,42 +2,16 @@
 
 #include <SQLiteCpp/Database.h>
 
+#include "experiment/record/header_tables.h"
+
 namespace overt {
+
+namespace {
 
 // `flip` and `sample` are written thousands of times a second: their only key is the order of arrival within
 // a trial, so each row is appended at the end of one tree, and a trial's rows lie together. They refuse no
 // row: no uniqueness of refreshes, no foreign keys.
 const char* const session_schema_sql = R"sql(
-CREATE TABLE session (
-    id INTEGER PRIMARY KEY CHECK (id = 1),
-    protocol_name TEXT NOT NULL, protocol_title TEXT NOT NULL,
-    protocol_text TEXT NOT NULL, protocol_sha256 TEXT NOT NULL,
-    observer_label TEXT NOT NULL, observer_number INTEGER NOT NULL,
-    session_number INTEGER NOT NULL, seed TEXT NOT NULL,
-    started_utc TEXT NOT NULL,
-    clock TEXT NOT NULL CHECK (clock IN ('steady', 'virtual')),
-    program_version TEXT NOT NULL, compiler TEXT NOT NULL, compiler_flags TEXT NOT NULL, commit_id TEXT NOT NULL,
-    gl_context TEXT NOT NULL, gl_vendor TEXT NOT NULL, gl_renderer TEXT NOT NULL, gl_version TEXT NOT NULL,
-    tracker_name TEXT NOT NULL, tracker_rate_hz REAL NOT NULL,
-    tracker_eye TEXT NOT NULL CHECK (tracker_eye IN ('left', 'right')),
-    screen_width_px INTEGER NOT NULL, screen_height_px INTEGER NOT NULL,
-    screen_width_mm REAL NOT NULL, screen_height_mm REAL NOT NULL, viewing_distance_mm REAL NOT NULL,
-    image_left_px INTEGER NOT NULL, image_top_px INTEGER NOT NULL,
-    image_width_px INTEGER NOT NULL, image_height_px INTEGER NOT NULL,
-    refresh_hz REAL NOT NULL, display_latency_ns INTEGER NOT NULL,
-    output_mode TEXT NOT NULL, background REAL NOT NULL,
-    frame_count INTEGER NOT NULL, frame_rate_hz REAL NOT NULL, amplitude_deg REAL NOT NULL,
-    playback TEXT NOT NULL CHECK (playback IN ('cycle', 'ping-pong')), duration_s REAL NOT NULL,
-    when_late TEXT NOT NULL DEFAULT 'drop' CHECK (when_late IN ('drop', 'stretch'))
-) STRICT;
-CREATE TABLE characterisation (
-    id INTEGER PRIMARY KEY CHECK (id = 1),
-    display TEXT NOT NULL, date TEXT NOT NULL, instrument TEXT NOT NULL, sha256 TEXT NOT NULL,
-    black_x REAL NOT NULL, black_y REAL NOT NULL, black_z REAL NOT NULL,
-    red_x REAL NOT NULL, red_y REAL NOT NULL, red_z REAL NOT NULL,
-    green_x REAL NOT NULL, green_y REAL NOT NULL, green_z REAL NOT NULL,
-    blue_x REAL NOT NULL, blue_y REAL NOT NULL, blue_z REAL NOT NULL
-) STRICT;
 CREATE TABLE characterisation_file (n INTEGER PRIMARY KEY, name TEXT NOT NULL, text TEXT NOT NULL) STRICT;
 CREATE TABLE schedule (trial INTEGER PRIMARY KEY, task INTEGER NOT NULL, sculpture INTEGER NOT NULL,
                        material INTEGER NOT NULL, block INTEGER NOT NULL DEFAULT 0) STRICT;
@@ -45,15 +19,6 @@ CREATE TABLE block (block INTEGER PRIMARY KEY, id TEXT NOT NULL) STRICT;
 CREATE TABLE protocol_file (n INTEGER PRIMARY KEY, name TEXT NOT NULL, text TEXT NOT NULL,
                             sha256 TEXT NOT NULL) STRICT;
 CREATE TABLE task (task INTEGER PRIMARY KEY, id TEXT NOT NULL, question TEXT NOT NULL) STRICT;
-CREATE TABLE sculpture (
-    sculpture INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEXT NOT NULL,
-    mesh_sha256 TEXT NOT NULL, mesh_file TEXT NOT NULL,
-    camera_x REAL NOT NULL, camera_y REAL NOT NULL, camera_z REAL NOT NULL,
-    target_x REAL NOT NULL, target_y REAL NOT NULL, target_z REAL NOT NULL, vertical_fov_deg REAL NOT NULL,
-    axis_x REAL NOT NULL, axis_y REAL NOT NULL, axis_z REAL NOT NULL,
-    min_x REAL NOT NULL, min_y REAL NOT NULL, min_z REAL NOT NULL,
-    max_x REAL NOT NULL, max_y REAL NOT NULL, max_z REAL NOT NULL
-) STRICT;
 CREATE TABLE part (sculpture INTEGER NOT NULL, part INTEGER NOT NULL, name TEXT NOT NULL,
                    PRIMARY KEY (sculpture, part)) STRICT, WITHOUT ROWID;
 CREATE TABLE material (material INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEXT NOT NULL) STRICT;
@@ -116,6 +81,8 @@ CREATE TABLE sealed_table (
 ) STRICT, WITHOUT ROWID;
 )sql";
 
+} // namespace
+
 const char* const box_tables_sql = R"sql(
 CREATE TABLE IF NOT EXISTS display_box (
     sitting INTEGER PRIMARY KEY REFERENCES sitting,
@@ -174,6 +141,9 @@ CREATE TABLE IF NOT EXISTS gaze_source (
 )sql";
 
 void make_session_tables(SQLite::Database& database) {
+    for (const std::string& sql :
+         {create_sql(session_table()), create_sql(characterisation_table()), create_sql(sculpture_table())})
+        database.exec(sql);
     for (const char* const sql :
          {session_schema_sql, box_tables_sql, observer_tables_sql, ledger_tables_sql, gaze_tables_sql})
         database.exec(sql);

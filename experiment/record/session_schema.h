@@ -23,9 +23,6 @@ inline constexpr int first_version_with_seals = 3;
 /// Name of the session file in a session's directory.
 inline constexpr const char* session_file_name = "session.sqlite";
 
-/// Statements that make the tables of an empty session.
-extern const char* const session_schema_sql;
-
 /// Statements that make the display box's tables where they are not there: sessions of earlier programs have
 /// none.
 extern const char* const box_tables_sql;

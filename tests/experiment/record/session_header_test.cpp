@@ -2,7 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "experiment/record/header_tables.h"
 #include "experiment/record/read/session_record.h"
+#include "experiment/record/session_schema.h"
 #include "tests/experiment/record/session_fixture.h"
 
 using namespace overt;
@@ -84,4 +86,34 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
         CHECK(out.maps[i].made == in.maps[i].made);
         CHECK(out.maps[i].kind == in.maps[i].kind);
     }
+}
+
+TEST_CASE("docs/session_format.md has the columns of the header as their tables say", "[unit]") {
+    const std::string page = text_of(std::filesystem::path(OVERT_SOURCE_DIR) / "docs/session_format.md");
+    for (const std::string& rows :
+         {describe(session_table()), describe(characterisation_table()), describe(sculpture_table())}) {
+        INFO("The page must hold these lines:\n" << rows);
+        CHECK(page.find("| --- | --- |\n" + rows + "\n") != std::string::npos);
+    }
+}
+
+TEST_CASE("a session that lacks a column of today reads as the column's row says", "[unit]") {
+    const TemporaryFolder root;
+    SessionHeader header = example_header();
+    header.animation.when_late = WhenLate::stretch;
+    const std::filesystem::path session = make_session(root.path(), header);
+    CHECK(SessionRecord(session).header().animation.when_late == WhenLate::stretch);
+    SQLite::Database(session / session_file_name, SQLite::OPEN_READWRITE)
+        .exec("ALTER TABLE session DROP COLUMN when_late");
+    CHECK(SessionRecord(session).header().animation.when_late == WhenLate::drop);
+}
+
+TEST_CASE("the words of the header's enumerations are all that its table takes", "[unit]") {
+    const TemporaryFolder root;
+    const std::filesystem::path session = make_session(root.path(), example_header());
+    SQLite::Database database(session / session_file_name, SQLite::OPEN_READWRITE);
+    CHECK_NOTHROW(
+        database.exec("UPDATE session SET playback = 'cycle', clock = 'steady', tracker_eye = 'right'"));
+    CHECK_THROWS_AS(database.exec("UPDATE session SET playback = 'back and forth'"), SQLite::Exception);
+    CHECK_THROWS_AS(database.exec("UPDATE session SET duration_s = 'long'"), SQLite::Exception);
 }

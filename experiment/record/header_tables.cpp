@@ -1,0 +1,131 @@
+#include "experiment/record/header_tables.h"
+
+namespace overt {
+
+template <> inline constexpr std::array<const char*, 2> stored_words<ClockKind>{"steady", "virtual"};
+template <> inline constexpr std::array<const char*, 2> stored_words<Eye>{"left", "right"};
+template <> inline constexpr std::array<const char*, 2> stored_words<Playback>{"cycle", "ping-pong"};
+template <> inline constexpr std::array<const char*, 2> stored_words<WhenLate>{"drop", "stretch"};
+
+namespace {
+
+using Header = SessionHeader;
+using Display = RecordedDisplay;
+using Screen = ScreenGeometry;
+using Light = RecordedCharacterisation;
+using Sculpture = RecordedSculpture;
+
+constexpr const char* only_row = "id INTEGER PRIMARY KEY CHECK (id = 1)";
+
+/// What is recorded of a session as a whole: one value more is one line more, and the member that it names.
+constexpr RowColumn<SessionHeader> session_columns[] = {
+    column<&Header::protocol, &RecordedProtocol::name>("protocol_name", "the protocol's name"),
+    column<&Header::protocol, &RecordedProtocol::title>("protocol_title", "its title"),
+    column<&Header::protocol, &RecordedProtocol::text>("protocol_text", "the file, byte for byte"),
+    column<&Header::protocol, &RecordedProtocol::sha256>("protocol_sha256", "SHA-256 of the text"),
+    column<&Header::schedule, &Schedule::observer, &Observer::label>("observer_label", "names files"),
+    column<&Header::schedule, &Schedule::observer, &Observer::number>("observer_number",
+                                                                      "decides the rotation of materials"),
+    column<&Header::session_number>("session_number", "which session of this observer, from 1"),
+    column<&Header::schedule, &Schedule::seed>(
+        "seed", "an unsigned 64-bit number in decimal text: SQLite's integers are signed"),
+    column<&Header::started_utc>(
+        "started_utc", "wall clock, ISO 8601; kept here, and exported only as the date of an ASC file"),
+    column<&Header::clock>("clock", "`steady`, or `virtual` if time did not really pass"),
+    column<&Header::program, &ProgramBuild::version>("program_version",
+                                                     "version of the program that began the session"),
+    column<&Header::program, &ProgramBuild::compiler>("compiler", "what it was compiled with"),
+    column<&Header::program, &ProgramBuild::flags>("compiler_flags", "and how"),
+    column<&Header::program, &ProgramBuild::commit>("commit_id", "of its source; empty if unknown"),
+    column<&Header::graphics, &GraphicsSystem::context>("gl_context", "`window`, `egl` or `osmesa`"),
+    column<&Header::graphics, &GraphicsSystem::vendor>("gl_vendor", "what OpenGL says of itself"),
+    column<&Header::graphics, &GraphicsSystem::renderer>("gl_renderer", "likewise"),
+    column<&Header::graphics, &GraphicsSystem::version>("gl_version", "likewise"),
+    column<&Header::tracker, &TrackerDescription::name>("tracker_name", "name of the eye tracker"),
+    column<&Header::tracker, &TrackerDescription::sample_rate_hz>("tracker_rate_hz",
+                                                                  "its samples to a second, nominal"),
+    column<&Header::tracker, &TrackerDescription::eye>("tracker_eye", "`left` or `right`"),
+    column<&Header::display, &Display::screen, &Screen::screen_px, 0>("screen_width_px", "of the screen"),
+    column<&Header::display, &Display::screen, &Screen::screen_px, 1>("screen_height_px", "of the screen"),
+    column<&Header::display, &Display::screen, &Screen::screen_mm, 0>("screen_width_mm",
+                                                                      "of the screen's picture"),
+    column<&Header::display, &Display::screen, &Screen::screen_mm, 1>("screen_height_mm",
+                                                                      "of the screen's picture"),
+    column<&Header::display, &Display::screen, &Screen::viewing_distance_mm>("viewing_distance_mm",
+                                                                             "from the eyes to the screen"),
+    column<&Header::display, &Display::screen, &Screen::image_origin_px, 0>(
+        "image_left_px", "where the stimulus stands on the screen"),
+    column<&Header::display, &Display::screen, &Screen::image_origin_px, 1>("image_top_px", "likewise"),
+    column<&Header::display, &Display::screen, &Screen::image_px, 0>("image_width_px", "of the stimulus"),
+    column<&Header::display, &Display::screen, &Screen::image_px, 1>("image_height_px", "of the stimulus"),
+    column<&Header::display, &Display::refresh_hz>("refresh_hz", "of the display, nominal; 0 if not known"),
+    column<&Header::display, &Display::latency>("display_latency_ns",
+                                                "from the vertical blank to the light of the first row"),
+    column<&Header::display, &Display::output_mode>("output_mode", "by the protocol's word"),
+    column<&Header::display, &Display::background>("background", "linear grey, 0 … 1 of the display's white"),
+    column<&Header::animation, &Animation::frame_count>("frame_count", "frames of the animation"),
+    column<&Header::animation, &Animation::frame_rate_hz>("frame_rate_hz", "frames to a second"),
+    column<&Header::animation, &Animation::amplitude>("amplitude_deg", "turn to each side of the front view"),
+    column<&Header::animation, &Animation::playback>("playback", "`cycle` or `ping-pong`"),
+    column<&Header::animation, &Animation::duration_s>("duration_s", "of one presentation"),
+    column<&Header::animation, &Animation::when_late>(
+        "when_late", "what becomes of the plan when a picture comes late: `drop` or `stretch`", "'drop'"),
+};
+
+/// What was known of the display's light.
+constexpr RowColumn<RecordedCharacterisation> light_columns[] = {
+    column<&Light::display>("display", "the display's name"),
+    column<&Light::date>("date", "when it was measured"),
+    column<&Light::instrument>("instrument", "with what"),
+    column<&Light::sha256>("sha256", "SHA-256 of all its files"),
+    column<&Light::black_xyz, 0>("black_x", "XYZ of the black (CIE 1931), cd/m²"),
+    column<&Light::black_xyz, 1>("black_y", "likewise"),
+    column<&Light::black_xyz, 2>("black_z", "likewise"),
+    column<&Light::primaries_xyz, 0, 0>("red_x", "XYZ of red at full signal, without the black, cd/m²"),
+    column<&Light::primaries_xyz, 0, 1>("red_y", "likewise"),
+    column<&Light::primaries_xyz, 0, 2>("red_z", "likewise"),
+    column<&Light::primaries_xyz, 1, 0>("green_x", "likewise of green"),
+    column<&Light::primaries_xyz, 1, 1>("green_y", "likewise"),
+    column<&Light::primaries_xyz, 1, 2>("green_z", "likewise"),
+    column<&Light::primaries_xyz, 2, 0>("blue_x", "likewise of blue"),
+    column<&Light::primaries_xyz, 2, 1>("blue_y", "likewise"),
+    column<&Light::primaries_xyz, 2, 2>("blue_z", "likewise"),
+};
+
+/// A sculpture, its camera, and the box by which its maps are coded.
+constexpr RowColumn<RecordedSculpture> sculpture_columns[] = {
+    column<&Sculpture::id>("id", "its id in the protocol"),
+    column<&Sculpture::title>("title", "its title"),
+    column<&Sculpture::mesh_sha256>("mesh_sha256", "SHA-256 of the mesh"),
+    column<&Sculpture::mesh_file>("mesh_file", "relative to the directory; empty if it has no mesh"),
+    column<&Sculpture::camera, &Camera::position, 0>(
+        "camera_x", "where the camera stands; up is +z; without a mesh what ready-made maps say of it"),
+    column<&Sculpture::camera, &Camera::position, 1>("camera_y", "likewise"),
+    column<&Sculpture::camera, &Camera::position, 2>("camera_z", "likewise"),
+    column<&Sculpture::camera, &Camera::target, 0>("target_x", "where it looks"),
+    column<&Sculpture::camera, &Camera::target, 1>("target_y", "likewise"),
+    column<&Sculpture::camera, &Camera::target, 2>("target_z", "likewise"),
+    column<&Sculpture::camera, &Camera::vertical_fov>(
+        "vertical_fov_deg", "full angle over the image's height; 0 if ready-made maps say nothing of it"),
+    column<&Sculpture::axis_point, 0>("axis_x", "a point of the vertical axis of the turn"),
+    column<&Sculpture::axis_point, 1>("axis_y", "likewise"),
+    column<&Sculpture::axis_point, 2>("axis_z", "likewise"),
+    column<&Sculpture::bounds, &Bounds::min, 0>("min_x", "the box by which maps are coded"),
+    column<&Sculpture::bounds, &Bounds::min, 1>("min_y", "likewise"),
+    column<&Sculpture::bounds, &Bounds::min, 2>("min_z", "likewise"),
+    column<&Sculpture::bounds, &Bounds::max, 0>("max_x", "its other corner"),
+    column<&Sculpture::bounds, &Bounds::max, 1>("max_y", "likewise"),
+    column<&Sculpture::bounds, &Bounds::max, 2>("max_z", "likewise"),
+};
+
+} // namespace
+
+RowTable<SessionHeader> session_table() { return {"session", only_row, session_columns}; }
+RowTable<RecordedCharacterisation> characterisation_table() {
+    return {"characterisation", only_row, light_columns};
+}
+RowTable<RecordedSculpture> sculpture_table() {
+    return {"sculpture", "sculpture INTEGER PRIMARY KEY", sculpture_columns};
+}
+
+} // namespace overt

@@ -1,0 +1,13 @@
+/// The columns of the header's wide tables.
+#pragma once
+
+#include "experiment/record/row_table.h"
+#include "experiment/record/session_header.h"
+
+namespace overt {
+
+RowTable<SessionHeader> session_table();
+RowTable<RecordedCharacterisation> characterisation_table();
+RowTable<RecordedSculpture> sculpture_table();
+
+} // namespace overt
