@@ -36,14 +36,18 @@ RecordedOrder recorded_order(const SessionHeader& header) {
         return order;
     }
     try {
-        order.again = make_schedule(*protocol, header.schedule.observer, header.schedule.seed).trials;
+        for (const RotationRule rule : {RotationRule::together, RotationRule::crossed}) {
+            order.again =
+                make_schedule(*protocol, header.schedule.observer, header.schedule.seed, rule).trials;
+            // A session may have been cut short on purpose: its order is the beginning.
+            if (order.again.size() > order.recorded.size())
+                order.again.resize(order.recorded.size());
+            if (order.is_same())
+                break;
+        }
     } catch (const InputError& error) {
         order.why_not = error.what();
-        return order;
     }
-    // A session may have been cut short on purpose: its order is the beginning.
-    if (order.again.size() > order.recorded.size())
-        order.again.resize(order.recorded.size());
     return order;
 }
 

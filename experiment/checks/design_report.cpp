@@ -221,6 +221,9 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
             report.schedule_groups.push_back(protocol.groups[static_cast<std::size_t>(group)].id);
     }
     report.warnings = balance_warnings(protocol, presentations);
+    report.rotations = rotation_facts(protocol);
+    for (std::string& warning : rotation_warnings(report.rotations))
+        report.warnings.push_back(std::move(warning));
     if (std::any_of(report.schedules.begin(), report.schedules.end(),
                     [](const Schedule& schedule) { return !schedule.is_even; }))
         report.warnings.emplace_back(

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "experiment/checks/rotation_balance.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/trial.h"
 
@@ -114,6 +115,7 @@ struct DesignReport {
     std::vector<SurfaceFacts> surfaces; ///< of sculptures with a mesh; for whoever has loaded it to fill in
 
     std::vector<IncidenceCell> incidence; ///< task by task, sculpture by sculpture, material by material
+    std::vector<RotationFacts> rotations; ///< of each group in which anything goes round
     std::vector<Schedule> schedules;
     std::vector<std::string> schedule_groups; ///< of each of their observers; empty without groups
     bool is_seed_fixed = false; ///< otherwise the schedules are examples: each session draws its own

@@ -52,6 +52,24 @@ Json groups_json(const DesignReport& report) {
     return groups;
 }
 
+Json rotations_json(const DesignReport& report) {
+    Json groups = Json::array();
+    for (const RotationFacts& group : report.rotations) {
+        Json factors = Json::array(), tables = Json::array();
+        for (const RotationFacts::Factor& factor : group.factors)
+            factors.push_back({{"name", factor.name}, {"rows", factor.rows}});
+        for (const CrossTable& table : group.tables)
+            tables.push_back(
+                {{"first", table.first}, {"second", table.second}, {"observers", table.observers}});
+        groups.push_back({{"group", group.group},
+                          {"observers", group.observers},
+                          {"factors", factors},
+                          {"period", group.period},
+                          {"cross_tables", tables}});
+    }
+    return groups;
+}
+
 } // namespace
 
 Json to_json(const DesignReport& report) {
@@ -134,6 +152,7 @@ Json to_json(const DesignReport& report) {
     json["orders"] = Json::array();
     for (std::size_t i = 0; i < report.schedules.size(); ++i)
         json["orders"].push_back(order_json(report, i));
+    json["rotations"] = rotations_json(report);
     json["warnings"] = report.warnings;
     return json;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/base/counted.h"
 #include "experiment/checks/design_report.h"
@@ -50,6 +51,29 @@ void add_blocks(std::string& text, const DesignReport& report) {
     add_facts(text, "Groups", lines);
 }
 
+/// Only where several factors go round, for those have to be told apart.
+void add_rotations(std::string& text, const DesignReport& report) {
+    for (const RotationFacts& group : report.rotations) {
+        if (group.tables.empty())
+            continue;
+        std::string names;
+        for (const RotationFacts::Factor& factor : group.factors)
+            names +=
+                fmt::format("{}{} ({})", names.empty() ? "" : ", ", factor.name, counted(factor.rows, "row"));
+        std::vector<std::string> lines{
+            (group.group.empty() ? "" : "group " + group.group + ": ") + names,
+            fmt::format("all combinations come equally often with {} observers, or a multiple",
+                        group.period)};
+        for (const CrossTable& table : group.tables) {
+            std::string counts;
+            for (const std::vector<int>& row : table.observers)
+                counts += fmt::format("{}{}", counts.empty() ? "" : " | ", fmt::join(row, " "));
+            lines.push_back(fmt::format("observers by {} x {}: {}", table.first, table.second, counts));
+        }
+        add_facts(text, "Rotations", lines);
+    }
+}
+
 void add_overview(std::string& text, const DesignReport& report) {
     const int sculptures = static_cast<int>(report.sculptures.size());
     const int materials = static_cast<int>(report.materials.size());
@@ -67,6 +91,7 @@ void add_overview(std::string& text, const DesignReport& report) {
                          : "",
                      counted(report.trials_per_observer, "trial"), counted(report.observers, "observer"))});
     add_blocks(text, report);
+    add_rotations(text, report);
     add_facts(
         text, "Animation",
         {fmt::format("{} ({}), {}, {} deg to each side", counted(animation.frames, "frame"),

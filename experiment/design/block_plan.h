@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiment/design/order_problem.h"
+#include "experiment/design/rotation.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/trial.h"
 
@@ -26,16 +27,31 @@ struct BlockScope {
 /// What a block shows to somebody whom no group keeps anything from.
 BlockScope scope_of(const Protocol& protocol, int block);
 
+/// A block with what it shows to a group.
+struct BlockScopeOf {
+    int block = 0;
+    BlockScope scope;
+};
+
+/// The blocks of a group (-1: without groups), as listed, with what they show to it. Blocks that the group
+/// leaves without trials are among them.
+std::vector<BlockScopeOf> blocks_of_group(const Protocol& protocol, int group);
+
+/// Whether a task is asked once per sculpture in a block, the material going round over the observers.
+bool rotates_materials(const Protocol& protocol, int block, int task);
+
 /// A block as one observer has it.
 struct BlockPlan {
     int block = 0;
     BlockScope scope;
     std::vector<Trial> trials; ///< each once, task by task, sculpture by sculpture, material by material
+    int levels_row = 0;        ///< of the square by which the levels of a blocked order go
 };
 
 /// The blocks that an observer has, in their order. `seed` decides a random order of blocks only. Blocks that
 /// the observer's group leaves without trials are not among them. Throws InputError as group_place does.
-std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number, std::uint64_t seed);
+std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number, std::uint64_t seed,
+                                   RotationRule rule = RotationRule::crossed);
 
 /// How many trials a block has: its trials with their repetitions or weights, or its draws.
 int length_of(const Protocol& protocol, const BlockPlan& plan);
@@ -57,7 +73,8 @@ struct OrderChain {
     std::vector<Trial> trials; ///< by item of the problem
 };
 
-std::vector<OrderChain> order_chains(const Protocol& protocol, int observer_number, std::uint64_t seed);
+std::vector<OrderChain> order_chains(const Protocol& protocol, int observer_number, std::uint64_t seed,
+                                     RotationRule rule = RotationRule::crossed);
 
 /// A limit's value in a block, and the key that says it; 0: no limit.
 struct LimitSetting {

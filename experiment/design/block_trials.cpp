@@ -46,11 +46,10 @@ int rotated(const Protocol& protocol, int row, int cell, const BlockScope& scope
 }
 
 std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockScope& scope, int row) {
-    const BlockSettings& settings = block_at(protocol, block);
     std::vector<Trial> trials;
     for (const int task : scope.tasks) {
         const TaskCoverage own = protocol.tasks[static_cast<std::size_t>(task)].stimuli;
-        const bool rotates = settings.stimuli.value_or(own) == TaskCoverage::once_per_sculpture;
+        const bool rotates = rotates_materials(protocol, block, task);
         // A rotated task's cells are numbered by its place among the rotated tasks, whatever block it is in.
         int rotating_task = task;
         if (own == TaskCoverage::once_per_sculpture)
@@ -158,23 +157,47 @@ int length_of(const Protocol& protocol, const BlockPlan& plan) {
     return static_cast<int>(std::lround(length)) * block.repetitions;
 }
 
-std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number, std::uint64_t seed) {
-    const GroupPlace place = group_place(protocol, observer_number);
-    const GroupSettings* group =
-        place.group < 0 ? nullptr : &protocol.groups[static_cast<std::size_t>(place.group)];
+bool rotates_materials(const Protocol& protocol, int block, int task) {
+    return block_at(protocol, block)
+               .stimuli.value_or(protocol.tasks.at(static_cast<std::size_t>(task)).stimuli) ==
+           TaskCoverage::once_per_sculpture;
+}
+
+std::vector<BlockScopeOf> blocks_of_group(const Protocol& protocol, int number) {
+    const GroupSettings* group = number < 0 ? nullptr : &protocol.groups.at(static_cast<std::size_t>(number));
     std::vector<int> blocks{0};
     if (!protocol.blocks.empty())
         blocks = chosen(protocol.blocks, {}, group ? &group->blocks : nullptr);
-    std::vector<BlockPlan> plans;
-    for (const int block : order_of_blocks(protocol, blocks, place.row, seed)) {
+    std::vector<BlockScopeOf> scopes;
+    for (const int block : blocks) {
         const BlockSettings& settings = block_at(protocol, block);
-        BlockPlan plan{
-            block,
-            {chosen(protocol.tasks, settings.tasks, group ? &group->tasks : nullptr),
-             chosen(protocol.sculptures, settings.sculptures, group ? &group->sculptures : nullptr),
-             chosen(protocol.materials, settings.materials, group ? &group->materials : nullptr)},
-            {}};
-        plan.trials = trials_in(protocol, block, plan.scope, place.row);
+        scopes.push_back(
+            {block,
+             {chosen(protocol.tasks, settings.tasks, group ? &group->tasks : nullptr),
+              chosen(protocol.sculptures, settings.sculptures, group ? &group->sculptures : nullptr),
+              chosen(protocol.materials, settings.materials, group ? &group->materials : nullptr)}});
+    }
+    return scopes;
+}
+
+std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number, std::uint64_t seed,
+                                   RotationRule rule) {
+    using Kind = RotatedFactor::Kind;
+    const GroupPlace place = group_place(protocol, observer_number);
+    const Rotations rotations(protocol, place.group, rule);
+    const std::vector<BlockScopeOf> scopes = blocks_of_group(protocol, place.group);
+    std::vector<int> blocks;
+    for (const BlockScopeOf& one : scopes)
+        blocks.push_back(one.block);
+    std::vector<BlockPlan> plans;
+    for (const int block :
+         order_of_blocks(protocol, blocks, rotations.row_of(Kind::blocks, -1, place.row), seed)) {
+        BlockPlan plan{block, {}, {}, rotations.row_of(Kind::levels, block, place.row)};
+        plan.scope = std::find_if(scopes.begin(), scopes.end(), [&](const BlockScopeOf& one) {
+                         return one.block == block;
+                     })->scope;
+        plan.trials =
+            trials_in(protocol, block, plan.scope, rotations.row_of(Kind::materials, -1, place.row));
         if (!plan.trials.empty())
             plans.push_back(std::move(plan));
     }

@@ -5,7 +5,6 @@
 
 #include "experiment/design/block_plan.h"
 #include "experiment/design/latin_square.h"
-#include "experiment/design/observer_groups.h"
 #include "experiment/protocol/protocol_keys.h"
 
 namespace overt {
@@ -35,8 +34,8 @@ auto limit_in(const auto& settings, TrialFactor factor, OrderLimit::Kind kind) {
 /// Puts the items of one repetition of a block into parts, by the block's method.
 class PartMaker {
   public:
-    PartMaker(const Protocol& protocol, const BlockPlan& plan, int row)
-        : protocol_(protocol), plan_(plan), block_(block_at(protocol, plan.block)), row_(row) {}
+    PartMaker(const Protocol& protocol, const BlockPlan& plan)
+        : protocol_(protocol), plan_(plan), block_(block_at(protocol, plan.block)) {}
 
     /// `items` are the block's trials, as often as they come.
     OrderPart part_of(const std::vector<int>& items, const std::vector<Trial>& trials) const {
@@ -95,9 +94,10 @@ class PartMaker {
         if (block_.levels == LevelOrder::random || block_.levels == LevelOrder::fixed)
             return levels;
         std::vector<int> ordered;
-        for (const int place : row_of_square(square_of(block_.levels), static_cast<int>(levels.size()), row_,
-                                             static_cast<std::uint64_t>(protocol_.schedule.rotation_seed),
-                                             "levels of block " + block_.id))
+        for (const int place :
+             row_of_square(square_of(block_.levels), static_cast<int>(levels.size()), plan_.levels_row,
+                           static_cast<std::uint64_t>(protocol_.schedule.rotation_seed),
+                           "levels of block " + block_.id))
             ordered.push_back(levels[static_cast<std::size_t>(place)]);
         return ordered;
     }
@@ -105,11 +105,10 @@ class PartMaker {
     const Protocol& protocol_;
     const BlockPlan& plan_;
     const BlockSettings& block_;
-    int row_;
 };
 
-void add_block(OrderChain& chain, const Protocol& protocol, const BlockPlan& plan, int row) {
-    const PartMaker maker(protocol, plan, row);
+void add_block(OrderChain& chain, const Protocol& protocol, const BlockPlan& plan) {
+    const PartMaker maker(protocol, plan);
     const BlockSettings& block = block_at(protocol, plan.block);
     const bool is_mixed = block.repetition_order == RepetitionOrder::mixed;
     const auto first_part = static_cast<int>(chain.problem.parts.size());
@@ -190,13 +189,13 @@ LimitSetting limit_in(const Protocol& protocol, int block, TrialFactor factor, O
     return {is_given ? 0 : common, "schedule." + name, is_given && common > 0};
 }
 
-std::vector<OrderChain> order_chains(const Protocol& protocol, int observer_number, std::uint64_t seed) {
-    const int row = group_place(protocol, observer_number).row;
+std::vector<OrderChain> order_chains(const Protocol& protocol, int observer_number, std::uint64_t seed,
+                                     RotationRule rule) {
     std::vector<OrderChain> chains;
-    for (BlockPlan& plan : block_plans(protocol, observer_number, seed)) {
+    for (BlockPlan& plan : block_plans(protocol, observer_number, seed, rule)) {
         if (chains.empty() || !block_at(protocol, plan.block).continues)
             chains.emplace_back();
-        add_block(chains.back(), protocol, plan, row);
+        add_block(chains.back(), protocol, plan);
         chains.back().blocks.push_back(std::move(plan));
     }
     for (OrderChain& chain : chains)

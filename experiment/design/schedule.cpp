@@ -31,14 +31,14 @@ class ScheduleMaker::Orders {
     std::vector<std::pair<OrderProblem, OrderDraw>> known_;
 };
 
-ScheduleMaker::ScheduleMaker(const Protocol& protocol)
-    : protocol_(protocol), orders_(std::make_unique<Orders>()) {}
+ScheduleMaker::ScheduleMaker(const Protocol& protocol, RotationRule rule)
+    : protocol_(protocol), rule_(rule), orders_(std::make_unique<Orders>()) {}
 
 ScheduleMaker::~ScheduleMaker() = default;
 
 Schedule ScheduleMaker::make(const Observer& observer, std::uint64_t seed) {
     Schedule schedule{observer, seed, {}};
-    for (const OrderChain& chain : order_chains(protocol_, observer.number, seed)) {
+    for (const OrderChain& chain : order_chains(protocol_, observer.number, seed, rule_)) {
         const std::string& block = block_at(protocol_, chain.blocks.front().block).id;
         const std::string purpose = block.empty() ? "trial order" : "trial order of block " + block;
         RandomStream random(seed, purpose, static_cast<std::uint64_t>(observer.number));
@@ -84,8 +84,9 @@ int trial_count(const Protocol& protocol, int number) {
     return count;
 }
 
-Schedule make_schedule(const Protocol& protocol, const Observer& observer, std::uint64_t seed) {
-    return ScheduleMaker(protocol).make(observer, seed);
+Schedule make_schedule(const Protocol& protocol, const Observer& observer, std::uint64_t seed,
+                       RotationRule rule) {
+    return ScheduleMaker(protocol, rule).make(observer, seed);
 }
 
 std::optional<int> observer_number(std::string_view label) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "experiment/design/rotation.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/trial.h"
 
@@ -33,7 +34,7 @@ int trial_count(const Protocol& protocol, int observer_number);
 /// observer's orders for the next.
 class ScheduleMaker {
   public:
-    explicit ScheduleMaker(const Protocol& protocol);
+    explicit ScheduleMaker(const Protocol& protocol, RotationRule rule = RotationRule::crossed);
     ~ScheduleMaker();
 
     /// A pure function of protocol, observer's number and seed. Each block has a random stream of its own,
@@ -45,11 +46,13 @@ class ScheduleMaker {
   private:
     class Orders;
     const Protocol& protocol_;
+    RotationRule rule_;
     std::unique_ptr<Orders> orders_;
 };
 
 /// One schedule.
-Schedule make_schedule(const Protocol& protocol, const Observer& observer, std::uint64_t seed);
+Schedule make_schedule(const Protocol& protocol, const Observer& observer, std::uint64_t seed,
+                       RotationRule rule = RotationRule::crossed);
 
 /// Why no order keeps to the protocol's limits: the fewest limits that cannot hold together.
 struct OrderConflict {
