@@ -5,19 +5,15 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include "app/cli/terminal_output.h"
 #include "app/command_line.h"
 #include "app/inputs/protocol_file.h"
 #include "experiment/base/error.h"
 
-int main(int argc, char** argv) {
-    // A file that may not grow any more is then an error like a full disk, which is told and leaves what is
-    // recorded in order, instead of the end of the program.
-    std::signal(SIGXFSZ, SIG_IGN);
-    // Memory of pictures and maps goes back to the system when it is freed, instead of staying with the
-    // thread that used it.
-    mallopt(M_MMAP_THRESHOLD, 1 << 20);
-    // What is said comes line by line, also through a pipe, and in order with the progress on standard error.
-    std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
+namespace {
+
+/// Runs the command; its exit code.
+int run(int argc, char** argv) {
     try {
         return overt::run_command_line(argc, argv);
     } catch (const overt::FindingsPrinted&) {
@@ -29,4 +25,21 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "overt: {}\n", error.what());
         return 1;
     }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    overt::keep_output_from_failing();
+    // A file that may not grow any more is then an error like a full disk, which is told and leaves what is
+    // recorded in order, instead of the end of the program.
+    std::signal(SIGXFSZ, SIG_IGN);
+    // Memory of pictures and maps goes back to the system when it is freed, instead of staying with the
+    // thread that used it.
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
+    const int exit_code = run(argc, argv);
+    if (overt::all_output_arrived())
+        return exit_code;
+    fmt::print(stderr, "overt: standard output cannot be written: what was printed is not complete\n");
+    return exit_code == 0 ? 1 : exit_code;
 }

@@ -5,6 +5,7 @@
 #include "app/cli/cache_folder.h"
 #include "app/cli/interruption.h"
 #include "app/cli/progress_bar.h"
+#include "app/cli/terminal_output.h"
 #include "app/cli/this_program.h"
 #include "app/inputs/protocol_file.h"
 #include "app/inputs/protocol_inputs.h"
@@ -191,6 +192,7 @@ void note_circumstances(const RunOptions& options, const Protocol& protocol, con
 } // namespace
 
 int run_session(const RunOptions& options) {
+    output_is_only_told();
     const Observer observer = observer_labelled(options.observer);
     const Experiment experiment =
         read_experiment_or_report(options.protocol, cache_folder(), InputDepth::everything);

@@ -1,0 +1,71 @@
+#include "app/cli/terminal_output.h"
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace overt {
+
+namespace {
+
+std::atomic<bool> is_output_lost = false, is_only_told = false;
+
+/// The write function of a stream on the file descriptor that `cookie` is: all is taken, and what does not
+/// arrive is remembered if it was standard output.
+ssize_t write_or_forget(void* cookie, const char* bytes, std::size_t count) {
+    const int descriptor = static_cast<int>(reinterpret_cast<std::intptr_t>(cookie));
+    for (std::size_t written = 0; written < count;) {
+        const ssize_t now = ::write(descriptor, bytes + written, count - written);
+        if (now > 0) {
+            written += static_cast<std::size_t>(now);
+        } else if (errno != EINTR) {
+            if (descriptor == STDOUT_FILENO)
+                is_output_lost = true;
+            break;
+        }
+    }
+    return static_cast<ssize_t>(count);
+}
+
+std::FILE* stream_on(int descriptor, int buffering) {
+    if (::fcntl(descriptor, F_GETFD) == -1 && errno == EBADF) {
+        const int nowhere = ::open("/dev/null", O_WRONLY); // the lowest free number, which may be another
+        if (nowhere != descriptor) {
+            ::dup2(nowhere, descriptor);
+            ::close(nowhere);
+        }
+    }
+    cookie_io_functions_t functions{};
+    functions.write = write_or_forget;
+    std::FILE* const stream =
+        ::fopencookie(reinterpret_cast<void*>(static_cast<std::intptr_t>(descriptor)), "w", functions);
+    if (stream)
+        std::setvbuf(stream, nullptr, buffering, BUFSIZ);
+    return stream;
+}
+
+} // namespace
+
+void keep_output_from_failing() {
+    std::signal(SIGPIPE, SIG_IGN);
+    // What is said comes line by line, also through a pipe, and in order with the progress on standard error.
+    if (std::FILE* const output = stream_on(STDOUT_FILENO, _IOLBF))
+        stdout = output;
+    if (std::FILE* const errors = stream_on(STDERR_FILENO, _IONBF))
+        stderr = errors;
+}
+
+bool all_output_arrived() {
+    std::fflush(stdout);
+    std::fflush(stderr);
+    return is_only_told || !is_output_lost;
+}
+
+void output_is_only_told() { is_only_told = true; }
+
+} // namespace overt

@@ -1,0 +1,20 @@
+/// Standard output and standard error that cannot end the program.
+#pragma once
+
+namespace overt {
+
+/// Puts streams in the place of stdout and stderr that take whatever is written, also where the terminal is
+/// gone, the reader of a pipe has ended or the disk is full: an experiment must not end because nobody reads
+/// along. A stream that was closed by the caller is opened to nowhere, so that no file of ours takes its
+/// number. Call once, first of all.
+void keep_output_from_failing();
+
+/// Writes out what is buffered; whether all of standard output has arrived so far. Standard error does not
+/// count.
+bool all_output_arrived();
+
+/// What the running command prints is not what it was called for: a session is on disk. Then
+/// all_output_arrived() is true whatever happens.
+void output_is_only_told();
+
+} // namespace overt
