@@ -1,6 +1,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <new>
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -21,6 +22,9 @@ int run(int argc, char** argv) {
     } catch (const overt::InputError& error) {
         fmt::print(stderr, "overt: {}\n", error.what());
         return 2;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "overt: the memory of this machine does not suffice: close other programs\n");
+        return 1;
     } catch (const std::exception& error) {
         fmt::print(stderr, "overt: {}\n", error.what());
         return 1;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/memory_for.h"
 #include "experiment/maps/coordinate_codec.h"
 #include "experiment/maps/picture_file.h"
 
@@ -173,13 +174,11 @@ struct Raw {
     std::vector<std::uint16_t> codes; ///< of a file of 16 bits
 };
 
-Raw read_raw(const std::filesystem::path& file) {
+Raw read_opened(const std::filesystem::path& file) {
     OIIO::ImageSpec wish;
     // Colours as they stand: multiplying them by alpha would move the places.
     wish.attribute("oiio:UnassociatedAlpha", 1);
-    auto input = OIIO::ImageInput::open(file.string(), &wish);
-    if (!input)
-        throw InputError(fmt::format("{}: the map cannot be read: {}", file.string(), OIIO::geterror()));
+    const auto input = open_picture(file, "map", &wish);
     Raw raw{input->spec(), {}, {}};
     const std::size_t count = static_cast<std::size_t>(raw.spec.width) *
                               static_cast<std::size_t>(raw.spec.height) *
@@ -200,6 +199,10 @@ Raw read_raw(const std::filesystem::path& file) {
         throw InputError(fmt::format("{}: reading the map failed: {}", file.string(), input->geterror()));
     }
     return raw;
+}
+
+Raw read_raw(const std::filesystem::path& file) {
+    return with_memory_for(file, [&] { return read_opened(file); });
 }
 
 [[noreturn]] void refuse_value(const std::filesystem::path& file, const OIIO::ImageSpec& spec, std::size_t i,
@@ -252,10 +255,7 @@ void write_coordinate_png(const std::filesystem::path& file, const CoordinateIma
 }
 
 MapDescription read_map_description(const std::filesystem::path& file) {
-    const auto input = OIIO::ImageInput::open(file.string());
-    if (!input)
-        throw InputError(fmt::format("{}: the map cannot be read: {}", file.string(), OIIO::geterror()));
-    return description_in(input->spec());
+    return description_in(open_picture(file, "map")->spec());
 }
 
 CoordinateImageFile read_coordinate_image(const std::filesystem::path& file, const MapDescription& known) {

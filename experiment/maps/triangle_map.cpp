@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/memory_for.h"
 #include "experiment/maps/picture_file.h"
 
 namespace overt {
@@ -26,9 +27,7 @@ void write_triangle_map(const std::filesystem::path& file, const TriangleMap& ma
 }
 
 TriangleMap read_triangle_map(const std::filesystem::path& file) {
-    auto input = OIIO::ImageInput::open(file.string());
-    if (!input)
-        throw InputError(fmt::format("{}: the map cannot be read: {}", file.string(), OIIO::geterror()));
+    const auto input = open_picture(file, "map");
     const OIIO::ImageSpec spec = input->spec();
     if (spec.nchannels != 1 || spec.channelnames.front() != "triangle" ||
         spec.format != OIIO::TypeDesc::UINT32) {
@@ -36,7 +35,9 @@ TriangleMap read_triangle_map(const std::filesystem::path& file) {
             fmt::format("{}: is no map of triangle numbers (one 32-bit channel «triangle»)", file.string()));
     }
     TriangleMap map{{spec.width, spec.height}, {}};
-    map.codes.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height));
+    with_memory_for(file, [&] {
+        map.codes.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height));
+    });
     input->threads(1);
     if (!input->read_image(0, 0, 0, 1, OIIO::TypeDesc::UINT32, map.codes.data())) {
         throw InputError(fmt::format("{}: reading the map failed: {}", file.string(), input->geterror()));

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/memory_for.h"
 #include "experiment/scene/mesh_source.h"
 #include "experiment/scene/obj_reader.h"
 #include "experiment/scene/ply_reader.h"
@@ -49,9 +50,7 @@ void turn_and_scale(Mesh& mesh, const MeshImport& import) {
     }
 }
 
-} // namespace
-
-RawMesh read_mesh_file(const std::filesystem::path& path) {
+RawMesh read_opened(const std::filesystem::path& path) {
     const MeshSource source(path);
     const std::string extension = lower_extension(path);
     if (is_ply(source))
@@ -71,6 +70,12 @@ RawMesh read_mesh_file(const std::filesystem::path& path) {
     if (extension == ".ply")
         source.fail("the file is called .ply but does not begin with the line 'ply'.");
     source.fail("this is no mesh in a known format (PLY, OBJ or STL); export it as one of them.");
+}
+
+} // namespace
+
+RawMesh read_mesh_file(const std::filesystem::path& path) {
+    return with_memory_for(path, [&] { return read_opened(path); });
 }
 
 UpAxis up_axis_named(std::string_view name) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/memory_for.h"
 #include "experiment/maps/picture_file.h"
 #include "render/image/stored_values.h"
 
@@ -105,21 +106,10 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file) 
     // Colours as they stand in the file: multiplied by alpha too early, an encoding could not be undone.
     OIIO::ImageSpec wish;
     wish.attribute("oiio:UnassociatedAlpha", 1);
-    auto input = OIIO::ImageInput::open(file.string(), &wish);
-    if (!input)
-        throw InputError(fmt::format("{}: cannot be read as a picture: {}", file.string(), OIIO::geterror()));
-    return input;
+    return open_picture(file, "picture", &wish);
 }
 
-} // namespace
-
-LinearImage read_linear_image(const std::filesystem::path& file, FrameEncoding encoding) {
-    LinearImage image;
-    read_linear_image(file, encoding, image);
-    return image;
-}
-
-void read_linear_image(const std::filesystem::path& file, FrameEncoding encoding, LinearImage& into) {
+void read_opened(const std::filesystem::path& file, FrameEncoding encoding, LinearImage& into) {
     const auto input = open_image(file);
     const OIIO::ImageSpec spec = input->spec();
     const ChannelPlaces places = places_in(spec, file);
@@ -158,6 +148,18 @@ void read_linear_image(const std::filesystem::path& file, FrameEncoding encoding
         for (glm::vec4& pixel : into.pixels)
             pixel = glm::vec4(glm::vec3(pixel) * pixel.w, pixel.w);
     }
+}
+
+} // namespace
+
+LinearImage read_linear_image(const std::filesystem::path& file, FrameEncoding encoding) {
+    LinearImage image;
+    read_linear_image(file, encoding, image);
+    return image;
+}
+
+void read_linear_image(const std::filesystem::path& file, FrameEncoding encoding, LinearImage& into) {
+    with_memory_for(file, [&] { read_opened(file, encoding, into); });
 }
 
 glm::ivec2 image_size_px(const std::filesystem::path& file) {

@@ -19,7 +19,7 @@ int exit_code_of(const SmallExperiment& experiment, const std::vector<std::strin
         command += " " + quoted_for_shell(argument);
     const TemporaryFolder folder;
     const std::string code = (folder.path() / "code").string();
-    std::system(("{ " + command + "; echo $? >" + code + "; } </dev/null " + redirections).c_str());
+    REQUIRE(std::system(("{ " + command + "; echo $? >" + code + "; } </dev/null " + redirections).c_str()) != -1);
     return std::stoi("0" + text_of(code));
 }
 
