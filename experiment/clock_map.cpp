@@ -5,45 +5,51 @@
 #include <vector>
 
 #include "experiment/base/error.h"
+#include "experiment/box_time.h"
 
 namespace overt {
 namespace {
 
-/// A reading of the tracker's clock may be anywhere within its tick.
-constexpr double tracker_tick_ns = 1000.0;
+/// A reading of the other clock may be anywhere within its tick: both trackers and boxes count microseconds.
+constexpr double tick_ns = 1000.0;
 
-SessionTime midpoint(const ClockPair& pair) { return pair.before + (pair.after - pair.before) / 2; }
+template <class Pair> SessionTime midpoint(const Pair& pair) {
+    return pair.before + (pair.after - pair.before) / 2;
+}
 
-double half_width_ns(const ClockPair& pair) {
-    return 0.5 * std::abs(static_cast<double>((pair.after - pair.before).count())) + tracker_tick_ns;
+template <class Pair> double half_width_ns(const Pair& pair) {
+    return 0.5 * std::abs(static_cast<double>((pair.after - pair.before).count())) + tick_ns;
 }
 
 double square(double value) { return value * value; }
 
 } // namespace
 
-ClockMap::ClockMap(std::span<const ClockPair> pairs) {
+template <class OtherClock>
+ClockMapOf<OtherClock>::ClockMapOf(std::span<const ClockPairOf<OtherClock>> pairs) {
     OVERT_EXPECTS(!pairs.empty());
-    reference_tracker_ = pairs.front().tracker;
+    reference_other_ = pairs.front().other;
     reference_session_ = midpoint(pairs.front());
     fit_line(pairs);
 }
 
-double ClockMap::nanoseconds_since_reference(TrackerTime time) const {
-    return 1000.0 * static_cast<double>((time - reference_tracker_).count());
+template <class OtherClock> double ClockMapOf<OtherClock>::nanoseconds_since_reference(OtherTime time) const {
+    static_assert(std::is_same_v<typename OtherClock::period, std::micro>);
+    return tick_ns * static_cast<double>((time - reference_other_).count());
 }
 
-void ClockMap::fit_line(std::span<const ClockPair> pairs) {
+template <class OtherClock>
+void ClockMapOf<OtherClock>::fit_line(std::span<const ClockPairOf<OtherClock>> pairs) {
     struct Point {
         double x_ns, y_ns, half_width_ns, weight;
     };
     std::vector<Point> points;
-    for (const ClockPair& pair : pairs) {
+    for (const ClockPairOf<OtherClock>& pair : pairs) {
         // The difference is taken in integers: both terms are large and it is small.
-        const SessionDuration elapsed = pair.tracker - reference_tracker_;
+        const SessionDuration elapsed = pair.other - reference_other_;
         const SessionDuration correction = (midpoint(pair) - reference_session_) - elapsed;
         const double width = half_width_ns(pair);
-        points.push_back({nanoseconds_since_reference(pair.tracker), static_cast<double>(correction.count()),
+        points.push_back({nanoseconds_since_reference(pair.other), static_cast<double>(correction.count()),
                           width, 1.0 / square(width)});
     }
 
@@ -83,20 +89,21 @@ void ClockMap::fit_line(std::span<const ClockPair> pairs) {
     }
 }
 
-MappedTime ClockMap::to_session(TrackerTime time) const {
-    const SessionDuration elapsed = time - reference_tracker_;
+template <class OtherClock> MappedTime ClockMapOf<OtherClock>::to_session(OtherTime time) const {
+    const SessionDuration elapsed = time - reference_other_;
     const double from_centre_ns = nanoseconds_since_reference(time) - centre_ns_;
     const double correction_ns = offset_ns_ + slope_ * from_centre_ns;
-    const double uncertainty_ns = offset_uncertainty_ns_ + slope_uncertainty_ * std::abs(from_centre_ns) +
-                                  worst_excess_ns_ + tracker_tick_ns;
+    const double uncertainty_ns =
+        offset_uncertainty_ns_ + slope_uncertainty_ * std::abs(from_centre_ns) + worst_excess_ns_ + tick_ns;
     return {reference_session_ + elapsed + SessionDuration(std::llround(correction_ns)),
             SessionDuration(std::llround(std::ceil(uncertainty_ns)))};
 }
 
-TrackerTime ClockMap::to_tracker(SessionTime time) const {
-    using Microseconds = TrackerClock::duration;
+template <class OtherClock>
+typename ClockMapOf<OtherClock>::OtherTime ClockMapOf<OtherClock>::to_other(SessionTime time) const {
+    using Microseconds = typename OtherClock::duration;
     // The clocks' rates differ by little, so each step leaves that little of the error before.
-    TrackerTime found = reference_tracker_ + std::chrono::floor<Microseconds>(time - reference_session_);
+    OtherTime found = reference_other_ + std::chrono::floor<Microseconds>(time - reference_session_);
     for (int step = 0; step < 8; ++step) {
         const Microseconds error = std::chrono::floor<Microseconds>(time - to_session(found).time);
         if (error == Microseconds(0))
@@ -105,5 +112,8 @@ TrackerTime ClockMap::to_tracker(SessionTime time) const {
     }
     return found;
 }
+
+template class ClockMapOf<TrackerClock>;
+template class ClockMapOf<BoxClock>;
 
 } // namespace overt

@@ -19,12 +19,4 @@ struct GazeSample {
     float pupil_area = 0.0f; ///< the tracker's own unit; 0 when lost
 };
 
-/// One reading of both clocks: the tracker's time was taken at some instant between the two readings of the
-/// session clock.
-struct ClockPair {
-    SessionTime before;
-    TrackerTime tracker;
-    SessionTime after;
-};
-
 } // namespace overt

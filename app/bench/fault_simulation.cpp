@@ -66,7 +66,7 @@ FaultScript random_script(std::uint64_t seed, std::uint64_t index) {
     // Without a count a stamp that is off by half an interval says another refresh: no more than 0.42.
     const double most_ms = script.faults.counts_refreshes ? 1.0 : std::min(1.0, 0.14 * interval_ms);
     script.faults.jitter_sd_ms = random.below(4) == 0 ? 0.0 : random.uniform(0.0, most_ms);
-    // Apart by more than the most that one makes go by.
+    // Farther apart than the most refreshes that pass because of one fault.
     int refresh = 0;
     for (int count = static_cast<int>(random.below(13)); count > 0; --count) {
         refresh += 12 + static_cast<int>(random.below(22));

@@ -21,17 +21,6 @@ DisplayPlusPlusSettings box_settings() {
     return settings;
 }
 
-BoxClockReading reading_of(const BoxClockPair& pair) {
-    return {pair.before, pair.box.time_since_epoch().count(), pair.after};
-}
-
-std::vector<BoxClockReading> readings_of(const std::vector<BoxClockPair>& pairs) {
-    std::vector<BoxClockReading> readings;
-    for (const BoxClockPair& pair : pairs)
-        readings.push_back(reading_of(pair));
-    return readings;
-}
-
 /// The protocol says how long a frame is lit in refreshes: at another rate the animation has another speed.
 /// Both the crystals of a display and a box's measurement are good to better than a thousandth.
 void require_rate(const std::string& port, double measured_hz, double wanted_hz) {
@@ -44,7 +33,7 @@ void require_rate(const std::string& port, double measured_hz, double wanted_hz)
 
 /// Whether a box that has run on since the earlier readings can show this time.
 bool follows_from(const std::vector<BoxClockPair>& earlier, const BoxClockPair& reading) {
-    const MappedTime expected = BoxClockMap(earlier).to_session(reading.box);
+    const MappedTime expected = BoxClockMap(earlier).to_session(reading.other);
     return reading.before - expected.uncertainty <= expected.time &&
            expected.time <= reading.after + expected.uncertainty;
 }
@@ -148,7 +137,7 @@ ShownClockReset DisplayBoxSession::show_clock_reset(PagePresenter& presenter) {
 
 void DisplayBoxSession::write_beginning(SessionStore& store) {
     store.display_box(recorded_);
-    store.box_clock(readings_of(pairs_));
+    store.box_clock(pairs_);
     store.event({clock_.now(), -1, "display box", describe(recorded_)});
 }
 
@@ -158,9 +147,9 @@ void DisplayBoxSession::read_clock(SessionStore& store) {
         throw DeviceError(fmt::format("{}: the display box's clock shows {:.6f} s and did not run on since "
                                       "it was read last: the box was "
                                       "restarted or reset, and is not in {} mode any more",
-                                      recorded_.port, to_seconds(reading.box), recorded_.mode));
+                                      recorded_.port, to_seconds(reading.other), recorded_.mode));
     pairs_.push_back(reading);
-    store.box_clock({reading_of(reading)});
+    store.box_clock({reading});
 }
 
 void DisplayBoxSession::check(SessionStore& store) {
@@ -175,7 +164,7 @@ void DisplayBoxSession::check(SessionStore& store) {
 void DisplayBoxSession::leave(SessionStore& store) {
     check(store);
     box_->restore_desktop();
-    const BoxClockFit fit = fit_box_clock(readings_of(pairs_));
+    const BoxClockFit fit = fit_box_clock(pairs_);
     store.event({clock_.now(), -1, "display box left",
                  fmt::format("back in Bits++; its clock by {} readings: drift {:.3f} ppm, at most {:.3f} ppm "
                              "off; times read off it at most {:.3f} ms off",

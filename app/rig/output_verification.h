@@ -31,7 +31,7 @@ std::vector<PageVerification> verify_pages(PagePresenter& presenter, const Frame
 /// Told before each stimulus.
 using StimulusProgress = std::function<void(int done, int total)>;
 
-/// Verifies each stimulus of a schedule and writes an event «output verified» for each page. Throws
+/// Verifies each stimulus of a schedule and writes an event "output verified" for each page. Throws
 /// GraphicsError, once all is written, if a single value differs from its prediction.
 void record_verification(PagePresenter& presenter, const FrameSource& pages, const Protocol& protocol,
                          const Schedule& schedule, const Clock& clock, SessionLog& log,

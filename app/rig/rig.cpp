@@ -1,6 +1,10 @@
 #include "app/rig/rig.h"
 
+#include "app/rig/response_devices.h"
+#include "app/rig/tracker_devices.h"
 #include "devices/host/clocks.h"
+#include "devices/simulated/operator_script.h"
+#include "devices/simulated/simulated_observer.h"
 #include "experiment/base/error.h"
 #include "render/gl/headless_context.h"
 #include "render/vblank/timing_check.h"
@@ -14,6 +18,16 @@ bool wants_window(ContextChoice context) {
 
 namespace {
 
+std::vector<ScriptedOperatorKey> read_operator_keys(const RigRequest& request,
+                                                    const OperatorSettings& settings) {
+    if (!request.operator_keys.empty() && !request.simulate_observer)
+        throw InputError("--simulate-operator is for sessions with --simulate-observer");
+    std::vector<ScriptedOperatorKey> keys;
+    for (const std::string& key : request.operator_keys)
+        keys.push_back(read_operator_key(key, static_cast<int>(settings.skip_reasons.size())));
+    return keys;
+}
+
 std::unique_ptr<GlContext> make_context(const Protocol& protocol, const RigRequest& request) {
     const bool window = wants_window(request.context);
     if (!window && !request.simulate_observer) {
@@ -22,8 +36,7 @@ std::unique_ptr<GlContext> make_context(const Protocol& protocol, const RigReque
     if (!window)
         return make_headless_context(request.context);
     const DisplaySettings& display = protocol.display;
-    // In virtual time nothing is lit for as long as it should be: a rehearsal, for which no screen is taken
-    // over.
+    // In virtual time pictures do not stand for their true durations: no screen is taken over for that.
     const bool fullscreen = !request.windowed && !request.virtual_time;
     return std::make_unique<WindowContext>(WindowRequest{{display.width_px, display.height_px},
                                                          "overt: " + protocol.name,
@@ -44,10 +57,13 @@ std::vector<ScreenFinding> examine_screen(const WindowContext& window, const Pro
 Rig::Rig(const Protocol& protocol, std::span<const Sculpture> sculptures, const RigRequest& request,
          const std::filesystem::path& cache)
     : protocol_(&protocol), sculptures_(sculptures), request_(request),
+      operator_keys_(read_operator_keys(request, protocol.operators)),
       context_(make_context(protocol, request)), window_(dynamic_cast<WindowContext*>(context_.get())),
       screen_findings_(is_on_a_real_screen() ? examine_screen(*window_, protocol)
                                              : std::vector<ScreenFinding>()),
       library_(*context_, protocol, sculptures, cache) {}
+
+Rig::~Rig() = default;
 
 bool Rig::maps_are_live() const {
     // Software takes a tenth of a second for a map: far longer than a refresh.
@@ -96,19 +112,25 @@ void Rig::open(DisplayFaults faults, SessionTime start) {
         live_maps_ = std::make_unique<LiveMaps>(*context_, sculptures_, library_.poses(), geometry.image_px);
     observer_ = std::make_unique<SimulatedObserver>(make_observed_scene(*protocol_, sculptures_, geometry),
                                                     request_.seed);
-    tracker_ = std::make_unique<SimulatedEyeTracker>(*clock_, *observer_, request_.seed,
-                                                     simulated_tracker_settings(protocol_->tracker));
-    if (request_.simulate_observer)
-        simulated_panel_ =
-            std::make_unique<SimulatedResponsePanel>(*clock_, *observer_, request_.operator_keys);
-    panel_ = simulated_panel_.get();
-    if (window_) {
-        window_panel_ = std::make_unique<WindowResponsePanel>(*window_, *clock_, protocol_->operators,
-                                                              protocol_->consent, panel_);
-        panel_ = window_panel_.get();
-    }
+    tracker_ = tracker_device(protocol_->tracker.kind, request_.virtual_time)
+                   .make({protocol_->tracker, *clock_, *observer_, request_.seed});
+    panels_ = make_response_devices(
+        {*protocol_, *clock_, *observer_, window_, request_.simulate_observer, operator_keys_});
     if (is_on_a_real_screen())
         window_->hold_still();
+}
+
+AnswerEquipment Rig::answer_equipment() const {
+    return {protocol_->answers, *clock_, request_.simulate_observer ? observer_.get() : nullptr,
+            request_.seed};
+}
+
+std::vector<std::string> Rig::closing_warnings() const {
+    std::vector<std::string> warnings;
+    for (const std::unique_ptr<ResponsePanel>& panel : panels_)
+        for (std::string& warning : panel->closing_warnings())
+            warnings.push_back(std::move(warning));
+    return warnings;
 }
 
 std::vector<ScreenFinding> Rig::check_timing(double seconds,

@@ -6,18 +6,22 @@
 #include <memory>
 
 #include "app/cli/context_choice.h"
-#include "devices/simulated/simulated_eye_tracker.h"
-#include "devices/simulated/simulated_observer.h"
-#include "devices/simulated/simulated_response_panel.h"
+#include "app/rig/answer_equipment.h"
+#include "experiment/ports/eye_tracker.h"
+#include "experiment/ports/presentation_listener.h"
+#include "experiment/ports/response_panel.h"
 #include "experiment/record/session_header.h"
 #include "render/presenter/page_presenter.h"
 #include "render/stimulus/live_maps.h"
 #include "render/stimulus/stimulus_library.h"
 #include "render/vblank/display_surface.h"
 #include "render/window/screen_check.h"
-#include "render/window/window_response_panel.h"
+#include "render/window/window_context.h"
 
 namespace overt {
+
+class SimulatedObserver;
+struct ScriptedOperatorKey;
 
 /// When the hidden maps are drawn: before the session, or while their frames are shown.
 enum class MapTime { automatic, prepared, live };
@@ -26,11 +30,11 @@ struct RigRequest {
     ContextChoice context;
     bool virtual_time = false;
     bool windowed = false;
-    bool simulate_observer = false; ///< else somebody answers at the window's keyboard
+    bool simulate_observer = false; ///< else the observer answers at the window's keyboard
     std::uint64_t seed = 0;         ///< of everything simulated
     MapTime maps = MapTime::automatic;
-    std::optional<int> monitor = {};                     ///< from 1; see WindowRequest
-    std::vector<ScriptedOperatorKey> operator_keys = {}; ///< of a simulated observer's session
+    std::optional<int> monitor = {};             ///< from 1; see WindowRequest
+    std::vector<std::string> operator_keys = {}; ///< of a simulated operator, see read_operator_key()
 };
 
 /// Whether a session with these options opens a window on this machine.
@@ -38,11 +42,12 @@ bool wants_window(ContextChoice context);
 
 class Rig {
   public:
-    /// `protocol` and `sculptures` must outlive the rig. Opens the display and starts the clock. Throws
-    /// GraphicsError, also for a screen that would not show what the protocol says, or InputError for a
-    /// request that makes no sense on this machine.
+    /// `protocol` and `sculptures` must outlive the rig. Opens the display. Throws GraphicsError, also for a
+    /// screen that would not show what the protocol says, or InputError for a request that this machine
+    /// cannot meet.
     Rig(const Protocol& protocol, std::span<const Sculpture> sculptures, const RigRequest& request,
         const std::filesystem::path& cache);
+    ~Rig();
 
     const GlContext& context() const { return *context_; }
     StimulusLibrary& library() { return library_; }
@@ -51,10 +56,10 @@ class Rig {
         return request_.virtual_time ? ClockKind::virtual_time : ClockKind::steady;
     }
 
-    /// A screen lights what is shown, for as long as it should be.
+    /// Stimuli are shown on a real screen in real time.
     bool is_on_a_real_screen() const { return window_ != nullptr && !request_.virtual_time; }
 
-    /// What may spoil the signal on its way to the light; nothing unless is_on_a_real_screen().
+    /// What may change the signal on its way to the screen; nothing unless is_on_a_real_screen().
     const std::vector<ScreenFinding>& screen_findings() const { return screen_findings_; }
 
     /// Whether the hidden maps are drawn while their frames are shown; else they are to be prepared.
@@ -73,17 +78,14 @@ class Rig {
 
     PagePresenter& presenter() { return *presenter_; }
     EyeTracker& tracker() { return *tracker_; }
-    ResponsePanel& panel() { return *panel_; }
-    /// Who looks and speaks; also there where somebody real sits, who then is not asked.
-    const SimulatedObserver& simulated_observer() const { return *observer_; }
-    /// Keys of the simulated operator that the session had no moment for.
-    std::vector<std::string> operator_keys_not_pressed() const {
-        return simulated_panel_ ? simulated_panel_->not_pressed() : std::vector<std::string>();
-    }
-    /// What keeps the time of a display that is not there, or null.
+    ResponsePanel& panel() { return *panels_.back(); }
+    /// What spoken answers are recorded with: to be made once, after open(). Throws as its constructor.
+    AnswerEquipment answer_equipment() const;
+    /// What the operator should know once the session has ended, a line each.
+    std::vector<std::string> closing_warnings() const;
+    /// The refresh of a display that only keeps time; null for a real screen in real time.
     const VirtualRefresh* virtual_refresh() const { return virtual_refresh_; }
-    /// Those who see what is shown: the simulated observer, the hidden pass if it is live, and the display's
-    /// faults.
+    /// The simulated observer, the hidden pass if it is live, and a display that only keeps time.
     std::vector<PresentationListener*> listeners();
     LiveMaps* live_maps() { return live_maps_.get(); } ///< null unless maps_are_live()
 
@@ -91,6 +93,7 @@ class Rig {
     const Protocol* protocol_;
     std::span<const Sculpture> sculptures_;
     RigRequest request_;
+    std::vector<ScriptedOperatorKey> operator_keys_;
     // Objects of OpenGL go before the context they live in.
     std::unique_ptr<GlContext> context_;
     WindowContext* window_ = nullptr; ///< the context, if it is a window
@@ -103,10 +106,8 @@ class Rig {
     std::unique_ptr<PagePresenter> presenter_;
     std::unique_ptr<LiveMaps> live_maps_;
     std::unique_ptr<SimulatedObserver> observer_;
-    std::unique_ptr<SimulatedEyeTracker> tracker_;
-    std::unique_ptr<SimulatedResponsePanel> simulated_panel_;
-    std::unique_ptr<WindowResponsePanel> window_panel_;
-    ResponsePanel* panel_ = nullptr;
+    std::unique_ptr<EyeTracker> tracker_;
+    std::vector<std::unique_ptr<ResponsePanel>> panels_; ///< the session asks the last
 };
 
 } // namespace overt

@@ -60,7 +60,8 @@ void ask_for_values(std::span<const ObserverFieldSettings> fields, FieldValues& 
                << std::flush;
             std::string line;
             if (!std::getline(from, line))
-                throw InputError(fmt::format("the form was left at «{}»: no session was begun", field.title));
+                throw InputError(
+                    fmt::format("the form was left at \"{}\": no session was begun", field.title));
             const std::string value = trimmed(line);
             const auto fault = fault_of(field, value);
             is_answered = !fault;
@@ -88,7 +89,7 @@ void require_values(std::span<const ObserverFieldSettings> fields, const FieldVa
     }
     if (!missing.empty())
         throw InputError(
-            fmt::format("the protocol wants to know of the observer, and nobody can be asked here:{}",
+            fmt::format("the protocol asks for these of the observer, and they cannot be asked for here:{}",
                         fmt::join(missing, "")));
 }
 

@@ -46,7 +46,8 @@ std::filesystem::path session_to_take_up(const SessionPlace& place, std::optiona
                     whose, fmt::join(numbers, ", "), numbers.size() == 1 ? "is" : "are"));
 }
 
-/// Only the very texts it was begun with: another order or other screens would make two halves of nothing.
+/// A session goes on with exactly the texts that it was begun with: with other orders or screens its parts
+/// could not be analysed as one session.
 void require_same_protocol(const std::filesystem::path& folder, const RecordedProtocol& recorded,
                            const Protocol& now) {
     std::string changed;
@@ -68,8 +69,7 @@ void require_same_protocol(const std::filesystem::path& folder, const RecordedPr
                         folder.string(), changed, (folder / "protocol.toml").string()));
 }
 
-/// An imported session is complete in itself, and a copy with imported gaze is one of the session that may go
-/// on.
+/// An imported session is complete, and one with imported gaze is a copy of the session that may be resumed.
 void refuse_imported(const SessionRecord& record) {
     const std::string folder = record.directory().string();
     const int sittings = 1 + static_cast<int>(record.resumptions().size());
@@ -171,8 +171,8 @@ bool finish_manifest(const RunOptions& options, const SessionPlace& place) {
 ResumedSession take_up_session(const RunOptions& options, const SessionPlace& place,
                                const Protocol& protocol) {
     const std::filesystem::path folder = session_to_take_up(place, options.session_number);
-    // Somebody who runs it just now is found out before minutes are spent.
-    { const SessionLock nobody_else(folder); }
+    // Another program that records into it just now is found before minutes are spent.
+    { const SessionLock no_other_program(folder); }
     const SessionRecord record(folder);
     refuse_imported(record);
     if (record.is_complete())

@@ -56,7 +56,7 @@ void check_timing(Rig& rig, double seconds) {
     say_risks(findings);
 }
 
-/// So that nobody takes the session for one on a real display.
+/// A session with simulated faults must not be taken for one on a real display.
 void note_faults(const std::filesystem::path& file, const Clock& clock, SessionStore& store) {
     if (file.empty())
         return;
@@ -74,15 +74,6 @@ void note_struck(const VirtualRefresh& display, const Trial& trial, const Clock&
                            : fmt::format("{} by {:.3f} ms at refresh {}", name_of(fault.kind),
                                          fault.amount_ms, fault.refresh)});
     }
-}
-
-std::vector<ScriptedOperatorKey> operators_keys(const RunOptions& options, const OperatorSettings& settings) {
-    if (!options.operator_keys.empty() && !options.simulate_observer)
-        throw InputError("--simulate-operator is for sessions with --simulate-observer");
-    std::vector<ScriptedOperatorKey> keys;
-    for (const std::string& key : options.operator_keys)
-        keys.push_back(read_operator_key(key, static_cast<int>(settings.skip_reasons.size())));
-    return keys;
 }
 
 void note_thread(const std::vector<ThreadWish>& wishes, const Clock& clock, SessionStore& store) {
@@ -142,7 +133,7 @@ class BoxInUse {
     std::optional<DisplayBoxSession> session_;
 };
 
-/// The session's folder with all that stands fixed; a resumed session has it already.
+/// The session's folder with all that is recorded before the first trial; a resumed session has it already.
 struct SessionFolder {
     std::filesystem::path path;
     SessionHeader header;
@@ -206,8 +197,7 @@ int run_session(const RunOptions& options) {
 
     Rig rig(protocol, experiment.sculptures,
             {options.context, options.virtual_time, options.windowed, options.simulate_observer.has_value(),
-             seed_of_simulated(options, plan), options.maps, options.monitor,
-             operators_keys(options, protocol.operators)},
+             seed_of_simulated(options, plan), options.maps, options.monitor, options.operator_keys},
             cache_folder());
     say_before(protocol, plan.schedule, rig.context().description(), options);
     say_risks(rig.screen_findings());
@@ -219,9 +209,7 @@ int run_session(const RunOptions& options) {
         check_timing(rig, options.refresh_check_s);
     rig.presenter().close_on(Interruption::requested());
     BoxInUse box(found_box, protocol.display, rig);
-    AnswerEquipment answers(protocol.answers, rig.clock(),
-                            options.simulate_observer ? &rig.simulated_observer() : nullptr,
-                            seed_of_simulated(options, plan));
+    AnswerEquipment answers = rig.answer_equipment();
     fmt::print("spoken answers: {}\n", answers.description());
 
     const SessionFolder folder = open_folder(options, place, experiment, plan, rig);
@@ -242,7 +230,8 @@ int run_session(const RunOptions& options) {
                      .recorder = answers.recorder(),
                      .on_level = answers.meter()},
                     plan.fields);
-    TrialProgress progress(protocol, static_cast<int>(plan.schedule.trials.size()));
+    TrialProgress progress(protocol, static_cast<int>(plan.schedule.trials.size()),
+                           rig.tracker().measures_gaze());
     note_faults(options.faults, rig.clock(), store);
     note_thread(prepare_thread({options.realtime, options.processor}), rig.clock(), store);
     const SessionResult result = session.run(
@@ -262,8 +251,8 @@ int run_session(const RunOptions& options) {
         fmt::print(stderr,
                    "the session is recorded, but its manifest is not finished, for another program has "
                    "session.sqlite open, or the disk is full: afterwards overt run … --resume finishes it\n");
-    for (const std::string& key : rig.operator_keys_not_pressed())
-        fmt::print(stderr, "--simulate-operator {}: was not pressed: the session had no such moment\n", key);
+    for (const std::string& warning : rig.closing_warnings())
+        fmt::print(stderr, "{}\n", warning);
     say_after(options, result, store.lost(), plan.schedule, folder.path);
     return result.aborted ? 1 : 0;
 }

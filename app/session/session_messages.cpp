@@ -7,6 +7,7 @@
 
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
+#include "experiment/protocol/protocol_keys.h"
 
 namespace overt {
 
@@ -17,8 +18,11 @@ void say_before(const Protocol& protocol, const Schedule& schedule, const GlDesc
                schedule.observer.number, counted(schedule.trials.size(), "trial"), schedule.seed);
     fmt::print("display: {} ({}), {}\n", name_of(graphics.kind), graphics.renderer,
                options.virtual_time ? "in virtual time" : "in real time");
-    if (!options.simulate_observer)
-        fmt::print("tracker: simulated; the gaze in this session is nobody's\n");
+    const std::string_view tracker = name_of(protocol.tracker.kind);
+    if (tracker != "simulated")
+        fmt::print("tracker: {}\n", tracker);
+    else if (!options.simulate_observer)
+        fmt::print("tracker: simulated; the gaze in this session is made by the program, not measured\n");
 }
 
 void say_frames(const StimulusLibrary& library) {
@@ -36,7 +40,7 @@ void say_risks(const std::vector<ScreenFinding>& findings) {
 namespace {
 
 /// What the operator should know of an attempt before the next.
-std::vector<std::string> remarks_on(const TrialOutcome& outcome, double drift_limit_deg) {
+std::vector<std::string> remarks_on(const TrialOutcome& outcome, double drift_limit_deg, bool has_tracker) {
     using enum TrialOutcome::Afterwards;
     std::vector<std::string> remarks;
     if (outcome.missed_refreshes > 0)
@@ -44,7 +48,7 @@ std::vector<std::string> remarks_on(const TrialOutcome& outcome, double drift_li
     if (outcome.drift && outcome.drift->value > drift_limit_deg)
         remarks.push_back(fmt::format("the drift check found {:.2f} deg, more than {}", outcome.drift->value,
                                       drift_limit_deg));
-    if (outcome.shown_refreshes > 0 && !outcome.drift)
+    if (has_tracker && outcome.shown_refreshes > 0 && !outcome.drift)
         remarks.emplace_back("the drift check found no eye");
     if (outcome.failure.empty())
         return remarks;
@@ -59,14 +63,16 @@ std::vector<std::string> remarks_on(const TrialOutcome& outcome, double drift_li
 
 } // namespace
 
-TrialProgress::TrialProgress(const Protocol& protocol, int total) : protocol_(&protocol), total_(total) {
+TrialProgress::TrialProgress(const Protocol& protocol, int total, bool has_tracker)
+    : protocol_(&protocol), total_(total), has_tracker_(has_tracker) {
     bar_.update("trials", 0, total_);
 }
 
 void TrialProgress::operator()(const Trial& trial, const TrialOutcome& outcome, int done) {
     const auto name = [](const auto& list, int index) { return list[static_cast<std::size_t>(index)].id; };
     bar_.update("trials", done, total_);
-    const std::vector<std::string> remarks = remarks_on(outcome, protocol_->tracker.drift_limit_deg);
+    const std::vector<std::string> remarks =
+        remarks_on(outcome, protocol_->tracker.drift_limit_deg, has_tracker_);
     if (remarks.empty())
         return;
     bar_.finish();

@@ -13,20 +13,21 @@
 
 namespace overt {
 
-/// Which session begins, on what.
+/// Which session begins, and on which display.
 void say_before(const Protocol& protocol, const Schedule& schedule, const GlDescription& graphics,
                 const RunOptions& options);
 
 /// How the frames that are shown were made.
 void say_frames(const StimulusLibrary& library);
 
-/// What may spoil the signal, to standard error.
+/// What may change the signal on its way to the screen, to standard error.
 void say_risks(const std::vector<ScreenFinding>& findings);
 
 /// Prints where the session stands after each trial.
 class TrialProgress {
   public:
-    TrialProgress(const Protocol& protocol, int total);
+    /// `has_tracker`: drifts are checked. The protocol must outlive this.
+    TrialProgress(const Protocol& protocol, int total, bool has_tracker);
     /// `done`: trials that were completed and count.
     void operator()(const Trial& trial, const TrialOutcome& outcome, int done);
     void finish() { bar_.finish(); }
@@ -34,6 +35,7 @@ class TrialProgress {
   private:
     const Protocol* protocol_;
     int total_;
+    bool has_tracker_;
     ProgressBar bar_;
 };
 

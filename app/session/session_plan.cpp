@@ -32,7 +32,7 @@ Schedule new_schedule(const RunOptions& options, const Protocol& protocol, const
     return schedule;
 }
 
-/// Whoever begins another session may have meant to go on with the last one.
+/// A new session may have been meant to go on with the last one.
 void mention_interrupted(const SessionPlace& place) {
     for (const int number : session_numbers(place)) {
         try {
@@ -66,7 +66,7 @@ DisplayFaults read_faults_or_report(const std::filesystem::path& file) {
 }
 
 /// The form as far as it is filled in outside of the window. Throws InputError for what is missing where
-/// nobody can be asked.
+/// it cannot be asked for.
 FieldValues fill_in_form(const Protocol& protocol, const RunOptions& options) {
     const std::span<const ObserverFieldSettings> fields = protocol.observer_fields;
     FieldValues values = values_given(fields, options.observer_fields);
@@ -94,7 +94,7 @@ SessionPlan plan_session(const RunOptions& options, const SessionPlace& place, c
         mention_interrupted(place);
     }
     plan.faults = read_faults_or_report(options.faults);
-    // Whoever goes on was asked already.
+    // The observer of a resumed session has filled in the form already.
     if (!plan.resumed || !plan.resumed->history.is_opened)
         plan.fields = fill_in_form(protocol, options);
     plan.schedule = plan.resumed ? plan.resumed->header.schedule : new_schedule(options, protocol, observer);

@@ -1,4 +1,4 @@
-/// Everything that stands fixed before a session's first trial, on disk: the header, the meshes and the maps.
+/// What is recorded before a session's first trial: the header, the meshes and the maps.
 #pragma once
 
 #include <filesystem>

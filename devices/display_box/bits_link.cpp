@@ -96,7 +96,7 @@ void BitsLink::tell(std::string_view name, std::string_view argument) {
         return;
     require_line(shown);
     throw DeviceError(
-        fmt::format("{}: the box did not take the command «{}» within {:.1f} s; switch it off and on.",
+        fmt::format("{}: the box did not take the command \"{}\" within {:.1f} s; switch it off and on.",
                     port(), shown, to_seconds(timeouts_.reply)));
 }
 
@@ -134,7 +134,7 @@ std::string BitsLink::ask(std::string_view name, std::string_view argument) {
         return *reply;
     const char* const what = bits_reply(splitter_.partial(), name) ? "end of" : "line beginning with";
     throw DeviceError(
-        fmt::format("{}: no {} «#{};» came within {:.1f} s of «${}», but {}; see that the box is in its "
+        fmt::format("{}: no {} \"#{};\" came within {:.1f} s of \"${}\", but {}; see that the box is in its "
                     "serial (CDC) mode and that this is its port.",
                     port(), what, name, to_seconds(timeouts_.reply), name, what_came()));
 }
@@ -145,7 +145,7 @@ std::string BitsLink::what_came() const {
     std::string unexpected = noise_;
     if (!splitter_.partial().empty())
         unexpected.append(unexpected.empty() ? "" : "\n").append(splitter_.partial());
-    std::string came = unexpected.empty() ? "" : fmt::format("«{}»", printable(unexpected));
+    std::string came = unexpected.empty() ? "" : fmt::format("\"{}\"", printable(unexpected));
     if (stream_lines_ > 0)
         came += fmt::format("{}{} lines of a stream", came.empty() ? "" : " and ", stream_lines_);
     return came.empty() ? "nothing" : came;
@@ -170,10 +170,10 @@ bool BitsLink::wait_for_status(SessionTime deadline) noexcept {
 
 void BitsLink::require_line(std::string_view command) const {
     if (lost())
-        throw DeviceError(
-            fmt::format("{}: the line to the box was lost at «{}» ({}); plug it in, wait until it is up and "
-                        "start again.",
-                        port(), command, transport_->loss()));
+        throw DeviceError(fmt::format(
+            "{}: the line to the box was lost at \"{}\" ({}); plug it in, wait until it is up and "
+            "start again.",
+            port(), command, transport_->loss()));
 }
 
 } // namespace overt

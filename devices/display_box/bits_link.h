@@ -47,13 +47,13 @@ class BitsLink {
     bool lost() const noexcept { return transport_->lost(); }
     const BitsTimeouts& timeouts() const noexcept { return timeouts_; }
 
-    /// Sends «$Stop» and waits until nothing comes any more. Forgets what came, status samples too.
+    /// Sends "$Stop" and waits until nothing comes any more. Forgets what came, status samples too.
     void hush();
 
     /// Sends a command that has no reply.
     void tell(std::string_view name, std::string_view argument = {});
 
-    /// Sends a command and gives what follows «#name;» in its reply. What came before is not taken for an
+    /// Sends a command and gives what follows "#name;" in its reply. What came before is not taken for an
     /// answer.
     std::string ask(std::string_view name, std::string_view argument = {});
 
@@ -67,7 +67,7 @@ class BitsLink {
     /// Waits for at least one status sample until the deadline. False if none came.
     bool wait_for_status(SessionTime deadline) noexcept;
 
-    /// Status samples whose number is missing between two that came, and those that nobody fetched in time.
+    /// Status samples whose number is missing between two that came, and those that were not fetched in time.
     std::uint64_t lost_samples() const noexcept { return lost_samples_; }
 
     /// What came since the last command and was neither its reply nor of a stream, as it may stand in a
@@ -92,7 +92,7 @@ class BitsLink {
     std::string expected_; ///< name of the reply waited for; empty: none
     std::string reply_;    ///< its text; room for the longest line is kept
     bool replied_ = false;
-    std::string noise_; ///< the last of what nobody expected, within its first capacity
+    std::string noise_; ///< the last of what was not expected, within its first capacity
     std::size_t stream_lines_ = 0;
 
     std::vector<ArrivedStatus> ring_;

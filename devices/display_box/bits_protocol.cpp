@@ -73,7 +73,7 @@ VideoLine parse_video_line(std::string_view text, int pixels) {
         const auto value = byte_number(fields[i]);
         if (!value)
             return {{},
-                    fmt::format("number {} of {} is «{}», not 0 to 255", i + 1, expected,
+                    fmt::format("number {} of {} is \"{}\", not 0 to 255", i + 1, expected,
                                 printable(fields[i], 16))};
         line.pixels[i / 3][i % 3] = *value;
     }

@@ -1,5 +1,5 @@
-/// The text that a Display++ or Bits# is spoken to with. A command is «$Name» or «$Name=[argument]» and a
-/// carriage return; a reply is «#Name;field;field;…» and some mixture of LF, CR and NUL. Known from what
+/// The text that a Display++ or Bits# is spoken to with. A command is "$Name" or "$Name=[argument]" and a
+/// carriage return; a reply is "#Name;field;field;…" and some mixture of LF, CR and NUL. Known from what
 /// PsychoPy, Psychtoolbox and the vendor's example scripts send and expect; the vendor publishes no
 /// description.
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace overt {
 
-/// «$Name» CR, or «$Name=[argument]» CR.
+/// "$Name" CR, or "$Name=[argument]" CR.
 std::string bits_command(std::string_view name, std::string_view argument = {});
 
 /// Cuts a stream of bytes into lines, however it was split on the way. CR, LF and NUL all end a line and
@@ -38,8 +38,8 @@ class BitsLineSplitter {
     std::string partial_;
 };
 
-/// What follows «#Name;» in a line, if it is such a reply. Where noise or a cut line is glued on before it,
-/// the last «#Name;» counts.
+/// What follows "#Name;" in a line, if it is such a reply. Where noise or a cut line is glued on before it,
+/// the last "#Name;" counts.
 std::optional<std::string_view> bits_reply(std::string_view line, std::string_view name);
 
 /// The fields between semicolons, blanks around them removed. A semicolon at the end makes no empty field.
@@ -57,7 +57,7 @@ struct VideoLine {
     std::string fault; ///< empty if all is well
 };
 
-/// Reads what follows «#GetVideoLine;»: three integers 0-255 a pixel, for exactly `pixels` pixels.
+/// Reads what follows "#GetVideoLine;": three integers 0-255 a pixel, for exactly `pixels` pixels.
 VideoLine parse_video_line(std::string_view text, int pixels);
 
 template <class OnLine> void BitsLineSplitter::feed(std::string_view bytes, OnLine&& on_line) {

@@ -10,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-#include "devices/display_box/box_time.h"
+#include "experiment/box_time.h"
 
 namespace overt {
 
@@ -25,12 +25,12 @@ struct StatusSample {
     std::array<float, 6> analogue_v{}; ///< inputs 1-6
 };
 
-/// Reads «#sample;n;time;trigger;10 digital;6 infrared;6 analogue;», also behind noise. Nothing if the line
+/// Reads "#sample;n;time;trigger;10 digital;6 infrared;6 analogue;", also behind noise. Nothing if the line
 /// is none, is cut, or has another number of fields: the box can be configured to leave some out, and then
-/// nobody can tell which. Allocates nothing.
+/// it cannot be told which. Allocates nothing.
 std::optional<StatusSample> parse_status_line(std::string_view line);
 
-/// A line of the touch stream, «$touch;…», which may be mixed in. Not used, but no noise either.
+/// A line of the touch stream, "$touch;…", which may be mixed in. Not used, but no noise either.
 bool is_touch_line(std::string_view line);
 
 struct BoxInput {

@@ -57,7 +57,7 @@ DisplayPlusPlus::~DisplayPlusPlus() {
 
 BoxIdentity DisplayPlusPlus::ask_identity() {
     link_.hush();
-    // A program that was killed may have left half a command in the box. «$Stop» then only ended that, and
+    // A program that was killed may have left half a command in the box. "$Stop" then only ended that, and
     // the first question meets a running stream or silence; so everything is said once more.
     auto product = link_.try_ask("ProductType");
     if (!product) {
@@ -66,8 +66,9 @@ BoxIdentity DisplayPlusPlus::ask_identity() {
     }
     BoxIdentity identity{link_.port(), first_field(*product), {}, {}};
     if (identity.product.empty())
-        throw DeviceError(fmt::format(
-            "{}: «$ProductType» was answered without a name; this is no Display++ or Bits#.", link_.port()));
+        throw DeviceError(
+            fmt::format("{}: \"$ProductType\" was answered without a name; this is no Display++ or Bits#.",
+                        link_.port()));
     identity.serial_number = first_field(link_.ask("SerialNumber"));
     identity.firmware_date = first_field(link_.ask("FirmwareDate"));
     return identity;
@@ -78,7 +79,7 @@ double DisplayPlusPlus::video_rate_hz() {
     if (const auto rate = rate_in(reply))
         return *rate;
     throw DeviceError(fmt::format(
-        "{}: «$VideoFrameRate» was answered with «{}», which is no rate; switch the box off and on.",
+        "{}: \"$VideoFrameRate\" was answered with \"{}\", which is no rate; switch the box off and on.",
         link_.port(), printable(reply)));
 }
 
@@ -106,7 +107,7 @@ ModeSwitch DisplayPlusPlus::settle(SessionTime since) {
         const auto reply = link_.try_ask("VideoFrameRate");
         const auto rate = reply ? rate_in(*reply) : std::nullopt;
         if (reply)
-            seen = fmt::format("«{}»", printable(*reply));
+            seen = fmt::format("\"{}\"", printable(*reply));
         if (rate && last && same_rate(*rate, *last)) {
             const auto product = link_.try_ask("ProductType");
             if (product && first_field(*product) == identity_.product)
@@ -146,7 +147,7 @@ void DisplayPlusPlus::select_gamma_table(std::string_view file) {
     constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
     if (file.empty() || file.size() > 64 || file.find_first_not_of(allowed) != std::string_view::npos)
         throw InputError(fmt::format(
-            "«{}» is no name of a gamma table on the box: give a file name of letters, digits, dots, "
+            "\"{}\" is no name of a gamma table on the box: give a file name of letters, digits, dots, "
             "dashes and underscores, such as {}.",
             printable(file), linear_gamma_table));
     link_.tell("enableGammaCorrection", file);
@@ -160,7 +161,7 @@ std::vector<RgbBytes> DisplayPlusPlus::read_video_line(int line, int pixels) {
     VideoLine read = parse_video_line(reply, pixels);
     if (!read.fault.empty())
         throw DeviceError(
-            fmt::format("{}: the reply to «$GetVideoLine=[{}, {}]» is damaged: {}; try again, and with a "
+            fmt::format("{}: the reply to \"$GetVideoLine=[{}, {}]\" is damaged: {}; try again, and with a "
                         "shorter or another USB cable if it happens again.",
                         link_.port(), line, pixels, read.fault));
     return std::move(read.pixels);
@@ -201,7 +202,7 @@ BoxClockPair DisplayPlusPlus::read_clocks() {
     for (std::size_t count = 0; count < samples.size();) {
         if (!link_.wait_for_status(give_up))
             throw DeviceError(fmt::format(
-                "{}: no two status lines came within {:.1f} s of «$Start», but {}; see that the box's "
+                "{}: no two status lines came within {:.1f} s of \"$Start\", but {}; see that the box's "
                 "config.xml leaves all status fields on and that no touch stream runs.",
                 link_.port(), to_seconds(settings_.timeouts.reply), link_.what_came()));
         count += link_.poll_status(std::span(samples).subspan(count));
@@ -224,7 +225,7 @@ std::vector<BoxClockPair> DisplayPlusPlus::relate_clocks(const std::function<Sho
         const BoxClockPair& first = pairs.front();
         // As long after the reset as the box says, give or take what the two clocks may differ in rate (200
         // ppm) and a tick.
-        const double box_s = to_seconds(first.box);
+        const double box_s = to_seconds(first.other);
         const double slack_s = 1e-6 * (1.0 + ClockMap::largest_drift_ppm * box_s);
         const double least_s = count(first.before - shown.latest),
                      most_s = count(first.after - shown.earliest);

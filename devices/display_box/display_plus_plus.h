@@ -1,4 +1,4 @@
-/// A Display++ or Bits# by Cambridge Research Systems, over its USB serial line: who it is, which mode it
+/// A Display++ or Bits# by Cambridge Research Systems, over its USB serial line: its identity, which mode it
 /// shows, what video it receives, and its clock. docs/display_plus_plus.md says what of this could not be
 /// tried on hardware.
 #pragma once
@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "devices/display_box/bits_link.h"
-#include "devices/display_box/box_time.h"
 #include "devices/display_box/video_line_check.h"
+#include "experiment/box_time.h"
 
 namespace overt {
 
@@ -86,7 +86,7 @@ class DisplayPlusPlus {
     /// No reply exists.
     void select_gamma_table(std::string_view file);
 
-    /// The table that leaves values as they are: correction is the business of our shaders.
+    /// The table that leaves values as they are: our shaders correct for the display.
     static constexpr std::string_view linear_gamma_table = "13bitLinearLUT.txt";
 
     /// The first `pixels` (1 to 3840) pixels of a video line as the box receives them. Leaves the box on its
@@ -109,7 +109,7 @@ class DisplayPlusPlus {
 
     /// Reads both clocks: starts the stream, takes its second sample (the first may be left over) and stops
     /// it. The sample was taken after the command was sent and before it was here. Restarts a stream that
-    /// ran; its samples that nobody fetched are forgotten.
+    /// ran; its samples that were not fetched are forgotten.
     BoxClockPair read_clocks();
 
     /// Sets the box's clock to zero at a known instant and relates it to the session's. `show_reset` shows

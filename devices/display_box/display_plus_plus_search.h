@@ -13,7 +13,7 @@
 
 namespace overt {
 
-/// Asks «$ProductType» on each candidate that is no instrument known to be another, those of the vendor
+/// Asks "$ProductType" on each candidate that is no instrument known to be another, those of the vendor
 /// first, and takes the one that answers. With `port` only that one is asked, whatever it is. Throws
 /// DeviceError that says of every port what came of it: if none answers, if more than one does, if there is
 /// no port at all.

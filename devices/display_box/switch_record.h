@@ -13,7 +13,7 @@ struct SwitchRecord {
     std::string port;          ///< where it was
     std::string serial_number; ///< by which it is known again on another port; may be empty
     std::string mode;          ///< the name of the mode, for messages
-    bool kept = false;         ///< the user wanted it so: nobody switches back unasked
+    bool kept = false;         ///< the user wanted it so: it is switched back only on request
     bool operator==(const SwitchRecord&) const = default;
 };
 

@@ -32,7 +32,7 @@ struct LineVerdict {
     bool is_unsteady = false;    ///< it came differently when read again
     std::optional<int> shift_px; ///< by which every reading was moved to the right, otherwise whole
 
-    /// «as drawn», or what happened to it.
+    /// "as drawn", or what happened to it.
     std::string description() const;
 };
 

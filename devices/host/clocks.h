@@ -1,4 +1,5 @@
-/// The two session clocks: one that goes by itself, and one that stands still until somebody waits.
+/// The two session clocks: a steady one, and a virtual one that stands still until its wait_until() is
+/// called.
 #pragma once
 
 #include <atomic>

@@ -30,7 +30,7 @@ std::vector<std::string> fields_of(std::string_view line) {
     }
 }
 
-/// The first whole line that is an answer: «OK» or «ER» and two digits at its head, maybe behind the prompt
+/// The first whole line that is an answer: "OK" or "ER" and two digits at its head, maybe behind the prompt
 /// of the answer before.
 std::optional<std::string_view> answer_in(std::string_view text) {
     while (true) {
@@ -74,10 +74,10 @@ ColorCal::ColorCal(std::unique_ptr<ByteTransport> transport, Clock& clock, Color
     const auto fields = ask("IDR", timeouts_.reply);
     const auto build = integer(fields.back());
     if (fields.size() < 6 || !build)
-        throw DeviceError(fmt::format(
-            "{}: «IDR» was answered with {} fields of which the last is «{}» and not a build number; this "
-            "is no ColorCAL MkII.",
-            transport_->name(), fields.size(), printable(fields.back())));
+        throw DeviceError(fmt::format("{}: \"IDR\" was answered with {} fields of which the last is \"{}\" "
+                                      "and not a build number; this "
+                                      "is no ColorCAL MkII.",
+                                      transport_->name(), fields.size(), printable(fields.back())));
     identity_ = {transport_->name(), fields[2], fields[4], *build};
     for (int row = 0; row < 3; ++row) {
         const glm::dvec3 entries = ask_matrix_row(row);
@@ -92,7 +92,7 @@ void ColorCal::send(std::string_view command) {
     for (int i = 0; i < 64 && transport_->read(old, SessionTime()) > 0; ++i) {
     }
     if (!transport_->write(fmt::format("{}\n", command), clock_.now() + timeouts_.reply))
-        throw DeviceError(fmt::format("{}: the photometer did not take «{}» ({}); plug it out and in.",
+        throw DeviceError(fmt::format("{}: the photometer did not take \"{}\" ({}); plug it out and in.",
                                       transport_->name(), command,
                                       transport_->lost() ? transport_->loss() : "it is busy"));
 }
@@ -109,18 +109,18 @@ std::vector<std::string> ColorCal::ask(std::string_view command, SessionDuration
             auto fields = fields_of(*answer);
             if (fields.front() == "OK00")
                 return fields;
-            throw DeviceError(fmt::format("{}: «{}» was answered with {}: {}.", transport_->name(), command,
+            throw DeviceError(fmt::format("{}: \"{}\" was answered with {}: {}.", transport_->name(), command,
                                           printable(*answer), meaning_of(fields.front())));
         }
         if (transport_->lost())
             throw DeviceError(fmt::format(
-                "{}: the line to the photometer was lost at «{}» ({}); plug it in and start again.",
+                "{}: the line to the photometer was lost at \"{}\" ({}); plug it in and start again.",
                 transport_->name(), command, transport_->loss()));
     }
     throw DeviceError(fmt::format(
-        "{}: no answer to «{}» came within {:.1f} s, but {}; see that this is the photometer's port.",
+        "{}: no answer to \"{}\" came within {:.1f} s, but {}; see that this is the photometer's port.",
         transport_->name(), command, to_seconds(timeout),
-        text.empty() ? "nothing" : fmt::format("«{}»", printable(text))));
+        text.empty() ? "nothing" : fmt::format("\"{}\"", printable(text))));
 }
 
 glm::dvec3 ColorCal::ask_matrix_row(int row) {
@@ -135,7 +135,7 @@ glm::dvec3 ColorCal::ask_matrix_row(int row) {
     }
     if (!good)
         throw DeviceError(fmt::format(
-            "{}: «{}» was not answered with three integers from 0 to 99999; plug the photometer out and "
+            "{}: \"{}\" was not answered with three integers from 0 to 99999; plug the photometer out and "
             "in and try again.",
             transport_->name(), command));
     return entries;
@@ -153,8 +153,8 @@ glm::dvec3 ColorCal::measure_xyz() {
         raw[i] = value.value_or(0.0);
     }
     if (!good)
-        throw DeviceError(
-            fmt::format("{}: «MES» was not answered with three numbers; measure again.", transport_->name()));
+        throw DeviceError(fmt::format("{}: \"MES\" was not answered with three numbers; measure again.",
+                                      transport_->name()));
     return xyz_from_raw_ * raw;
 }
 

@@ -1,5 +1,5 @@
 /// A ColorCAL MkII photometer by Cambridge Research Systems, over its USB serial line. A command ends with
-/// LF, an answer «OK00,field,…» with LF CR and a prompt «>»; anything but OK00 at its head is an error.
+/// LF, an answer "OK00,field,…" with LF CR and a prompt ">"; anything but OK00 at its head is an error.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-/// A line to a device over which bytes go both ways. What is said on it is the business of others
-/// (BitsLink, ColorCal); they are tested without hardware by giving them another transport.
+/// A line to a device over which bytes go both ways. BitsLink and ColorCal speak their protocols over it;
+/// they are tested without hardware by giving them another transport.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ class ByteTransport {
   public:
     virtual ~ByteTransport() = default;
 
-    /// How the experimenter knows it, such as «/dev/ttyACM0».
+    /// How the experimenter knows it, such as "/dev/ttyACM0".
     virtual const std::string& name() const noexcept = 0;
 
     /// Hands over all bytes. False if the line was lost or did not take them all by the deadline.
@@ -40,7 +40,7 @@ class ByteTransport {
 using TransportOpener = std::function<std::unique_ptr<ByteTransport>(const std::string& port)>;
 
 /// Bytes as they may stand in a message: control characters and bytes above 126 as \xNN, and when longer than
-/// `longest` bytes only their end, after «…».
+/// `longest` bytes only their end, after "…".
 std::string printable(std::string_view bytes, std::size_t longest = 160);
 
 } // namespace overt

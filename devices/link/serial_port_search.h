@@ -19,7 +19,7 @@ struct SerialPortInfo {
 /// USB vendor number of Cambridge Research Systems (public udev rules of laboratories).
 inline constexpr std::uint16_t crs_vendor_id = 0x0861;
 
-/// «/dev/ttyACM0 (0861:1001 ColorCAL)».
+/// "/dev/ttyACM0 (0861:1001 ColorCAL)".
 std::string describe(const SerialPortInfo& port);
 
 /// All USB serial ports of the CDC class (ttyACM*), by number. Reads sysfs; opens no port. Never throws: what

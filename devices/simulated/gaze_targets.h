@@ -21,7 +21,7 @@ class GazeTargets {
     /// The sculpture's mesh must outlive this and have triangles.
     explicit GazeTargets(const ObservedSculpture& sculpture);
 
-    /// A point of the region, all of its area equally probable, save that the part «plinth» is looked at a
+    /// A point of the region, all of its area equally probable, save that the part "plinth" is looked at a
     /// tenth as often. A sculpture without that region gives a point of the other.
     SurfacePoint draw(RandomStream& random, Region region) const noexcept;
 

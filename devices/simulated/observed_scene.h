@@ -22,7 +22,7 @@ struct ObservedSculpture {
 
 struct ObservedTask {
     std::string id;
-    double head_share = 0.0; ///< share of fixations that go to the part «head», 0 … 1
+    double head_share = 0.0; ///< share of fixations that go to the part "head", 0 … 1
 };
 
 struct ObservedScene {

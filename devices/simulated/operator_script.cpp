@@ -58,7 +58,7 @@ ScriptedOperatorKey read_operator_key(std::string_view text, int reasons) {
         }
     }
     if (!is_known)
-        refuse(text, fmt::format("there is no phase «{}»", phase));
+        refuse(text, fmt::format("there is no phase \"{}\"", phase));
     const auto seconds = number_in<double>(text.substr(plus + 1, equals - plus - 1));
     if (!seconds || !(*seconds >= 0.0 && *seconds < 86400.0))
         refuse(text, "the seconds are no number of seconds");
@@ -67,13 +67,13 @@ ScriptedOperatorKey read_operator_key(std::string_view text, int reasons) {
     const auto known =
         std::find_if(std::begin(keys), std::end(keys), [&](Key one) { return name_of(one) == key; });
     if (known == std::end(keys))
-        refuse(text, fmt::format("there is no key «{}»", key));
+        refuse(text, fmt::format("there is no key \"{}\"", key));
     scripted.key = *known;
     if (rest.size() > key.size()) {
         const std::string_view answer = rest.substr(key.size() + 1);
         const bool is_digit = answer.size() == 1 && answer[0] >= '1' && answer[0] <= '9';
         if (answer != "yes" && answer != "no" && !is_digit)
-            refuse(text, fmt::format("«{}» is no answer", answer));
+            refuse(text, fmt::format("\"{}\" is no answer", answer));
         if (is_digit && scripted.key != Key::skip)
             refuse(text, "only skipping has reasons");
         if (is_digit && answer[0] - '0' > reasons)

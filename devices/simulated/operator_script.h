@@ -20,7 +20,7 @@ struct ScriptedOperatorKey {
     std::string text;       ///< as it was written
 };
 
-/// Reads «PHASE[@TRIAL]+SECONDS=KEY[,ANSWER]», as «stimulus@3+0.5=skip,2»: trials count from 1, the answer is
+/// Reads "PHASE[@TRIAL]+SECONDS=KEY[,ANSWER]", as "stimulus@3+0.5=skip,2": trials count from 1, the answer is
 /// yes, no or, to skip, the digit of one of so many reasons, and yes if it is left out. Throws InputError
 /// that says what may stand there.
 ScriptedOperatorKey read_operator_key(std::string_view text, int reasons);

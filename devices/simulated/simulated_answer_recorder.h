@@ -20,8 +20,8 @@ struct SimulatedSoundSettings {
     double gain = 1.0;             ///< what is beyond full scale is clipped
 };
 
-/// When the recording ends its sound is made, at once and by whoever ends it: time may be virtual, and the
-/// same seeds give the same files.
+/// When the recording ends its sound is made, at once and on the thread that ends it: time may be virtual,
+/// and the same seeds give the same files.
 class SimulatedAnswerRecorder final : public AnswerRecorder {
   public:
     /// Clock and observer must outlive this.

@@ -112,7 +112,7 @@ ClockPair SimulatedEyeTracker::read_clocks() noexcept {
     ClockPair pair;
     pair.before = clock_->now();
     clock_->wait_until(pair.before + from_seconds(outward_s));
-    pair.tracker = tracker_time_at(clock_->now());
+    pair.other = tracker_time_at(clock_->now());
     clock_->wait_until(pair.before + from_seconds(trip_s));
     pair.after = clock_->now();
     return pair;
@@ -202,7 +202,7 @@ GazeSample SimulatedEyeTracker::sample_at(std::int64_t tick, glm::dvec2 offset_d
 }
 
 /// In an EyeLink's arbitrary unit, whole numbers: about 1100 with the slow waves of a pupil at rest
-/// («hippus», below 0.5 Hz).
+/// ("hippus", below 0.5 Hz).
 float SimulatedEyeTracker::pupil_area_at(SessionTime time, double noise) const noexcept {
     const double t = 2.0 * std::numbers::pi * to_seconds(time);
     const double area = 1100.0 + 70.0 * std::sin(0.07 * t) + 40.0 * std::sin(0.23 * t + 1.0) + 4.0 * noise;

@@ -55,12 +55,14 @@ void SimulatedResponsePanel::entered(SessionPhase phase, int trial) noexcept {
     }
 }
 
-std::vector<std::string> SimulatedResponsePanel::not_pressed() const {
-    std::vector<std::string> texts;
+std::vector<std::string> SimulatedResponsePanel::closing_warnings() const {
+    std::vector<std::string> warnings;
     for (const Operator& one : operators_)
         if (!one.is_done)
-            texts.push_back(one.scripted.text);
-    return texts;
+            warnings.push_back(
+                fmt::format("--simulate-operator {}: was not pressed: the session had no such moment",
+                            one.scripted.text));
+    return warnings;
 }
 
 std::optional<ResponsePress> SimulatedResponsePanel::operators_press() noexcept {

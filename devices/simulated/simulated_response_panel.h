@@ -13,8 +13,8 @@
 
 namespace overt {
 
-/// Presses «next» when the observer has read or answered, and again each second for as long as that has no
-/// effect (a protocol may set a least time). Agrees to take part. A pause ends when it has lasted five
+/// Presses the key "next" when the observer has read or answered, and again each second for as long as that
+/// has no effect (a protocol may set a least time). Agrees to take part. A pause ends when it has lasted five
 /// seconds.
 class SimulatedResponsePanel final : public ResponsePanel {
   public:
@@ -30,8 +30,8 @@ class SimulatedResponsePanel final : public ResponsePanel {
     std::string answer() override { return answer_; }
     void entered(SessionPhase phase, int trial) noexcept override;
 
-    /// Keys of the script for which there was no such moment, as they were written.
-    std::vector<std::string> not_pressed() const;
+    /// Names the keys of the script for which the session had no moment.
+    std::vector<std::string> closing_warnings() const override;
 
   private:
     struct Operator {

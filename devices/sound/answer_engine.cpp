@@ -109,7 +109,7 @@ void AnswerEngine::write(const SoundBlock& block) {
     else if (block.is_after_overflow && next_sample_ >= 0)
         sink_->count_overrun();
     next_sample_ = block.first_sample + block.count;
-    // What was taken after the key belongs to nobody.
+    // What was taken after the key belongs to no answer.
     std::span<const float> sound = block.sound();
     const std::int64_t end_ns = recording_->end_ns;
     bool is_last = false;

@@ -141,10 +141,10 @@ PortAudioInput::PortAudioInput(const std::string& name, int sample_rate_hz, cons
         std::string list;
         for (const auto& one : devices)
             list += "\n  " + one.info.name;
-        throw DeviceError(name.empty()
-                              ? "there is no sound device that records"
-                              : fmt::format("there is no sound device called «{}» that records. There are:{}",
-                                            name, list.empty() ? " none" : list));
+        throw DeviceError(
+            name.empty() ? "there is no sound device that records"
+                         : fmt::format("there is no sound device called \"{}\" that records. There are:{}",
+                                       name, list.empty() ? " none" : list));
     }
     state.name = device->info.name;
     PaStreamParameters parameters{};

@@ -12,7 +12,7 @@
 namespace overt {
 
 struct SoundInputInfo {
-    std::string name; ///< with the sound system's: «ALSA: USB Microphone»
+    std::string name; ///< with the sound system's: "ALSA: USB Microphone"
     bool is_default = false;
     double usual_rate_hz = 0.0;
     double latency_s = 0.0;

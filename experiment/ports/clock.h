@@ -5,8 +5,8 @@
 
 namespace overt {
 
-/// The session clock. Real: steady time since the session began. Virtual: stands still until somebody waits.
-/// now() may be called from any thread.
+/// The session clock. Real: steady time since the session began. Virtual: stands still until wait_until() is
+/// called. now() may be called from any thread.
 class Clock {
   public:
     virtual ~Clock() = default;

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "experiment/clock_pair.h"
 #include "experiment/gaze.h"
 #include "experiment/units.h"
 
@@ -26,6 +27,10 @@ class EyeTracker {
   public:
     virtual ~EyeTracker() = default;
     virtual TrackerDescription description() const = 0;
+
+    /// Whether there is a tracker at all. Without one a session does not calibrate, check drift or read the
+    /// tracker's clock.
+    virtual bool measures_gaze() const noexcept { return true; }
 
     /// Calibrates and validates. Throws DeviceError if the tracker is lost.
     virtual ValidationResult calibrate() = 0;

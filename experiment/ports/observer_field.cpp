@@ -96,7 +96,7 @@ std::optional<std::string> fault_of(const ObserverFieldSettings& field, std::str
             return std::nullopt;
         break;
     }
-    return fmt::format("{}: «{}» is not {}.", field.title, value, expected_in(field));
+    return fmt::format("{}: \"{}\" is not {}.", field.title, value, expected_in(field));
 }
 
 std::string expected_in(const ObserverFieldSettings& field) {

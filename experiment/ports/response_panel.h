@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "experiment/ports/session_phase.h"
 #include "experiment/session_time.h"
@@ -61,6 +62,8 @@ class ResponsePanel {
     virtual std::optional<ResponsePress> poll() noexcept = 0;
     /// What was said or typed in answer, once the press has come; empty if the panel takes none.
     virtual std::string answer() = 0;
+    /// What the operator should know once the session has ended, a line each.
+    virtual std::vector<std::string> closing_warnings() const { return {}; }
     /// The session has come to this phase; `trial` is -1 outside of trials.
     virtual void entered(SessionPhase /*phase*/, int /*trial*/) noexcept {}
 };

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "experiment/clock_pair.h"
 #include "experiment/flip_report.h"
 #include "experiment/gaze.h"
 #include "experiment/ports/observer_field.h"

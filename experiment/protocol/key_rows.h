@@ -53,7 +53,6 @@ inline constexpr std::string_view ditherings[] = {"none", "ordered", "blue-noise
 inline constexpr std::string_view pair_filters[] = {"box", "lanczos"};
 inline constexpr std::string_view patch_corners[] = {"none", "top-left", "top-right", "bottom-left",
                                                      "bottom-right"};
-inline constexpr std::string_view tracker_kinds[] = {"simulated"};
 inline constexpr std::string_view playbacks[] = {"cycle", "ping-pong"};
 inline constexpr std::string_view when_lates[] = {"drop", "stretch"};
 inline constexpr std::string_view task_coverages[] = {"every-stimulus", "once-per-sculpture"};

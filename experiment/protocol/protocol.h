@@ -100,11 +100,12 @@ struct DisplaySettings {
     std::optional<double> background_cd_m2;     ///< or its luminance, from which `background` is made
 };
 
-enum class TrackerKind : std::uint8_t { simulated };
+/// A row of experiment/ports/tracker_kinds.h.
+enum class TrackerKind : std::uint8_t {};
 
 /// [tracker]
 struct TrackerSettings {
-    TrackerKind kind = TrackerKind::simulated;
+    TrackerKind kind{}; ///< the first: simulated
     double rate_hz = 2000.0;
     std::string eye = "right";    ///< "left" or "right"
     double drift_limit_deg = 2.0; ///< a drift check beyond this is noted as failed

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiment/ports/tracker_kinds.h"
 #include "experiment/protocol/key_rows.h"
 
 namespace overt {
@@ -25,7 +26,7 @@ std::string_view name_of(OutputMode mode) { return key_rows::output_modes[static
 std::string_view name_of(Dithering dithering) { return key_rows::ditherings[static_cast<int>(dithering)]; }
 std::string_view name_of(PairFilter filter) { return key_rows::pair_filters[static_cast<int>(filter)]; }
 std::string_view name_of(PatchCorner corner) { return key_rows::patch_corners[static_cast<int>(corner)]; }
-std::string_view name_of(TrackerKind kind) { return key_rows::tracker_kinds[static_cast<int>(kind)]; }
+std::string_view name_of(TrackerKind kind) { return tracker_names[static_cast<std::size_t>(kind)]; }
 std::string_view name_of(Playback playback) { return key_rows::playbacks[static_cast<int>(playback)]; }
 std::string_view name_of(WhenLate when_late) { return key_rows::when_lates[static_cast<int>(when_late)]; }
 std::string_view name_of(TaskCoverage coverage) {

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include "experiment/ports/tracker_kinds.h"
 #include "experiment/protocol/key_rows.h"
 
 namespace overt::key_rows {
@@ -5,6 +8,17 @@ namespace overt::key_rows {
 namespace {
 
 constexpr std::string_view eyes[] = {"left", "right"};
+
+/// "Which eye tracker. `one`: …. `other`: …."
+std::string_view tracker_explanation() {
+    static const std::string text = [] {
+        std::string words = "Which eye tracker.";
+        for (const TrackerKindRow& kind : tracker_kinds)
+            words += fmt::format(" `{}`: {}.", kind.name, kind.explanation);
+        return words;
+    }();
+    return text;
+}
 
 } // namespace
 
@@ -150,7 +164,7 @@ Section<TrackerSettings> tracker() {
         .explanation = "The eye tracker, and how a simulated one differs from a perfect one.",
         .keys =
             {
-                {{.name = "kind", .choices = tracker_kinds, .explanation = "Which eye tracker."}, &T::kind},
+                {{.name = "kind", .choices = tracker_names, .explanation = tracker_explanation()}, &T::kind},
                 {{.name = "rate_hz",
                   .unit = "Hz",
                   .low = 10,

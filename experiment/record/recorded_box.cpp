@@ -4,15 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/clock_map.h"
-
 namespace overt {
-namespace {
-
-/// The box in the tracker's place: both clocks count microseconds.
-TrackerTime in_trackers_place(std::int64_t box_us) { return TrackerTime(TrackerClock::duration(box_us)); }
-
-} // namespace
 
 std::string_view name_of(RecordedBox::Use use) {
     switch (use) {
@@ -28,19 +20,15 @@ std::string_view name_of(RecordedBox::Use use) {
     return "not needed";
 }
 
-BoxClockFit fit_box_clock(const std::vector<BoxClockReading>& readings) {
-    std::vector<ClockPair> pairs;
-    for (const BoxClockReading& reading : readings)
-        pairs.push_back({reading.before, in_trackers_place(reading.box_us), reading.after});
-    const ClockMap map(pairs);
+BoxClockFit fit_box_clock(const std::vector<BoxClockPair>& readings) {
+    const BoxClockMap map(readings);
     BoxClockFit fit{static_cast<int>(readings.size()),
                     map.drift_ppm(),
                     map.drift_uncertainty_ppm(),
-                    map.to_session(in_trackers_place(0)).time,
+                    map.to_session(BoxTime()).time,
                     {}};
-    for (const BoxClockReading& reading : readings)
-        fit.uncertainty =
-            std::max(fit.uncertainty, map.to_session(in_trackers_place(reading.box_us)).uncertainty);
+    for (const BoxClockPair& reading : readings)
+        fit.uncertainty = std::max(fit.uncertainty, map.to_session(reading.other).uncertainty);
     return fit;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "experiment/box_time.h"
 #include "experiment/session_time.h"
 
 namespace overt {
@@ -31,15 +32,7 @@ std::string_view name_of(RecordedBox::Use use);
 /// What a session's log says of a box, for a line in a terminal and the record.
 std::string describe(const RecordedBox& box);
 
-/// One reading of both clocks: the box's time was taken at some instant between the two of the session clock.
-struct BoxClockReading {
-    SessionTime before;
-    std::int64_t box_us = 0; ///< microseconds of the box's clock
-    SessionTime after;
-    bool operator==(const BoxClockReading&) const = default;
-};
-
-/// The line through a sitting's readings.
+/// The line through a sitting's readings of session clock and box.
 struct BoxClockFit {
     int readings = 0;
     double drift_ppm = 0.0; ///< by how much a second of the session exceeds one of the box
@@ -49,6 +42,6 @@ struct BoxClockFit {
 };
 
 /// At least one reading; all from one run of the box's clock.
-BoxClockFit fit_box_clock(const std::vector<BoxClockReading>& readings);
+BoxClockFit fit_box_clock(const std::vector<BoxClockPair>& readings);
 
 } // namespace overt

@@ -1,4 +1,4 @@
-/// What is wrong with a spoken answer, for the operator.
+/// Warnings about a spoken answer, for the operator.
 #pragma once
 
 #include <string>

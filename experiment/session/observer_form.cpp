@@ -145,7 +145,7 @@ bool ObserverForm::submit() {
             const std::string range = range_of(fields_[i]);
             message_ = values_[i].empty()
                            ? fmt::format("{}: {}", fields_[i].title, words_.missing)
-                           : fmt::format("{}: «{}»: {}", fields_[i].title, values_[i], words_.not_possible);
+                           : fmt::format("{}: \"{}\": {}", fields_[i].title, values_[i], words_.not_possible);
             if (!range.empty())
                 message_ += "  " + range;
             focus_ = i;

@@ -161,7 +161,7 @@ std::optional<int> OperatorControl::confirm(const std::string& question, int rea
     std::optional<int> answer;
     for (bool is_decided = false; !is_decided && !state_.ends_by_itself();) {
         while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
-            // A digit that stands for no reason is no yes, to whatever question.
+            // A digit without a reason of that number is not taken for a yes.
             const int digit =
                 press->key == Key::character && press->character >= U'1' && press->character <= U'9'
                     ? static_cast<int>(press->character - U'0')
@@ -212,6 +212,10 @@ void OperatorControl::calibrate() {
     if (state_.phase() != SessionPhase::calibration)
         state_.enter(SessionPhase::calibration, state_.trial());
     state_.show({});
+    if (!state_.ports.tracker.measures_gaze()) {
+        state_.note("calibration", "none: the session has no eye tracker");
+        return;
+    }
     const ValidationResult result = state_.ports.tracker.calibrate();
     state_.note("validation", fmt::format("mean error {:.3f} deg, largest {:.3f} deg",
                                           result.mean_error.value, result.max_error.value));

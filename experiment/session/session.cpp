@@ -8,7 +8,7 @@ namespace overt {
 
 namespace {
 
-/// Nobody rests for longer without meaning to leave.
+/// An observer who rests for longer has left.
 constexpr double longest_break_s = 3600.0;
 
 TrialOutcome::Afterwards afterwards_of(const AttemptVerdict& verdict) {
@@ -19,12 +19,12 @@ TrialOutcome::Afterwards afterwards_of(const AttemptVerdict& verdict) {
     return of[static_cast<int>(verdict.comes_again)];
 }
 
-/// Practice has no end of a block to come again at.
+/// Practice is repeated at once: there is no end of a block to move it to.
 bool comes_again(const AttemptResult& practice, const RepeatSettings& repeats) {
     return practice.is_repeated || (practice.is_rejected && repeats.rejected != RepeatWhen::never);
 }
 
-/// Of practice, events alone are kept: rows of flips and samples are of trials that count.
+/// Keeps the events of practice and drops its flips and samples: those are recorded of trials only.
 class PracticeLog final : public SessionLog {
   public:
     explicit PracticeLog(SessionLog& record) : record_(record) {}
@@ -73,7 +73,7 @@ SessionResult Session::run(const TrialDone& trial_done, const SessionHistory& hi
     result.aborted = state_.is_over();
     result.reason = state_.why_over();
     state_.enter(SessionPhase::end);
-    // Closing the farewell's window ends nothing that was not already done.
+    // All is done: a window that is closed during the farewell aborts nothing.
     if (!result.aborted)
         farewell();
     state_.note(result.aborted ? "session aborted" : "session completed", result.reason);
@@ -88,7 +88,7 @@ void Session::farewell() {
     state_.note(text_shown_event, "farewell");
     ports_.panel.await_key(onset);
     const SessionTime latest = onset + from_seconds(state_.protocol.screens.response_max_s);
-    // Any key will do, the operator's as well: there is nothing left to lead.
+    // Any key ends it, the operator's as well.
     while (state_.now() < latest && !ports_.panel.poll() && !state_.went_away())
         ports_.clock.wait_until(state_.now() + std::chrono::milliseconds(4));
 }
@@ -118,7 +118,7 @@ void Session::run_step(TrialQueue& queue, const SessionStep& step, SessionResult
         trial_done(step.trial, attempt.outcome, result.completed_trials);
 }
 
-/// Whether an attempt counts. One that the whole session ended in does not, and nothing comes after it.
+/// Decides whether an attempt counts. One during which the session ended does not.
 void Session::judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& attempt) {
     if (state_.is_over())
         return;

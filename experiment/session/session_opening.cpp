@@ -11,7 +11,7 @@ namespace overt {
 
 namespace {
 
-/// Who has not agreed after so long has left.
+/// An observer who has not agreed after so long has left.
 constexpr double longest_reading_s = 3600.0;
 
 constexpr SessionDuration key_interval = std::chrono::milliseconds(4);
@@ -46,7 +46,7 @@ bool SessionOpening::ask_for_consent() {
             {.screen = screen, .onset = state_.show(screen), .max_s = longest_reading_s, .await = await});
         using How = OperatorControl::How;
         if (press.how == How::next || press.how == How::back)
-            continue; // neither accepts nor declines
+            continue; // neither key accepts or declines
         if (press.how == How::session_over)
             return false;
         const bool accepted = press.how == How::yes;

@@ -85,11 +85,11 @@ void TrialRun::check_drift(TrialOutcome& outcome) {
                         .wait({.screen = target,
                                .onset = state_.show(target),
                                .max_s = state_.protocol.screens.drift_target_s,
-                               .await = [](SessionTime) {}, // of the observer nothing is
+                               .await = [](SessionTime) {}, // no answer is expected of the observer
                                .takes_keys = false,
                                .starts_over = true})
                         .how;
-    if (how != How::timed_out)
+    if (how != How::timed_out || !state_.ports.tracker.measures_gaze())
         return;
     outcome.drift = state_.ports.tracker.drift_check(screen_centre_);
     const double limit_deg = state_.protocol.tracker.drift_limit_deg;
@@ -123,7 +123,7 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
         take_samples(trial.index);
         // Show the frame that the plan has next, and learn when it was lit.
         const FlipRecord& flip = ledger_.enter(ports.presenter.flip(ledger_.next().frame));
-        // Write down what became of each refresh, and let those see it who watch.
+        // Record what was shown at each refresh, and tell the listeners.
         for (int i = 0; i < ledger_.missed_count(); ++i)
             log.missed(ledger_.missed(i));
         log.flip(flip);
@@ -151,7 +151,7 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
 void TrialRun::look_at_keys() noexcept {
     while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
         const bool ends_it = press->key == ResponsePress::Key::abort;
-        // Whoever wants the animation to end means that more than what was pressed before.
+        // The key that ends the session replaces one that was pressed before.
         if (is_operators(press->key) && (!pressed_ || ends_it))
             pressed_ = press;
     }
@@ -165,7 +165,7 @@ void TrialRun::act_on_pressed_keys(Attempt& attempt) {
         state_.log().event({pressed_->pressed_at, state_.trial(), "presentation broken off",
                             fmt::format("by a key, after {} refreshes", attempt.outcome.shown_refreshes)});
     control_.act_on(*pressed_);
-    // Half an animation is no stimulus: taken back or not, this attempt does not count.
+    // The observer saw only a part of the animation: this attempt does not count, whatever was answered.
     attempt.result.is_rejected = was_broken_off;
 }
 
@@ -230,8 +230,8 @@ void TrialRun::keep_answer(AnswerRecording& recording) {
     state_.log().answer_recorded(*answer);
 }
 
-/// A machine that slept in a trial lit nothing meanwhile, whatever the ledger says; a wall clock that was set
-/// does no harm to session time, but shifts what other programs wrote down.
+/// While a machine sleeps its screen shows nothing, whatever the ledger says. A wall clock that was set
+/// leaves session time as it was, but shifts the times that other programs recorded.
 void TrialRun::note_disturbance(const Clock::Disturbance& before) {
     const Clock::Disturbance now = state_.ports.clock.disturbance();
     const double slept_s = to_seconds(now.slept - before.slept);
@@ -265,6 +265,8 @@ void TrialRun::wait_and_take_samples(int trial, SessionTime until) noexcept {
 }
 
 void TrialRun::read_clocks() noexcept {
+    if (!state_.ports.tracker.measures_gaze())
+        return;
     for (int i = 0; i < clock_readings; ++i)
         state_.log().clock_pair(state_.ports.tracker.read_clocks());
 }

@@ -6,8 +6,14 @@
 #include <catch2/catch.hpp>
 
 #include "experiment/base/random.h"
+#include "experiment/box_time.h"
 
 using namespace overt;
+
+// Each machine has a clock type of its own, and so a map of its own: readings of one do not fit the other.
+static_assert(std::is_constructible_v<ClockMap, std::span<const ClockPair>>);
+static_assert(!std::is_constructible_v<ClockMap, std::span<const BoxClockPair>>);
+static_assert(!std::is_invocable_v<decltype(&BoxClockMap::to_session), BoxClockMap, TrackerTime>);
 
 namespace {
 
@@ -84,10 +90,10 @@ TEST_CASE("with one pair the rate is taken as 1, and the uncertainty grows with 
     const ClockMap map(pairs);
     CHECK(map.drift_ppm() == 0.0);
     CHECK(map.drift_uncertainty_ppm() == Approx(ClockMap::largest_drift_ppm));
-    const MappedTime first = map.to_session(pairs[0].tracker);
+    const MappedTime first = map.to_session(pairs[0].other);
     CHECK(first.time >= pairs[0].before);
     CHECK(first.time <= pairs[0].after);
-    const MappedTime later = map.to_session(pairs[0].tracker + std::chrono::seconds(100));
+    const MappedTime later = map.to_session(pairs[0].other + std::chrono::seconds(100));
     CHECK(later.time - first.time == std::chrono::seconds(100));
     CHECK(later.uncertainty >= std::chrono::milliseconds(20));
     CHECK(std::chrono::abs(later.time - (first.time + std::chrono::microseconds(100'004'000))) <=
@@ -132,7 +138,7 @@ TEST_CASE("a rate that was not constant widens the uncertainty until every pair 
     const ClockMap map(pairs);
     bool was_needed = false;
     for (const ClockPair& pair : pairs) {
-        const MappedTime mapped = map.to_session(pair.tracker);
+        const MappedTime mapped = map.to_session(pair.other);
         CHECK(std::chrono::abs(mapped.time - pair.before) <= mapped.uncertainty);
         was_needed =
             was_needed || std::chrono::abs(mapped.time - pair.before) > std::chrono::microseconds(50);

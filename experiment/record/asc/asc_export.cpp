@@ -165,7 +165,7 @@ std::int64_t first_time(const SessionRecord& record, int sitting) {
             continue;
         const auto span = record.sample_span(trial);
         if (clock_map && !record.header().stimuli.empty()) {
-            const std::int64_t begun = asc_milliseconds(clock_map->to_tracker(trial.started));
+            const std::int64_t begun = asc_milliseconds(clock_map->to_other(trial.started));
             return span ? std::min(begun, asc_milliseconds(span->first)) : begun;
         }
         if (span)

@@ -89,11 +89,10 @@ class NumberListener final : public AscListener {
 bool speak_for(const std::vector<ClockPair>& pairs, const AscSurvey& survey) {
     if (pairs.empty())
         return false;
-    const auto [first, last] =
-        std::minmax_element(pairs.begin(), pairs.end(),
-                            [](const ClockPair& a, const ClockPair& b) { return a.tracker < b.tracker; });
-    return survey.first >= first->tracker - most_beyond_readings &&
-           survey.last <= last->tracker + most_beyond_readings;
+    const auto [first, last] = std::minmax_element(
+        pairs.begin(), pairs.end(), [](const ClockPair& a, const ClockPair& b) { return a.other < b.other; });
+    return survey.first >= first->other - most_beyond_readings &&
+           survey.last <= last->other + most_beyond_readings;
 }
 
 /// The same instant by both clocks, from the screens that a trial's messages name.
@@ -231,7 +230,7 @@ AscImportSummary import_asc_into(const fs::path& file, const fs::path& session,
         SQLite::Statement insert(database, "INSERT INTO clock_pair VALUES (NULL,?,?,?,?)");
         for (const ClockPair& pair : pairs)
             run_statement(insert, match.sitting, pair.before,
-                          static_cast<std::int64_t>(pair.tracker.time_since_epoch().count()), pair.after);
+                          static_cast<std::int64_t>(pair.other.time_since_epoch().count()), pair.after);
     });
     finish_imported_session(partial.path(), options.program);
     partial.publish();

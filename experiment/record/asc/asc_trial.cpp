@@ -133,9 +133,9 @@ void AscTrial::add_missing(const SessionRecord& record, const TrialRecord& trial
         return; // nothing says when it was
     const std::int64_t first = span              ? asc_milliseconds(span->first)
                                : !lines_.empty() ? lines_.front().ms
-                                                 : asc_milliseconds(clock_map->to_tracker(trial.started));
+                                                 : asc_milliseconds(clock_map->to_other(trial.started));
     const bool was_presented = !header.stimuli.empty();
-    const auto at = [&](SessionTime time) { return asc_milliseconds(clock_map->to_tracker(time)); };
+    const auto at = [&](SessionTime time) { return asc_milliseconds(clock_map->to_other(time)); };
     // A screen that the attempt did not get to has no time.
     const auto add_screen = [&](std::string_view word, SessionTime time, int recording) {
         if (was_presented && clock_map && time > trial.started && trial.has_outcome() && !has(word))

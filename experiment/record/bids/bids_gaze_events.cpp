@@ -45,7 +45,7 @@ std::vector<GazeEvent> begins_of(const TrialRecord& trial, const ClockMap& clock
     std::vector<GazeEvent> messages;
     const auto add = [&](SessionTime time, std::string text) {
         GazeEvent event;
-        event.start = event.end = clock_map.to_tracker(time);
+        event.start = event.end = clock_map.to_other(time);
         event.text = std::move(text);
         messages.push_back(std::move(event));
     };

@@ -133,7 +133,7 @@ class SessionRecord {
     std::vector<std::pair<int, RecordedBox>> display_boxes() const;
 
     /// Readings of the display box's clock in one sitting, in the order in which they were made.
-    std::vector<BoxClockReading> box_clock_readings(int sitting) const;
+    std::vector<BoxClockPair> box_clock_readings(int sitting) const;
 
     /// The line through the trial's time stamps, with the refresh interval that all trials of its sitting
     /// have together; nothing of a trial without flips.

@@ -78,13 +78,14 @@ std::vector<std::pair<int, RecordedBox>> SessionRecord::display_boxes() const {
     });
 }
 
-std::vector<BoxClockReading> SessionRecord::box_clock_readings(int sitting) const {
+std::vector<BoxClockPair> SessionRecord::box_clock_readings(int sitting) const {
     return reading_session(file_, [&] {
         return read_later_rows(
             *database_, "box_clock_pair",
             "SELECT before_ns, box_us, after_ns FROM box_clock_pair WHERE sitting = ? ORDER BY id",
             [](Query& row) {
-                return BoxClockReading{row.session_time(), row.integer(), row.session_time()};
+                return BoxClockPair{row.session_time(), BoxTime(BoxClock::duration(row.integer())),
+                                    row.session_time()};
             },
             sitting);
     });

@@ -181,7 +181,7 @@ void RowWriter::sample(int trial, const GazeSample& sample) {
 void RowWriter::clock_pair(const ClockPair& pair) {
     begin();
     run_statement(insert_clock_pair_, sitting_, pair.before,
-                  static_cast<std::int64_t>(pair.tracker.time_since_epoch().count()), pair.after);
+                  static_cast<std::int64_t>(pair.other.time_since_epoch().count()), pair.after);
 }
 
 void RowWriter::event(SessionTime at, int trial, const std::string& kind, const std::string& detail) {
@@ -209,13 +209,14 @@ void RowWriter::display_box(const RecordedBox& box) {
                   is_there ? std::optional(box.video_rate_hz) : std::nullopt);
 }
 
-void RowWriter::box_clock(const std::vector<BoxClockReading>& readings) {
+void RowWriter::box_clock(const std::vector<BoxClockPair>& readings) {
     begin();
     database_.exec(box_tables_sql);
     SQLite::Statement insert(
         database_, "INSERT INTO box_clock_pair (sitting, before_ns, box_us, after_ns) VALUES (?,?,?,?)");
-    for (const BoxClockReading& reading : readings)
-        run_statement(insert, sitting_, reading.before, reading.box_us, reading.after);
+    for (const BoxClockPair& reading : readings)
+        run_statement(insert, sitting_, reading.before,
+                      static_cast<std::int64_t>(reading.other.time_since_epoch().count()), reading.after);
 }
 
 void RowWriter::consent(const RecordedConsent& consent) {

@@ -46,7 +46,7 @@ class RowWriter {
     void event(SessionTime at, int trial, const std::string& kind, const std::string& detail);
     void map(const RecordedMap& map);
     void display_box(const RecordedBox& box);
-    void box_clock(const std::vector<BoxClockReading>& readings);
+    void box_clock(const std::vector<BoxClockPair>& readings);
     void consent(const RecordedConsent& consent);
     void answer(const RecordedAnswer& answer);
     void observer_fields(const std::vector<RecordedObserverField>& fields);

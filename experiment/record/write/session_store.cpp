@@ -66,7 +66,7 @@ void SessionStore::map_made(const RecordedMap& map) { writer_->send(map); }
 
 void SessionStore::display_box(const RecordedBox& box) { writer_->send(box); }
 
-void SessionStore::box_clock(const std::vector<BoxClockReading>& readings) { writer_->send(readings); }
+void SessionStore::box_clock(const std::vector<BoxClockPair>& readings) { writer_->send(readings); }
 
 LostRows SessionStore::lost() const noexcept { return writer_ ? writer_->lost() : lost_in_all_; }
 

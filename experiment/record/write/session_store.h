@@ -71,7 +71,7 @@ class SessionStore final : public SessionLog {
 
     /// Adds readings of the display box's clock and the session's. Readings of one sitting must come from one
     /// run of the box's clock.
-    void box_clock(const std::vector<BoxClockReading>& readings);
+    void box_clock(const std::vector<BoxClockPair>& readings);
 
     /// Since the store was opened. After a failure of writing, rows count as the writer comes to them: all of
     /// them do once close() has returned or thrown.

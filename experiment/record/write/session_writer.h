@@ -42,7 +42,7 @@ class SessionStore::Writer {
     };
     /// What is too large or too rare for the ring itself: it carries the pointer, so that the order holds.
     using Content =
-        std::variant<Event, TrialStart, TrialFinish, RecordedMap, RecordedBox, std::vector<BoxClockReading>,
+        std::variant<Event, TrialStart, TrialFinish, RecordedMap, RecordedBox, std::vector<BoxClockPair>,
                      std::vector<RecordedObserverField>, RecordedConsent, RecordedAnswer>;
     struct Message {
         Content content;
@@ -77,7 +77,7 @@ class SessionStore::Writer {
     void write_message(const TrialFinish& finish);
     void write_message(const RecordedMap& map) { rows_.map(map); }
     void write_message(const RecordedBox& box) { rows_.display_box(box); }
-    void write_message(const std::vector<BoxClockReading>& readings) { rows_.box_clock(readings); }
+    void write_message(const std::vector<BoxClockPair>& readings) { rows_.box_clock(readings); }
     void write_message(const std::vector<RecordedObserverField>& fields) { rows_.observer_fields(fields); }
     void write_message(const RecordedConsent& consent) { rows_.consent(consent); }
     void write_message(const RecordedAnswer& answer) { rows_.answer(answer); }

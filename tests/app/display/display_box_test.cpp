@@ -127,12 +127,12 @@ TEST_CASE("a session on a screen switches the display box, relates its clock and
     REQUIRE(readings.size() >= 1 + 5 + 2 + 1); // the reset, after it, after each trial, at the end
     const BoxClockFit fit = fit_box_clock(readings);
     CHECK(std::abs(fit.drift_ppm) <= fit.drift_uncertainty_ppm);
-    CHECK(readings.front().box_us == 0);
+    CHECK(readings.front().other == BoxTime());
     CHECK(fit.zero >= readings.front().before - fit.uncertainty);
     CHECK(fit.zero <= readings.front().after + fit.uncertainty);
     // No question was asked during a presentation.
     for (const TrialRecord& trial : record.trials())
-        for (const BoxClockReading& reading : readings)
+        for (const BoxClockPair& reading : readings)
             CHECK((reading.after < trial.outcome.presentation_onset ||
                    reading.before > trial.outcome.presentation_end));
 

@@ -55,7 +55,7 @@ TEST_CASE("the terminal asks for what is missing, again until it may stand", "[u
     ask_for_values(fields, values, from, to);
     CHECK(values == FieldValues{"44", "left", ""});
     CHECK_THAT(to.str(), Contains("Age in years (a number, 0 … 120): "));
-    CHECK_THAT(to.str(), Contains("«abc» is not a number"));
+    CHECK_THAT(to.str(), Contains("\"abc\" is not a number"));
     CHECK_THAT(to.str(), Contains("may be left empty"));
     CHECK_THAT(to.str(), !Contains("Handedness"));
     FieldValues none(3);

@@ -79,7 +79,7 @@ TEST_CASE("no box, or two, is an error that names each port and what came of it"
     desk.add_mute("/dev/ttyACM0", 0x2341, 0x0043);
     desk.add_mute("/dev/ttyACM1", 0x0861, 0x1001);
     desk.ports.push_back({"/dev/ttyACM2", {}, {}, {}, {}, {}});
-    CHECK_THROWS_WITH(desk.find(), Contains("ttyACM0: no line beginning with «#ProductType;»") &&
+    CHECK_THROWS_WITH(desk.find(), Contains("ttyACM0: no line beginning with \"#ProductType;\"") &&
                                        Contains("ttyACM1 (0861:1001") &&
                                        Contains("ttyACM2 cannot be opened"));
     desk.add_box("/dev/ttyACM3", "7");

@@ -80,7 +80,7 @@ TEST_CASE("neither a stream nor a reply without end holds a question up", "[unit
         for (int i = 1; i < 100; ++i)
             bench.box.far.send(asked + i * 100ms, "1");
         bench.box.model.silent_on = {"VideoFrameRate"};
-        CHECK_THAT(message_of([&] { display.video_rate_hz(); }), Contains("no end of «#VideoFrameRate;»"));
+        CHECK_THAT(message_of([&] { display.video_rate_hz(); }), Contains("no end of \"#VideoFrameRate;\""));
         CHECK(to_seconds(bench.clock.now() - asked) == Approx(5.0).margin(0.01));
     }
 }

@@ -130,11 +130,11 @@ TEST_CASE("a whole conversation with a display box goes over a terminal line", "
         CHECK(line[255] == RgbBytes{9, 255, 7});
         const BoxClockPair first = display.read_clocks(), second = display.read_clocks();
         CHECK(first.before < first.after);
-        CHECK(first.box < second.box);
+        CHECK(first.other < second.other);
         // The box's clock and ours are the same here: what lies between two readings must agree within their
         // widths.
-        CHECK(to_seconds(second.after - first.before) >= to_seconds(second.box) - to_seconds(first.box));
-        CHECK(to_seconds(second.before - first.after) <= to_seconds(second.box) - to_seconds(first.box));
+        CHECK(to_seconds(second.after - first.before) >= to_seconds(second.other) - to_seconds(first.other));
+        CHECK(to_seconds(second.before - first.after) <= to_seconds(second.other) - to_seconds(first.other));
     }
     CHECK(model.mode == "BitsPlusPlus");
 }

@@ -14,7 +14,7 @@
 
 namespace overt::test {
 
-/// Two tasks («head share» 0.4 and 0.15) about one bust.
+/// Two tasks ("head share" 0.4 and 0.15) about one bust.
 inline ObservedScene scene_with(const Mesh& mesh) {
     ObservedScene scene;
     const View view{fit_camera(mesh, {11.9}, {1024, 1024}, {25.0}, 0.06), {1024, 1024}};

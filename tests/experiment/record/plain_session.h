@@ -60,12 +60,19 @@ class PlainPresenter final : public Presenter {
 class BlinkingTracker final : public EyeTracker {
   public:
     TrackerDescription description() const override { return {"blinking", 1000.0, Eye::left}; }
+    bool measures_gaze() const noexcept override { return is_there; }
     ValidationResult calibrate() override {
         ++calibrations;
         return {};
     }
-    std::optional<Degrees> drift_check(ScreenPoint) override { return Degrees{0.1}; }
-    ClockPair read_clocks() noexcept override { return {}; }
+    std::optional<Degrees> drift_check(ScreenPoint) override {
+        ++drift_checks;
+        return Degrees{0.1};
+    }
+    ClockPair read_clocks() noexcept override {
+        ++clock_readings;
+        return {};
+    }
     void start_recording() override { ++recording_; }
     void stop_recording() override {}
     std::size_t poll(std::span<GazeSample> into) noexcept override {
@@ -77,13 +84,14 @@ class BlinkingTracker final : public EyeTracker {
     bool lost() const noexcept override { return false; }
 
     std::vector<int> blind;
-    int calibrations = 0;
+    int calibrations = 0, drift_checks = 0, clock_readings = 0;
+    bool is_there = true;
 
   private:
     int recording_ = -1;
 };
 
-/// Presses once at each time that it is asked: what it is told to, or yes to decisions and «next» to all
+/// Presses once at each time that it is asked: what it is told to, or yes to decisions and "next" to all
 /// else.
 class ScriptedPanel final : public ResponsePanel {
   public:

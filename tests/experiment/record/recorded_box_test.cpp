@@ -26,14 +26,15 @@ RecordedBox example_box() {
 }
 
 /// A box whose clock runs `ppm` slower than the session's, read every minute over an hour.
-std::vector<BoxClockReading> hour_of_readings(double ppm, SessionTime zero) {
-    std::vector<BoxClockReading> readings;
+std::vector<BoxClockPair> hour_of_readings(double ppm, SessionTime zero) {
+    std::vector<BoxClockPair> readings;
     for (int minute = 0; minute <= 60; ++minute) {
         const std::int64_t box_us = 60'000'000LL * minute;
         const SessionTime at =
             zero + SessionDuration(std::llround(static_cast<double>(box_us) * (1e3 + 1e-3 * ppm)));
         // What lies before and after is never the same: on the way there and back.
-        readings.push_back({at - SessionDuration(200'000 + 1000 * (minute % 7)), box_us,
+        readings.push_back({at - SessionDuration(200'000 + 1000 * (minute % 7)),
+                            BoxTime(BoxClock::duration(box_us)),
                             at + SessionDuration(900'000 - 1500 * (minute % 5))});
     }
     return readings;
@@ -45,7 +46,7 @@ TEST_CASE("each sitting's display box and the readings of its clock come back as
           "[unit]") {
     const TemporaryFolder folder;
     const auto path = make_session(folder.path(), example_header());
-    const std::vector<BoxClockReading> readings = hour_of_readings(20.0, at_ms(500));
+    const std::vector<BoxClockPair> readings = hour_of_readings(20.0, at_ms(500));
     RecordedBox declined;
     declined.use = RecordedBox::Use::declined;
     {

@@ -83,7 +83,7 @@ TEST_CASE("a form is filled in by keys, and says what is at fault", "[unit]") {
     CHECK_FALSE(take(form, U"Zoë 王\u0301"));
     // The first fault is said and gone to.
     CHECK(form.focus() == 0);
-    CHECK_THAT(form.message(), Contains("«3x1»"));
+    CHECK_THAT(form.message(), Contains("\"3x1\""));
     CHECK_THAT(form.text(), Contains(form.message()) && Contains("• Age in years"));
     form.take({Key::erase, {}});
     form.take({Key::erase, {}});
@@ -125,7 +125,7 @@ TEST_CASE("the session shows the form where somebody can type, with what is know
             return std::nullopt;
         if (next < typed.size())
             return ResponsePress{Key::character, {}, typed[next++]};
-        if (!is_corrected && sitting.presenter.texts.back().find("«200»") != std::string::npos) {
+        if (!is_corrected && sitting.presenter.texts.back().find("\"200\"") != std::string::npos) {
             is_corrected = true;
             return ResponsePress{Key::erase, {}};
         }

@@ -137,7 +137,7 @@ TEST_CASE("a pause lasts until the operator ends it, whatever the observer press
         }
         if (panel.phase() == SessionPhase::pause && panel.looks == 1000)
             return ResponsePress{Key::pause, {}};
-        return std::nullopt; // «next»
+        return std::nullopt; // "next"
     };
     CHECK(sitting.run().completed_trials == 2);
     const auto said = sitting.log.details_of("operator");
@@ -265,7 +265,7 @@ TEST_CASE("a text stands until a key is pressed, however little time there is to
         if (panel.phase() == response_screen || panel.phase() == end || looks == patience) {
             if (looks == patience)
                 stood.push_back(shown.back());
-            return std::nullopt; // «next»
+            return std::nullopt; // "next"
         }
         return ResponsePress{Key::character, {}};
     };

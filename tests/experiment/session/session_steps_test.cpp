@@ -50,6 +50,24 @@ TEST_CASE("a trial without gaze is repeated as the protocol says, and only the l
     CHECK(patient.log.started == std::vector<int>{0, 1});
 }
 
+TEST_CASE("a session without an eye tracker neither calibrates, nor checks drift, nor reads its clock",
+          "[unit]") {
+    for (const bool is_there : {true, false}) {
+        CAPTURE(is_there);
+        Sitting sitting(short_protocol(""));
+        sitting.tracker.is_there = is_there;
+        const SessionResult result = sitting.run();
+        CHECK_FALSE(result.aborted);
+        CHECK(result.completed_trials == 2);
+        CHECK(sitting.tracker.calibrations == (is_there ? 1 : 0));
+        CHECK(sitting.tracker.drift_checks == (is_there ? 2 : 0));
+        CHECK((sitting.tracker.clock_readings > 0) == is_there);
+        CHECK(sitting.log.count("validation") == (is_there ? 1 : 0));
+        CHECK(sitting.log.count("calibration") == (is_there ? 0 : 1));
+        CHECK(sitting.panel.times_in(SessionPhase::drift_check) == 2);
+    }
+}
+
 TEST_CASE("a trial that the operator rejects comes again, or is left out, and the session ends in order",
           "[unit]") {
     for (const std::string when : {"now", "end-of-block", "never"}) {

@@ -83,7 +83,7 @@ TEST_CASE("rows, outcomes, events and clock pairs come back as they were written
     CHECK(events[1].detail == "left\tright");
     REQUIRE(record.clock_pairs(1).size() == 1);
     CHECK(record.clock_pairs(1)[0].before == pair.before);
-    CHECK(record.clock_pairs(1)[0].tracker == pair.tracker);
+    CHECK(record.clock_pairs(1)[0].other == pair.other);
     CHECK(record.clock_pairs(1)[0].after == pair.after);
     CHECK(record.header().maps[1].file == "maps/other.exr");
     CHECK(record.last_time() == flips.back().report.vertical_blank);
