@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/ports/event_kinds.h"
 #include "experiment/ports/operator_key.h"
 
 namespace overt {
@@ -84,7 +85,7 @@ OperatorDesk::Press OperatorDesk::wait(const Waiting& waiting) {
 
 bool OperatorDesk::act_on(const ResponsePress& press) {
     const Key key = press.key;
-    stage_.log().event({press.pressed_at, stage_.trial(), "operator pressed", std::string(name_of(key))});
+    stage_.log().event({press.pressed_at, stage_.trial(), operator_pressed_event, std::string(name_of(key))});
     const SessionPhase phase = stage_.phase();
     const int trial = stage_.trial();
     switch (key) {
@@ -104,7 +105,7 @@ bool OperatorDesk::act_on(const ResponsePress& press) {
     case Key::abort:
         if (confirm(is_in_trial(phase) ? stage_.protocol.words.abort_in_trial
                                        : stage_.protocol.words.abort)) {
-            stage_.note("operator", "ends the session");
+            stage_.note(operator_event, "ends the session");
             stage_.end_session("aborted by a key");
         }
         break;
@@ -121,7 +122,7 @@ bool OperatorDesk::act_on(const ResponsePress& press) {
 /// Whether the trial is over.
 bool OperatorDesk::end_trial(Key key) {
     if (!is_in_trial(stage_.phase())) {
-        stage_.note("operator", "a key for trials had no effect: none is running");
+        stage_.note(operator_event, "a key for trials had no effect: none is running");
         return false;
     }
     const OperatorSettings& settings = stage_.protocol.operators;
@@ -131,7 +132,7 @@ bool OperatorDesk::end_trial(Key key) {
         if (!confirm(at_once ? words.repeat : words.reject))
             return false;
         decision_ = {at_once ? TrialDecision::Word::repeated : TrialDecision::Word::rejected, {}};
-        stage_.note("operator", at_once ? "repeats the trial" : "rejects the trial");
+        stage_.note(operator_event, at_once ? "repeats the trial" : "rejects the trial");
         return true;
     }
     std::string question = words.skip;
@@ -144,13 +145,13 @@ bool OperatorDesk::end_trial(Key key) {
     decision_ = {TrialDecision::Word::skipped,
                  *answer == 0 ? "no reason given"
                               : settings.skip_reasons[static_cast<std::size_t>(*answer - 1)]};
-    stage_.note("operator", "skips the trial: " + decision_.why);
+    stage_.note(operator_event, "skips the trial: " + decision_.why);
     return true;
 }
 
 std::optional<int> OperatorDesk::confirm(const std::string& question, int reasons) {
     const OperatorSettings& keys = stage_.protocol.operators;
-    stage_.note("operator asked", question);
+    stage_.note(operator_asked_event, question);
     const WordSettings& words = stage_.protocol.words;
     const SessionTime onset =
         stage_.show({Screen::Kind::text, fmt::format("{}\n\n{}: {}        {}: {}", question, upper(keys.yes),
@@ -176,12 +177,12 @@ std::optional<int> OperatorDesk::confirm(const std::string& question, int reason
         if (!is_decided)
             rest_a_little(SessionTime::max());
     }
-    stage_.note("operator answered", answer ? "yes" : "no");
+    stage_.note(operator_answered_event, answer ? "yes" : "no");
     return stage_.is_over() ? std::nullopt : answer;
 }
 
 void OperatorDesk::pause() {
-    stage_.note("operator", "pauses");
+    stage_.note(operator_event, "pauses");
     stage_.enter(SessionPhase::pause, stage_.trial());
     const SessionTime onset = stage_.show({Screen::Kind::text, stage_.protocol.operators.pause_text});
     stage_.ports.panel.await_key(onset);
@@ -189,7 +190,7 @@ void OperatorDesk::pause() {
         while (const std::optional<ResponsePress> press = stage_.ports.panel.poll()) {
             // The observer's key does not end the operator's pause.
             if (press->key == Key::pause) {
-                stage_.log().event({press->pressed_at, stage_.trial(), "operator pressed", "pause"});
+                stage_.log().event({press->pressed_at, stage_.trial(), operator_pressed_event, "pause"});
                 goes_on = true;
                 break;
             }
@@ -203,7 +204,7 @@ void OperatorDesk::pause() {
         if (!goes_on)
             rest_a_little(SessionTime::max());
     }
-    stage_.note("operator", fmt::format("goes on after {:.1f} s", to_seconds(stage_.now() - onset)));
+    stage_.note(operator_event, fmt::format("goes on after {:.1f} s", to_seconds(stage_.now() - onset)));
 }
 
 void OperatorDesk::calibrate() {
@@ -211,7 +212,7 @@ void OperatorDesk::calibrate() {
         stage_.enter(SessionPhase::calibration, stage_.trial());
     stage_.show({});
     const ValidationResult result = stage_.ports.tracker.calibrate();
-    stage_.note("validation", fmt::format("mean error {:.3f} deg, largest {:.3f} deg",
+    stage_.note(validation_event, fmt::format("mean error {:.3f} deg, largest {:.3f} deg",
                                           result.mean_error.value, result.max_error.value));
 }
 

@@ -10,9 +10,6 @@
 
 namespace overt {
 
-/// Kind of the events that say which text the observer was given to read.
-inline constexpr std::string_view text_shown_event = "text shown";
-
 class SessionStage {
   public:
     /// Both must outlive the stage.

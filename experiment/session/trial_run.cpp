@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/ports/event_kinds.h"
 #include "experiment/session/answer_check.h"
 #include "experiment/session/level_watch.h"
 
@@ -94,9 +95,9 @@ void TrialRun::check_drift(TrialOutcome& outcome) {
     outcome.drift = stage_.ports.tracker.drift_check(screen_centre_);
     const double limit_deg = stage_.protocol.tracker.drift_limit_deg;
     if (!outcome.drift)
-        stage_.note("drift check failed", "no eye was found");
+        stage_.note(drift_check_failed_event, "no eye was found");
     else if (outcome.drift->value > limit_deg)
-        stage_.note("drift check failed", fmt::format("{:.3f} deg is more than the limit of {} deg",
+        stage_.note(drift_check_failed_event, fmt::format("{:.3f} deg is more than the limit of {} deg",
                                                       outcome.drift->value, limit_deg));
 }
 
@@ -162,7 +163,7 @@ void TrialRun::act_on_pressed_keys(Attempt& attempt) {
         return;
     const bool was_broken_off = !ledger_.is_complete();
     if (was_broken_off)
-        stage_.log().event({pressed_->pressed_at, stage_.trial(), "presentation broken off",
+        stage_.log().event({pressed_->pressed_at, stage_.trial(), presentation_broken_off_event,
                             fmt::format("by a key, after {} refreshes", attempt.outcome.shown_refreshes)});
     desk_.act_on(*pressed_);
     // Half an animation is no stimulus: taken back or not, this attempt does not count.
@@ -206,7 +207,7 @@ void TrialRun::take_answer(const Trial& trial, const std::optional<Condition>& n
     if (recording)
         recording->end(press.at);
     if (press.how == How::timed_out)
-        stage_.log().event({press.at, stage_.trial(), "response timed out", ""});
+        stage_.log().event({press.at, stage_.trial(), response_timed_out_event, ""});
     if (press.how == How::next)
         outcome.answer = ports.panel.answer();
     if (recording)
@@ -222,11 +223,11 @@ void TrialRun::keep_answer(AnswerRecording& recording) {
         answer = recording.result();
     }
     if (!answer) {
-        stage_.note("answer recording", "was not complete two seconds after its end: the file may be short");
+        stage_.note(answer_recording_event, "was not complete two seconds after its end: the file may be short");
         return;
     }
     for (const std::string& warning : warnings_about(*answer))
-        stage_.note("answer recording", warning);
+        stage_.note(answer_recording_event, warning);
     stage_.log().answer_recorded(*answer);
 }
 
@@ -237,10 +238,10 @@ void TrialRun::note_disturbance(const Clock::Disturbance& before) {
     const double slept_s = to_seconds(now.slept - before.slept);
     const double moved_s = to_seconds(now.wall_moved - before.wall_moved);
     if (slept_s > shortest_sleep_s)
-        stage_.note("machine slept",
+        stage_.note(machine_slept_event,
                     fmt::format("{:.3f} s, in which nothing was shown or recorded", slept_s));
     if (std::abs(moved_s) > smallest_wall_step_s)
-        stage_.note("wall clock was set",
+        stage_.note(wall_clock_set_event,
                     fmt::format("by {:+.3f} s; session time went on as before", moved_s));
 }
 

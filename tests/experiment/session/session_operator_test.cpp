@@ -1,4 +1,5 @@
 /// What the operator's keys do in each phase, on ports that do what they are told.
+#include "experiment/ports/event_kinds.h"
 #include "experiment/ports/operator_key.h"
 #include "tests/experiment/record/plain_session.h"
 
