@@ -1,13 +1,12 @@
 #include "app/cli/file_set.h"
 
-#include <cerrno>
 #include <cstring>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/whole_file.h"
 
 namespace overt {
 
@@ -17,28 +16,11 @@ std::filesystem::path hidden_name(const std::filesystem::path& path) {
     return path.parent_path() / fmt::format(".{}.partial-{}", path.filename().string(), ::getpid());
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& path, int reason) {
-    throw RecordError(fmt::format("{}: cannot be written: {}. Check space and permissions.", path.string(),
-                                  std::strerror(reason)));
-}
-
-void write_to_disk(const std::filesystem::path& path, const std::string& text) {
-    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (descriptor < 0)
-        refuse(path, errno);
-    int reason = 0;
-    for (std::size_t done = 0; done < text.size() && reason == 0;) {
-        const ssize_t count = ::write(descriptor, text.data() + done, text.size() - done);
-        if (count > 0)
-            done += static_cast<std::size_t>(count);
-        else if (errno != EINTR)
-            reason = errno;
-    }
-    if (reason == 0 && ::fsync(descriptor) != 0)
-        reason = errno;
-    ::close(descriptor);
-    if (reason != 0)
-        refuse(path, reason);
+void write_hidden(const TextFile& file) {
+    if (const int reason = write_through(hidden_name(file.path), std::as_bytes(std::span(file.text)));
+        reason != 0)
+        throw RecordError(fmt::format("{}: cannot be written: {}. Check space and permissions.",
+                                      hidden_name(file.path).string(), std::strerror(reason)));
 }
 
 } // namespace
@@ -62,7 +44,7 @@ void write_file_set(const std::vector<TextFile>& files, bool force) {
     std::size_t written = 0;
     try {
         for (; written < files.size(); ++written)
-            write_to_disk(hidden_name(files[written].path), files[written].text);
+            write_hidden(files[written]);
         for (const TextFile& file : files)
             std::filesystem::rename(hidden_name(file.path), file.path);
     } catch (const std::exception& error) {

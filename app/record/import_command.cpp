@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,6 +10,7 @@
 #include "app/record/record_commands.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
+#include "experiment/base/whole_file.h"
 #include "experiment/record/asc/asc_import.h"
 
 namespace overt {
@@ -90,12 +90,8 @@ int run_import(const ImportOptions& options) {
                                          ? import_asc(options.file, request)
                                          : import_asc_into(options.file, options.into, request);
     bar.finish();
-    if (!options.print_session_to.empty()) {
-        std::ofstream stream(options.print_session_to);
-        stream << summary.session.string() << '\n';
-        if (!stream.flush())
-            throw RecordError(fmt::format("{}: cannot be written", options.print_session_to.string()));
-    }
+    if (!options.print_session_to.empty())
+        write_to(options.print_session_to, summary.session.string() + "\n");
     if (options.json)
         fmt::print("{}\n", to_json(summary).dump(2));
     else

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "app/record/timing_plot.h"
 #include "app/record/timing_text.h"
 #include "experiment/base/error.h"
+#include "experiment/base/whole_file.h"
 #include "experiment/record/preview_file.h"
 #include "experiment/record/read/sample_join.h"
 #include "render/stimulus/trial_picture.h"
@@ -104,12 +104,9 @@ void print_session(const SessionRecord& record) {
 
 void write_plot(const SessionRecord& record, const std::filesystem::path& file) {
     const SessionHeader& header = record.header();
-    std::ofstream stream(file, std::ios::binary);
-    stream << timing_plot(timing_report(record),
-                          fmt::format("Timing of {}, observer {}, session {}", header.protocol.name,
-                                      header.schedule.observer.label, header.session_number));
-    if (!stream.flush())
-        throw RecordError(fmt::format("{}: cannot be written", file.string()));
+    write_to(file, timing_plot(timing_report(record),
+                               fmt::format("Timing of {}, observer {}, session {}", header.protocol.name,
+                                           header.schedule.observer.label, header.session_number)));
     fmt::print("plot: {}\n", file.string());
 }
 

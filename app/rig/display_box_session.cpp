@@ -9,6 +9,7 @@
 #include "devices/host/clocks.h"
 #include "devices/link/serial_port.h"
 #include "experiment/base/error.h"
+#include "experiment/ports/event_kinds.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "render/signal/t_lock.h"
 
@@ -138,7 +139,7 @@ ShownClockReset DisplayBoxSession::show_clock_reset(PagePresenter& presenter) {
 void DisplayBoxSession::write_beginning(SessionStore& store) {
     store.display_box(recorded_);
     store.box_clock(pairs_);
-    store.event({clock_.now(), -1, "display box", describe(recorded_)});
+    store.event({clock_.now(), -1, display_box_event, describe(recorded_)});
 }
 
 void DisplayBoxSession::read_clock(SessionStore& store) {
@@ -156,7 +157,7 @@ void DisplayBoxSession::check(SessionStore& store) {
     try {
         read_clock(store);
     } catch (const DeviceError& error) {
-        store.event({clock_.now(), -1, "display box lost", error.what()});
+        store.event({clock_.now(), -1, display_box_lost_event, error.what()});
         throw;
     }
 }
@@ -165,7 +166,7 @@ void DisplayBoxSession::leave(SessionStore& store) {
     check(store);
     box_->restore_desktop();
     const BoxClockFit fit = fit_box_clock(pairs_);
-    store.event({clock_.now(), -1, "display box left",
+    store.event({clock_.now(), -1, display_box_left_event,
                  fmt::format("back in Bits++; its clock by {} readings: drift {:.3f} ppm, at most {:.3f} ppm "
                              "off; times read off it at most {:.3f} ms off",
                              fit.readings, fit.drift_ppm, fit.drift_uncertainty_ppm,

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/ports/event_kinds.h"
 
 namespace overt {
 
@@ -68,7 +69,7 @@ void record_verification(PagePresenter& presenter, const FrameSource& pages, con
         for (const PageVerification& page :
              verify_pages(presenter, pages, stimulus, geometry, protocol.display)) {
             const std::string sentence = sentence_on(page, name);
-            log.event({clock.now(), -1, "output verified", sentence});
+            log.event({clock.now(), -1, output_verified_event, sentence});
             if (page.findings.different > 0 && first_difference.empty())
                 first_difference = sentence;
         }

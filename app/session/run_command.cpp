@@ -1,5 +1,3 @@
-#include <fstream>
-
 #include <fmt/format.h>
 
 #include "app/cli/cache_folder.h"
@@ -19,7 +17,9 @@
 #include "app/session/session_recording.h"
 #include "devices/host/thread_priority.h"
 #include "experiment/base/error.h"
+#include "experiment/base/whole_file.h"
 #include "experiment/design/schedule.h"
+#include "experiment/ports/event_kinds.h"
 #include "experiment/record/read/timing_report.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/write/session_store.h"
@@ -60,16 +60,14 @@ void check_timing(Rig& rig, double seconds) {
 void note_faults(const std::filesystem::path& file, const Clock& clock, SessionStore& store) {
     if (file.empty())
         return;
-    std::ifstream stream(file, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    store.event({clock.now(), -1, simulated_faults_event, text});
+    store.event({clock.now(), -1, simulated_faults_event, read_whole_file(file)});
     fmt::print("display: with the simulated faults of {}\n", file.string());
 }
 
 void note_struck(const VirtualRefresh& display, const Trial& trial, const Clock& clock, SessionStore& store) {
     for (const DisplayFault& fault : display.struck()) {
         const bool skips = fault.kind == DisplayFault::Kind::skip;
-        store.event({clock.now(), trial.index, "display fault",
+        store.event({clock.now(), trial.index, display_fault_event,
                      skips ? fmt::format("skip of {} at refresh {}", fault.refreshes, fault.refresh)
                            : fmt::format("{} by {:.3f} ms at refresh {}", name_of(fault.kind),
                                          fault.amount_ms, fault.refresh)});
@@ -80,7 +78,7 @@ void note_thread(const std::vector<ThreadWish>& wishes, const Clock& clock, Sess
     for (const ThreadWish& wish : wishes) {
         const std::string answer =
             fmt::format("{}: {}{}", wish.what, wish.granted ? "" : "refused: ", wish.detail);
-        store.event({clock.now(), -1, "thread", answer});
+        store.event({clock.now(), -1, thread_event, answer});
         fmt::print(wish.granted ? stdout : stderr, "{}\n", answer);
     }
 }
@@ -172,7 +170,7 @@ SessionStore::Options store_options(const RunOptions& options, const SessionPlan
 void note_circumstances(const RunOptions& options, const Protocol& protocol, const Schedule& schedule,
                         Rig& rig, SessionStore& store) {
     for (const ScreenFinding& finding : rig.screen_findings())
-        store.event({rig.clock().now(), -1, "screen", fmt::format("{}: {}", finding.what, finding.finding)});
+        store.event({rig.clock().now(), -1, screen_event, fmt::format("{}: {}", finding.what, finding.finding)});
     if (options.verify_output) {
         ProgressBar bar;
         record_verification(rig.presenter(), rig.library(), protocol, schedule, rig.clock(), store,
@@ -217,7 +215,7 @@ int run_session(const RunOptions& options) {
     box.write_beginning(store);
     note_circumstances(options, protocol, plan.schedule, rig, store);
     answers.keep_in(folder.path);
-    store.event({rig.clock().now(), -1, "answer recording", answers.description()});
+    store.event({rig.clock().now(), -1, answer_recording_event, answers.description()});
     Session session(protocol, plan.schedule, screen_geometry_of(protocol).centre(),
                     {.clock = rig.clock(),
                      .presenter = rig.presenter(),

@@ -1,12 +1,11 @@
 #include "app/session/session_messages.h"
 
-#include <fstream>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
+#include "experiment/base/whole_file.h"
 #include "experiment/protocol/protocol_keys.h"
 
 namespace overt {
@@ -92,12 +91,8 @@ void say_after(const RunOptions& options, const SessionResult& result, const Los
                counted(planned, "trial"),
                is_short ? fmt::format(", {} skipped", planned - result.completed_trials) : "",
                counted(result.missed_refreshes, "refresh", "refreshes"), folder.string());
-    if (!options.print_session_to.empty()) {
-        std::ofstream file(options.print_session_to);
-        file << folder.string() << "\n";
-        if (!file.flush())
-            throw RecordError(fmt::format("{}: cannot be written", options.print_session_to.string()));
-    }
+    if (!options.print_session_to.empty())
+        write_to(options.print_session_to, folder.string() + "\n");
     if (result.aborted)
         fmt::print(stderr, "the session ended early: {}{}\n", result.reason,
                    result.is_opened || result.completed_trials > 0

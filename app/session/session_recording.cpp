@@ -1,12 +1,11 @@
 #include "app/session/session_recording.h"
 
-#include <fstream>
-
 #include <fmt/format.h>
 
 #include "app/cli/this_program.h"
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
+#include "experiment/base/whole_file.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/record/header_rows.h"
 #include "experiment/scene/ply_writer.h"
@@ -22,13 +21,6 @@ void copy_into(const std::filesystem::path& from, const std::filesystem::path& t
         std::filesystem::copy_file(from, to, error);
     if (error)
         throw RecordError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
-}
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-    std::ofstream stream(file, std::ios::binary);
-    stream << text;
-    if (!stream.flush())
-        throw RecordError(fmt::format("{}: cannot be written", file.string()));
 }
 
 std::string map_name(const std::string& sculpture, PoseIndex pose) {
@@ -169,7 +161,7 @@ void put_all_files(const SessionDirectory& directory, const SessionHeader& heade
         write_srgb_png(file,
                        library.page(stimulus.condition, library.page_of_frame(stimulus.condition).front()));
     }
-    write_text(directory.path() / "protocol.toml", header.protocol.text);
+    write_to(directory.path() / "protocol.toml", header.protocol.text);
     for (const RecordedProtocol::Included& included : header.protocol.included) {
         // Beside the copy of the protocol as it was beside the protocol. What lay outside of its folder is in
         // the session file alone.
@@ -177,7 +169,7 @@ void put_all_files(const SessionDirectory& directory, const SessionHeader& heade
         if (name.is_absolute() || included.name.starts_with(".."))
             continue;
         std::filesystem::create_directories((directory.path() / name).parent_path());
-        write_text(directory.path() / name, included.text);
+        write_to(directory.path() / name, included.text);
     }
     create_session_file(directory.session_file(), header);
     begin_manifest(directory.path(), header, this_program());

@@ -1,7 +1,6 @@
 #include "app/stimuli/frame_export.h"
 
 #include <cmath>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -53,10 +52,6 @@ std::vector<std::string> channels_of(ExportedLight light) {
         channels.push_back(fmt::format("{:.0f}nm", first_bin_centre_nm + bin_width_nm * bin));
     channels.emplace_back("A");
     return channels;
-}
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-    write_whole_file(file, std::as_bytes(std::span(text)));
 }
 
 /// Over the background, in 16 bits of linear light.
@@ -118,8 +113,10 @@ ContentHash FrameExport::key_of(const BakeUnit& unit) const {
 std::string FrameExport::key_in(const std::filesystem::path& file) const {
     if (!options_->png16)
         return text_attribute(file, key_name);
-    std::ifstream stream(std::filesystem::path(file).replace_extension(".json"));
-    const auto json = nlohmann::json::parse(stream, nullptr, false);
+    int error = 0;
+    const auto text =
+        read_whole_file(std::filesystem::path(file).replace_extension(".json"), most_text_bytes, error);
+    const auto json = nlohmann::json::parse(text.value_or(""), nullptr, false);
     return json.is_object() ? json.value(key_name, "") : "";
 }
 
@@ -219,7 +216,7 @@ ClippedPixels FrameExport::write(const BakeUnit& unit, const SpectralFrame* trac
                                              clipped.share_below(2)};
         // The sidecar last: with its key it says that the picture is whole.
         write_rgb16_png(file, picture.size_px, codes);
-        write_text(std::filesystem::path(file).replace_extension(".json"), json.dump(2) + "\n");
+        write_whole_file(std::filesystem::path(file).replace_extension(".json"), json.dump(2) + "\n");
     }
     return clipped;
 }

@@ -2,10 +2,10 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 
 #include <fmt/format.h>
 
+#include "experiment/base/whole_file.h"
 #include "experiment/checks/protocol_checks.h"
 #include "experiment/protocol/protocol_reader.h"
 
@@ -67,19 +67,11 @@ std::optional<std::string> text_of(const std::filesystem::path& file, std::strin
         why_not = "this is a folder, not a protocol file";
         return std::nullopt;
     }
-    errno = 0;
-    std::ifstream stream(file, std::ios::binary);
-    std::string text(largest_bytes + 1, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (!stream.eof() && stream.gcount() == 0) {
-        why_not = fmt::format("cannot be read: {}", std::strerror(errno));
-        return std::nullopt;
-    }
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > largest_bytes) {
-        why_not = "larger than 1 MiB: this is no protocol file";
-        return std::nullopt;
-    }
+    int error = 0;
+    std::optional<std::string> text = read_whole_file(file, largest_bytes, error);
+    if (!text)
+        why_not = error == EFBIG ? "larger than 1 MiB: this is no protocol file"
+                                 : fmt::format("cannot be read: {}", std::strerror(error));
     return text;
 }
 

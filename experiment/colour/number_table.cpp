@@ -5,12 +5,12 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/whole_file.h"
 
 namespace overt {
 
@@ -178,16 +178,13 @@ std::optional<std::string> read_whole_file(const std::filesystem::path& file, co
         return refuse(fmt::format("there is no file {}", file.string()));
     if (!std::filesystem::is_regular_file(file, ignored))
         return refuse(fmt::format("{} is no file", file.string()));
-    errno = 0;
-    std::ifstream stream(file, std::ios::binary);
-    std::string text(largest_bytes + 1, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (!stream.eof() && stream.gcount() == 0)
-        return refuse(fmt::format("{} cannot be read: {}", file.string(), std::strerror(errno)));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > largest_bytes)
+    int error = 0;
+    std::optional<std::string> text = read_whole_file(file, largest_bytes, error);
+    if (error == EFBIG)
         return refuse(fmt::format("{} is larger than 4 MiB: it is no table of numbers", file.string()));
-    return text;
+    if (!text)
+        return refuse(fmt::format("{} cannot be read: {}", file.string(), std::strerror(error)));
+    return *std::move(text);
 }
 
 std::optional<NumberTable> read_number_table(std::string text, const std::string& file,

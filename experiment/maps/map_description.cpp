@@ -1,11 +1,10 @@
 #include "experiment/maps/map_description.h"
 
-#include <fstream>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "experiment/base/error.h"
+#include "experiment/base/whole_file.h"
 
 namespace overt {
 
@@ -124,10 +123,11 @@ Json to_json(const MapDescription& description) {
 }
 
 std::optional<MapDescription> read_sidecar(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream)
+    int error = 0;
+    const std::optional<std::string> text = read_whole_file(file, most_text_bytes, error);
+    if (!text)
         return std::nullopt;
-    const Json json = Json::parse(stream, nullptr, false);
+    const Json json = Json::parse(*text, nullptr, false);
     if (json.is_discarded())
         throw InputError(fmt::format("{}: is no JSON", file.string()));
     const Reader reader(file, json);
@@ -152,22 +152,7 @@ std::optional<MapDescription> read_sidecar(const std::filesystem::path& file) {
 }
 
 void write_sidecar(const std::filesystem::path& file, const MapDescription& description) {
-    std::filesystem::path temporary = file;
-    temporary.replace_filename("." + file.filename().string() + ".partial");
-    std::error_code error;
-    {
-        std::ofstream stream(temporary, std::ios::binary);
-        stream << to_json(description).dump(2) << '\n';
-        if (!stream.flush())
-            error = std::make_error_code(std::errc::io_error);
-    }
-    if (!error)
-        std::filesystem::rename(temporary, file, error);
-    if (error) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw RecordError(fmt::format("{}: cannot be written: {}", file.string(), error.message()));
-    }
+    write_whole_file(file, to_json(description).dump(2) + '\n');
 }
 
 } // namespace overt

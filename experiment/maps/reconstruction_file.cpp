@@ -2,13 +2,13 @@
 
 #include <bit>
 #include <cstring>
-#include <fstream>
 #include <iterator>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/whole_file.h"
 
 namespace overt {
 
@@ -90,20 +90,9 @@ void write_reconstruction(const std::filesystem::path& file, const Reconstructio
         throw InputError(
             fmt::format("{}: a reconstruction is written as .ply or .obj: end the name so", file.string()));
     }
-    std::filesystem::path partial = file;
-    partial += ".partial";
-    std::ofstream stream(partial, std::ios::binary);
-    stream.write(content.data(), static_cast<std::streamsize>(content.size()));
-    stream.close();
-    std::error_code error;
-    if (stream)
-        std::filesystem::rename(partial, file, error);
-    if (!stream || error) {
-        std::error_code ignored;
-        std::filesystem::remove(partial, ignored);
+    if (replace_file(file, std::as_bytes(std::span(content))) != 0)
         throw RecordError(
             fmt::format("{}: cannot be written: check the folder and the disk's space", file.string()));
-    }
 }
 
 } // namespace overt

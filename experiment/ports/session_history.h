@@ -48,9 +48,4 @@ struct SessionHistory {
     bool is_opened = false; ///< consent and form are in the record
 };
 
-// Kinds of events by which the record tells of steps that have no rows of their own.
-inline constexpr std::string_view practice_answered_event = "practice answered";
-inline constexpr std::string_view practice_skipped_event = "practice skipped";
-inline constexpr std::string_view break_begins_event = "break begins";
-
 } // namespace overt

@@ -1,14 +1,12 @@
 #include "experiment/protocol/fault_file.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "experiment/base/whole_file.h"
 #include "experiment/protocol/value_reader.h"
 
 namespace overt {
@@ -239,15 +237,13 @@ std::optional<DisplayFaults> read_fault_text(std::string_view text, const std::s
 }
 
 std::optional<DisplayFaults> read_fault_file(const std::filesystem::path& file, Diagnostics& diagnostics) {
-    errno = 0;
-    std::ifstream stream(file, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream.is_open() || stream.bad() || std::filesystem::is_directory(file)) {
-        diagnostics.error(file.string(), {},
-                          fmt::format("cannot be read: {}", std::strerror(errno ? errno : EISDIR)));
+    int error = 0;
+    const std::optional<std::string> text = read_whole_file(file, most_text_bytes, error);
+    if (!text) {
+        diagnostics.error(file.string(), {}, fmt::format("cannot be read: {}", std::strerror(error)));
         return std::nullopt;
     }
-    return read_fault_text(text, file.string(), diagnostics);
+    return read_fault_text(*text, file.string(), diagnostics);
 }
 
 } // namespace overt

@@ -1,16 +1,13 @@
 #include "experiment/record/manifest.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <optional>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/whole_file.h"
 #include "experiment/record/session_schema.h"
 
 namespace fs = std::filesystem;
@@ -52,28 +49,8 @@ SessionManifest::File describe_file(const fs::path& folder, const std::string& n
 
 /// In one step: a reader finds the old text or the new one.
 void write_manifest(const fs::path& folder, const SessionManifest& manifest) {
-    const std::string text = to_text(manifest);
-    const fs::path file = folder / manifest_file_name, unfinished = folder / ".manifest.json.partial";
-    const int descriptor = ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    bool is_written = descriptor >= 0;
-    for (std::size_t done = 0; is_written && done < text.size();) {
-        const ssize_t count = ::write(descriptor, text.data() + done, text.size() - done);
-        is_written = count >= 0 || errno == EINTR;
-        done += count > 0 ? static_cast<std::size_t>(count) : 0;
-    }
-    is_written = is_written && ::fsync(descriptor) == 0;
-    const int reason = errno;
-    if (descriptor >= 0)
-        ::close(descriptor);
-    std::error_code error;
-    if (is_written)
-        fs::rename(unfinished, file, error);
-    if (!is_written || error) {
-        ::unlink(unfinished.c_str());
-        throw RecordError(fmt::format("{}: cannot be written: {}. Make room or check the permissions, then "
-                                      "finish with overt run … --resume.",
-                                      file.string(), error ? error.message() : std::strerror(reason)));
-    }
+    write_whole_file(folder / manifest_file_name, to_text(manifest),
+                     ". Make room or check the permissions, then finish with overt run … --resume.");
 }
 
 SessionManifest new_manifest(const fs::path& folder, const SessionHeader& header) {
@@ -138,11 +115,11 @@ SessionManifest manifest_from(const std::string& text, const fs::path& file) {
 
 SessionManifest read_manifest(const fs::path& folder) {
     const fs::path file = folder / manifest_file_name;
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream)
+    int error = 0;
+    const std::optional<std::string> text = read_whole_file(file, most_text_bytes, error);
+    if (!text)
         throw RecordError(fmt::format("{}: is not there, or cannot be read", file.string()));
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    return manifest_from(text, file);
+    return manifest_from(*text, file);
 }
 
 std::vector<std::string> files_of_session(const fs::path& folder, bool with_session_file) {

@@ -1,4 +1,5 @@
 #include "experiment/session/operator_control.h"
+#include "experiment/ports/event_kinds.h"
 #include "experiment/ports/eye_tracker.h"
 #include "experiment/ports/presenter.h"
 #include "experiment/ports/response_panel.h"
@@ -86,7 +87,7 @@ OperatorControl::Press OperatorControl::wait(const Waiting& waiting) {
 
 bool OperatorControl::act_on(const ResponsePress& press) {
     const Key key = press.key;
-    state_.log().event({press.pressed_at, state_.trial(), "operator pressed", std::string(name_of(key))});
+    state_.log().event({press.pressed_at, state_.trial(), operator_pressed_event, std::string(name_of(key))});
     const SessionPhase phase = state_.phase();
     const int trial = state_.trial();
     switch (key) {
@@ -106,7 +107,7 @@ bool OperatorControl::act_on(const ResponsePress& press) {
     case Key::abort:
         if (confirm(is_in_trial(phase) ? state_.protocol.words.abort_in_trial
                                        : state_.protocol.words.abort)) {
-            state_.note("operator", "ends the session");
+            state_.note(operator_event, "ends the session");
             state_.end_session("aborted by a key");
         }
         break;
@@ -123,7 +124,7 @@ bool OperatorControl::act_on(const ResponsePress& press) {
 /// Whether the trial is over.
 bool OperatorControl::end_trial(Key key) {
     if (!is_in_trial(state_.phase())) {
-        state_.note("operator", "a key for trials had no effect: none is running");
+        state_.note(operator_event, "a key for trials had no effect: none is running");
         return false;
     }
     const OperatorSettings& settings = state_.protocol.operators;
@@ -133,7 +134,7 @@ bool OperatorControl::end_trial(Key key) {
         if (!confirm(at_once ? words.repeat : words.reject))
             return false;
         decision_ = {at_once ? TrialDecision::Word::repeated : TrialDecision::Word::rejected, {}};
-        state_.note("operator", at_once ? "repeats the trial" : "rejects the trial");
+        state_.note(operator_event, at_once ? "repeats the trial" : "rejects the trial");
         return true;
     }
     std::string question = words.skip;
@@ -146,13 +147,13 @@ bool OperatorControl::end_trial(Key key) {
     decision_ = {TrialDecision::Word::skipped,
                  *answer == 0 ? "no reason given"
                               : settings.skip_reasons[static_cast<std::size_t>(*answer - 1)]};
-    state_.note("operator", "skips the trial: " + decision_.why);
+    state_.note(operator_event, "skips the trial: " + decision_.why);
     return true;
 }
 
 std::optional<int> OperatorControl::confirm(const std::string& question, int reasons) {
     const OperatorSettings& keys = state_.protocol.operators;
-    state_.note("operator asked", question);
+    state_.note(operator_asked_event, question);
     const WordSettings& words = state_.protocol.words;
     const SessionTime onset =
         state_.show({Screen::Kind::text, fmt::format("{}\n\n{}: {}        {}: {}", question, upper(keys.yes),
@@ -178,12 +179,12 @@ std::optional<int> OperatorControl::confirm(const std::string& question, int rea
         if (!is_decided)
             rest_a_little(SessionTime::max());
     }
-    state_.note("operator answered", answer ? "yes" : "no");
+    state_.note(operator_answered_event, answer ? "yes" : "no");
     return state_.is_over() ? std::nullopt : answer;
 }
 
 void OperatorControl::pause() {
-    state_.note("operator", "pauses");
+    state_.note(operator_event, "pauses");
     state_.enter(SessionPhase::pause, state_.trial());
     const SessionTime onset = state_.show({Screen::Kind::text, state_.protocol.operators.pause_text});
     state_.ports.panel.await_key(onset);
@@ -191,7 +192,7 @@ void OperatorControl::pause() {
         while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
             // The observer's key does not end the operator's pause.
             if (press->key == Key::pause) {
-                state_.log().event({press->pressed_at, state_.trial(), "operator pressed", "pause"});
+                state_.log().event({press->pressed_at, state_.trial(), operator_pressed_event, "pause"});
                 goes_on = true;
                 break;
             }
@@ -205,7 +206,7 @@ void OperatorControl::pause() {
         if (!goes_on)
             rest_a_little(SessionTime::max());
     }
-    state_.note("operator", fmt::format("goes on after {:.1f} s", to_seconds(state_.now() - onset)));
+    state_.note(operator_event, fmt::format("goes on after {:.1f} s", to_seconds(state_.now() - onset)));
 }
 
 void OperatorControl::calibrate() {
@@ -217,8 +218,8 @@ void OperatorControl::calibrate() {
         return;
     }
     const ValidationResult result = state_.ports.tracker.calibrate();
-    state_.note("validation", fmt::format("mean error {:.3f} deg, largest {:.3f} deg",
-                                          result.mean_error.value, result.max_error.value));
+    state_.note(validation_event, fmt::format("mean error {:.3f} deg, largest {:.3f} deg",
+                                              result.mean_error.value, result.max_error.value));
 }
 
 } // namespace overt

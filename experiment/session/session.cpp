@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/ports/event_kinds.h"
 #include "experiment/session/session_opening.h"
 
 namespace overt {
@@ -76,7 +77,7 @@ SessionResult Session::run(const TrialDone& trial_done, const SessionHistory& hi
     // All is done: a window that is closed during the farewell aborts nothing.
     if (!result.aborted)
         farewell();
-    state_.note(result.aborted ? "session aborted" : "session completed", result.reason);
+    state_.note(result.aborted ? session_aborted_event : session_completed_event, result.reason);
     return result;
 }
 
@@ -131,7 +132,7 @@ void Session::judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& at
     constexpr std::string_view afterwards[] = {"does not come again", "comes again now",
                                                "comes again at the end of the block"};
     const std::string& why = control_.decision().why;
-    ports_.log.event({state_.now(), trial.index, "trial failed",
+    ports_.log.event({state_.now(), trial.index, trial_failed_event,
                       fmt::format("{}{}{} ({} refreshes missed, {:.1f} % of samples without gaze): {}{}",
                                   name_of(verdict.failure), why.empty() ? "" : ": ", why,
                                   attempt.result.missed_refreshes, 100.0 * attempt.result.gaze_lost_share,
@@ -151,7 +152,7 @@ void Session::run_practice(const SessionStep& step, const std::optional<Conditio
     PracticeLog log(ports_.log);
     TrialRun::Attempt attempt;
     do {
-        ports_.log.event({state_.now(), -1, "practice",
+        ports_.log.event({state_.now(), -1, practice_event,
                           fmt::format("{}: {}, {}, {}", trial.index + 1, practice.task, practice.sculpture,
                                       practice.material)});
         state_.log_to(log);
@@ -182,7 +183,7 @@ void Session::run_break() {
                    .min_s = is_timed ? breaks.duration_s : breaks.min_s,
                    .max_s = is_timed ? breaks.duration_s : longest_break_s,
                    .takes_keys = !is_timed});
-    state_.note("break ends");
+    state_.note(break_ends_event);
 }
 
 } // namespace overt

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/content_hash.h"
+#include "experiment/ports/event_kinds.h"
 #include "experiment/session/observer_form.h"
 
 namespace overt {

@@ -4,14 +4,12 @@
 #include <string>
 #include <string_view>
 
+#include "experiment/ports/event_kinds.h"
 #include "experiment/ports/session_phase.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/session/session_ports.h"
 
 namespace overt {
-
-/// Kind of the events that say which text the observer was given to read.
-inline constexpr std::string_view text_shown_event = "text shown";
 
 class SessionState {
   public:

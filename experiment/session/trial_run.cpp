@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/ports/event_kinds.h"
 #include "experiment/session/answer_check.h"
 #include "experiment/session/level_watch.h"
 
@@ -94,10 +95,10 @@ void TrialRun::check_drift(TrialOutcome& outcome) {
     outcome.drift = state_.ports.tracker.drift_check(screen_centre_);
     const double limit_deg = state_.protocol.tracker.drift_limit_deg;
     if (!outcome.drift)
-        state_.note("drift check failed", "no eye was found");
+        state_.note(drift_check_failed_event, "no eye was found");
     else if (outcome.drift->value > limit_deg)
-        state_.note("drift check failed", fmt::format("{:.3f} deg is more than the limit of {} deg",
-                                                      outcome.drift->value, limit_deg));
+        state_.note(drift_check_failed_event, fmt::format("{:.3f} deg is more than the limit of {} deg",
+                                                          outcome.drift->value, limit_deg));
 }
 
 void TrialRun::present(const Trial& trial, Attempt& attempt) {
@@ -162,7 +163,7 @@ void TrialRun::act_on_pressed_keys(Attempt& attempt) {
         return;
     const bool was_broken_off = !ledger_.is_complete();
     if (was_broken_off)
-        state_.log().event({pressed_->pressed_at, state_.trial(), "presentation broken off",
+        state_.log().event({pressed_->pressed_at, state_.trial(), presentation_broken_off_event,
                             fmt::format("by a key, after {} refreshes", attempt.outcome.shown_refreshes)});
     control_.act_on(*pressed_);
     // The observer saw only a part of the animation: this attempt does not count, whatever was answered.
@@ -206,7 +207,7 @@ void TrialRun::take_answer(const Trial& trial, const std::optional<Condition>& n
     if (recording)
         recording->end(press.at);
     if (press.how == How::timed_out)
-        state_.log().event({press.at, state_.trial(), "response timed out", ""});
+        state_.log().event({press.at, state_.trial(), response_timed_out_event, ""});
     if (press.how == How::next)
         outcome.answer = ports.panel.answer();
     if (recording)
@@ -222,11 +223,12 @@ void TrialRun::keep_answer(AnswerRecording& recording) {
         answer = recording.result();
     }
     if (!answer) {
-        state_.note("answer recording", "was not complete two seconds after its end: the file may be short");
+        state_.note(answer_recording_event,
+                    "was not complete two seconds after its end: the file may be short");
         return;
     }
     for (const std::string& warning : warnings_about(*answer))
-        state_.note("answer recording", warning);
+        state_.note(answer_recording_event, warning);
     state_.log().answer_recorded(*answer);
 }
 
@@ -237,10 +239,10 @@ void TrialRun::note_disturbance(const Clock::Disturbance& before) {
     const double slept_s = to_seconds(now.slept - before.slept);
     const double moved_s = to_seconds(now.wall_moved - before.wall_moved);
     if (slept_s > shortest_sleep_s)
-        state_.note("machine slept",
+        state_.note(machine_slept_event,
                     fmt::format("{:.3f} s, in which nothing was shown or recorded", slept_s));
     if (std::abs(moved_s) > smallest_wall_step_s)
-        state_.note("wall clock was set",
+        state_.note(wall_clock_set_event,
                     fmt::format("by {:+.3f} s; session time went on as before", moved_s));
 }
 

@@ -1,6 +1,5 @@
 #include "experiment/record/bids/bids_dataset.h"
 
-#include <fstream>
 #include <vector>
 
 #include <fmt/format.h>
@@ -8,6 +7,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/output_file.h"
+#include "experiment/base/whole_file.h"
 #include "experiment/record/tables/export_tables.h"
 
 namespace fs = std::filesystem;
@@ -91,8 +91,9 @@ std::vector<fs::path> files_of(const fs::path& dataset, const BidsNames& names) 
 }
 
 bool is_ours(const fs::path& dataset) {
-    std::ifstream stream(dataset / "dataset_description.json", std::ios::binary);
-    const Json json = Json::parse(stream, nullptr, false);
+    int error = 0;
+    const auto text = read_whole_file(dataset / "dataset_description.json", most_text_bytes, error);
+    const Json json = Json::parse(text.value_or(""), nullptr, false);
     if (!json.is_object() || !json.contains("GeneratedBy") || !json["GeneratedBy"].is_array())
         return false;
     for (const Json& program : json["GeneratedBy"])

@@ -1,9 +1,6 @@
 #include "experiment/record/bids/bids_participants.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <span>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -21,21 +18,12 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
-std::string text_of(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 Cells cells_of(const std::string& line) {
     Cells cells;
     std::istringstream stream(line + '\t');
     for (std::string cell; std::getline(stream, cell, '\t');)
         cells.push_back(cell);
     return cells;
-}
-
-void replace(const fs::path& file, const std::string& text) {
-    write_whole_file(file, std::as_bytes(std::span(text)));
 }
 
 /// Rows of text, the names of the columns first.
@@ -46,7 +34,7 @@ struct Participants {
     explicit Participants(const fs::path& file) {
         if (!fs::exists(file))
             return;
-        std::istringstream text(text_of(file));
+        std::istringstream text(read_whole_file(file));
         std::string line;
         if (!std::getline(text, line) || !line.starts_with("participant_id"))
             throw InputError(fmt::format("{}: is no table of participants: its first column must be "
@@ -126,7 +114,7 @@ std::vector<std::string> add_bids_participant(const fs::path& dataset, const Ses
     Participants participants(table_file);
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     if (fs::exists(json_file)) {
-        json = nlohmann::ordered_json::parse(text_of(json_file), nullptr, false);
+        json = nlohmann::ordered_json::parse(read_whole_file(json_file), nullptr, false);
         if (!json.is_object())
             throw InputError(fmt::format("{}: is no JSON.", json_file.string()));
     }
@@ -157,8 +145,8 @@ std::vector<std::string> add_bids_participant(const fs::path& dataset, const Ses
                 fmt::format("{}: {} is «{}» in this session, which BIDS does not know: left out.", id,
                             field.id, field.value));
     }
-    replace(table_file, participants.text());
-    replace(json_file, json_text(json));
+    write_whole_file(table_file, participants.text());
+    write_whole_file(json_file, json_text(json));
     return remarks;
 }
 

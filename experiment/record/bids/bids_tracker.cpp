@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiment/ports/event_kinds.h"
 #include "experiment/record/asc/asc_words.h"
 
 namespace overt {
@@ -39,7 +40,7 @@ Validations validations_of(const SessionRecord& record, int run, bool is_importe
     if (!is_imported) {
         record.read_events([&](const RecordedEvent& event) {
             // «mean error 0.312 deg, largest 0.754 deg»
-            if (event.sitting == run && event.kind == "validation")
+            if (event.sitting == run && event.kind == validation_event)
                 take(validations, event.detail, "deg,", "deg");
         });
         return validations;

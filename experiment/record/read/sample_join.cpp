@@ -16,7 +16,11 @@ constexpr std::size_t batch = 256;
 } // namespace
 
 SampleJoin::SampleJoin(const SessionRecord& record, const TrialRecord& trial, const SurfaceLookup* lookup)
-    : SampleJoin(record.header().display.screen, record.clock_map(trial.sitting), record.flip_history(trial),
+    : SampleJoin(record, trial, record.ledger(trial), lookup) {}
+
+SampleJoin::SampleJoin(const SessionRecord& record, const TrialRecord& trial,
+                       const std::optional<TrialLedger>& ledger, const SurfaceLookup* lookup)
+    : SampleJoin(record.header().display.screen, record.clock_map(trial.sitting), record.flip_history(ledger),
                  lookup) {}
 
 SampleJoin::SampleJoin(const ScreenGeometry& screen, std::optional<ClockMap> clock_map, FlipHistory history,

@@ -35,6 +35,10 @@ class SampleJoin {
     /// RecordError.
     SampleJoin(const SessionRecord& record, const TrialRecord& trial, const SurfaceLookup* lookup);
 
+    /// The same with the trial's ledger, where that was read already.
+    SampleJoin(const SessionRecord& record, const TrialRecord& trial,
+               const std::optional<TrialLedger>& ledger, const SurfaceLookup* lookup);
+
     /// The same from its parts: without a clock map no sample has a time.
     SampleJoin(const ScreenGeometry& screen, std::optional<ClockMap> clock_map, FlipHistory history,
                const SurfaceLookup* lookup);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "experiment/ports/event_kinds.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/session_file.h"
 #include "experiment/record/sql.h"

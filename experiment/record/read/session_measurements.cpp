@@ -196,20 +196,20 @@ std::optional<KnownInterval> SessionRecord::refresh_interval(int sitting) const 
     return intervals_[sitting] = common_interval(lines);
 }
 
-std::optional<LedgerFit> SessionRecord::ledger_fit(const TrialRecord& trial) const {
-    const std::vector<FlipRecord> rows = flips(trial);
-    if (rows.empty())
+std::optional<TrialLedger> SessionRecord::ledger(const TrialRecord& trial) const {
+    std::vector<FlipRecord> recorded = flips(trial);
+    if (recorded.empty())
         return std::nullopt;
-    return LedgerFit(rows, header_.display.refresh_hz, refresh_interval(trial.sitting));
+    LedgerFit fit(recorded, header_.display.refresh_hz, refresh_interval(trial.sitting));
+    return TrialLedger{std::move(recorded), std::move(fit)};
 }
 
-FlipHistory SessionRecord::flip_history(const TrialRecord& trial) const {
+FlipHistory SessionRecord::flip_history(const std::optional<TrialLedger>& ledger) const {
     const RecordedDisplay& display = header_.display;
-    const std::optional<LedgerFit> fit = ledger_fit(trial);
     // Of an imported session not even the refresh rate may be known.
-    if (!fit)
+    if (!ledger)
         return FlipHistory({}, {{}, 1.0, 1.0}, {});
-    return FlipHistory(fit->flips(),
+    return FlipHistory(ledger->fit.flips(),
                        {display.latency, display.refresh_hz, static_cast<double>(display.screen.screen_px.y)},
                        make_page_cycle(header_.animation, display.refresh_hz));
 }

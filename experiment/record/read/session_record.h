@@ -54,6 +54,12 @@ struct TrialRecord {
 };
 std::string_view name_of(TrialRecord::Status status);
 
+/// The flips of a trial as they were written down, at least one, and as the line through all time stamps has them.
+struct TrialLedger {
+    std::vector<FlipRecord> recorded;
+    LedgerFit fit;
+};
+
 /// A SessionEvent that owns its words.
 struct RecordedEvent {
     int sitting = 1;
@@ -135,12 +141,12 @@ class SessionRecord {
     /// Readings of the display box's clock in one sitting, in the order in which they were made.
     std::vector<BoxClockPair> box_clock_readings(int sitting) const;
 
-    /// The line through the trial's time stamps, with the refresh interval that all trials of its sitting
-    /// have together; nothing of a trial without flips.
-    std::optional<LedgerFit> ledger_fit(const TrialRecord& trial) const;
+    /// The flips of a trial, with the line through their time stamps by the refresh interval that all trials
+    /// of its sitting have together; nothing of a trial without flips. Reads them: keep it while it is needed.
+    std::optional<TrialLedger> ledger(const TrialRecord& trial) const;
 
-    /// The trial's frames as they were lit on this session's display, at the times of ledger_fit().
-    FlipHistory flip_history(const TrialRecord& trial) const;
+    /// A trial's frames as they were lit on this session's display, at the times of the ledger's line.
+    FlipHistory flip_history(const std::optional<TrialLedger>& ledger) const;
 
     /// The latest session time that any row names: from here on a resumed session's clock may go on.
     SessionTime last_time() const;

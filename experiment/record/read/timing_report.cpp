@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "experiment/ports/event_kinds.h"
 #include "experiment/record/read/sample_join.h"
 
 namespace overt {
@@ -30,7 +31,8 @@ int rows_within(const LedgerFit& fit, int planned, int& flipped) {
     return static_cast<int>(std::count(has_row.begin(), has_row.end(), true));
 }
 
-void take_ledger(TrialTiming& timing, const LedgerFit& fit, const std::vector<FlipRecord>& recorded) {
+void take_ledger(TrialTiming& timing, const TrialLedger& ledger) {
+    const auto& [recorded, fit] = ledger;
     timing.unaccounted =
         timing.planned_refreshes - rows_within(fit, timing.planned_refreshes, timing.flipped_refreshes);
     timing.missed_runs = fit.missed_runs();
@@ -53,10 +55,11 @@ void take_ledger(TrialTiming& timing, const LedgerFit& fit, const std::vector<Fl
     timing.interval_uncertainty_ms = 1e-6 * line.interval().uncertainty_ns;
 }
 
-void take_samples(TrialTiming& timing, const SessionRecord& record, const TrialRecord& trial) {
+void take_samples(TrialTiming& timing, const SessionRecord& record, const TrialRecord& trial,
+                  const std::optional<TrialLedger>& ledger) {
     const std::vector<GazeSample> samples = record.samples(trial);
     std::vector<JoinedSample> joined(samples.size());
-    SampleJoin(record, trial, nullptr).join(samples, joined);
+    SampleJoin(record, trial, ledger, nullptr).join(samples, joined);
     timing.samples = static_cast<int>(samples.size());
     for (const JoinedSample& sample : joined) {
         timing.samples_on_frame += sample.shown.has_value();
@@ -112,13 +115,12 @@ TimingReport timing_report(const SessionRecord& record) {
     std::multimap<int, std::string> disturbances;
     for (const RecordedEvent& event : record.events()) {
         report.has_simulated_faults |= event.kind == simulated_faults_event;
-        if (event.trial >= 0 && (event.kind == "machine slept" || event.kind == "wall clock was set"))
+        if (event.trial >= 0 && (event.kind == machine_slept_event || event.kind == wall_clock_set_event))
             disturbances.emplace(event.trial, event.kind + ": " + event.detail);
     }
     for (const TrialRecord& trial : record.trials()) {
-        const std::vector<FlipRecord> recorded = record.flips(trial);
-        const std::optional<LedgerFit> fit = record.ledger_fit(trial);
-        if (!fit)
+        const std::optional<TrialLedger> ledger = record.ledger(trial);
+        if (!ledger)
             continue;
         TrialTiming timing;
         timing.trial = trial.trial;
@@ -127,11 +129,11 @@ TimingReport timing_report(const SessionRecord& record) {
         timing.counts = trial.counts;
         timing.planned_refreshes =
             make_page_cycle(header.animation, header.display.refresh_hz).total_refreshes;
-        take_ledger(timing, *fit, recorded);
-        take_samples(timing, record, trial);
+        take_ledger(timing, *ledger);
+        take_samples(timing, record, trial, ledger);
         for (auto [one, end] = disturbances.equal_range(trial.trial.index); one != end; ++one)
             timing.disturbances.push_back(one->second);
-        for (const FlipRecord& flip : recorded) {
+        for (const FlipRecord& flip : ledger->recorded) {
             const std::string source{name_of(flip.report.source)};
             if (std::find(report.sources.begin(), report.sources.end(), source) == report.sources.end())
                 report.sources.push_back(source);

@@ -9,9 +9,6 @@
 
 namespace overt {
 
-/// Kind of the event that holds the text of the faults that a display was made to have.
-inline constexpr std::string_view simulated_faults_event = "simulated display faults";
-
 struct TrialTiming {
     Trial trial;
     int attempt = 1;

@@ -8,8 +8,8 @@ namespace {
 
 class LedgerRows {
   public:
-    LedgerRows(TableWriter& writer, const SessionRecord& record, const TrialRecord& trial)
-        : row_(writer), header_(record.header()), number_(trial.trial.index + 1),
+    LedgerRows(TableWriter& writer, const SessionHeader& header, const TrialRecord& trial)
+        : row_(writer), header_(header), number_(trial.trial.index + 1),
           plan_(make_page_cycle(header_.animation, header_.display.refresh_hz)) {}
 
     /// `fitted` is `recorded` at the times of the line.
@@ -56,17 +56,17 @@ class LedgerRows {
 
 } // namespace
 
-std::int64_t write_ledger(TableWriter& writer, const SessionRecord& record, const TrialRecord& trial) {
-    const std::optional<LedgerFit> fit = record.ledger_fit(trial);
-    if (!fit)
+std::int64_t write_ledger(TableWriter& writer, const SessionHeader& header, const TrialRecord& trial,
+                          const std::optional<TrialLedger>& ledger) {
+    if (!ledger)
         return 0;
-    const std::vector<FlipRecord> recorded = record.flips(trial);
-    LedgerRows rows(writer, record, trial);
-    auto run = fit->missed_runs().begin();
+    const auto& [recorded, fit] = *ledger;
+    LedgerRows rows(writer, header, trial);
+    auto run = fit.missed_runs().begin();
     for (std::size_t i = 0; i < recorded.size(); ++i) {
-        const FlipRecord& fitted = fit->flips()[i];
+        const FlipRecord& fitted = fit.flips()[i];
         if (i > 0 && fitted.report.missed_refreshes > 0)
-            rows.missed(*run++, *fit, fit->flips()[i - 1]);
+            rows.missed(*run++, fit, fit.flips()[i - 1]);
         rows.flip(recorded[i], fitted);
     }
     return static_cast<std::int64_t>(recorded.size());

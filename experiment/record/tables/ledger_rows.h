@@ -10,6 +10,7 @@ namespace overt {
 
 /// Writes a row for each refresh of a trial, flipped or missed, in their order; gives the number of flips.
 /// Columns as ExportTables::flips has them. Throws RecordError.
-std::int64_t write_ledger(TableWriter& writer, const SessionRecord& record, const TrialRecord& trial);
+std::int64_t write_ledger(TableWriter& writer, const SessionHeader& header, const TrialRecord& trial,
+                          const std::optional<TrialLedger>& ledger);
 
 } // namespace overt

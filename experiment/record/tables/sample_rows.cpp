@@ -21,8 +21,9 @@ SampleRows::SampleRows(TableWriter& writer, const SessionRecord& record, const E
         cone_.emplace(header_.display.screen, *cone_accuracy);
 }
 
-SampleCounts SampleRows::write(const TrialRecord& trial, const SurfaceLookup* lookup) {
-    const SampleJoin join(record_, trial, lookup);
+SampleCounts SampleRows::write(const TrialRecord& trial, const std::optional<TrialLedger>& ledger,
+                               const SurfaceLookup* lookup) {
+    const SampleJoin join(record_, trial, ledger, lookup);
     counts_ = {};
     record_.read_samples(trial, samples_at_a_time, [&](std::span<const GazeSample> samples) {
         write_piece(samples, trial, join, lookup);

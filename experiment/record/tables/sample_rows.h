@@ -27,7 +27,8 @@ class SampleRows {
                std::optional<Degrees> cone_accuracy);
 
     /// Writes the samples of a trial; `lookup` is null if its sculpture has no surface. Throws RecordError.
-    SampleCounts write(const TrialRecord& trial, const SurfaceLookup* lookup);
+    SampleCounts write(const TrialRecord& trial, const std::optional<TrialLedger>& ledger,
+                       const SurfaceLookup* lookup);
 
   private:
     void write_piece(std::span<const GazeSample> samples, const TrialRecord& trial, const SampleJoin& join,

@@ -109,8 +109,9 @@ void TableExport::write_other_attempt(const TrialRecord& trial) {
 }
 
 void TableExport::write_trial(const TrialRecord& trial, const SurfaceLookup* lookup) {
-    counts_.flips += write_ledger(flips_, record_, trial);
-    const SampleCounts of_trial = sample_rows_.write(trial, lookup);
+    const std::optional<TrialLedger> ledger = record_.ledger(trial);
+    counts_.flips += write_ledger(flips_, header_, trial, ledger);
+    const SampleCounts of_trial = sample_rows_.write(trial, ledger, lookup);
     write_gaze_events(gaze_events_, record_, trial);
     write_response(trial);
 

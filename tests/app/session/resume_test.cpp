@@ -1,4 +1,5 @@
 /// Interrupted sessions taken up again, by each policy, and those that are not.
+#include "experiment/ports/event_kinds.h"
 #include "tests/app/session/interrupted_run.h"
 
 #include <fmt/format.h>

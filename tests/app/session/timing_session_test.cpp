@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiment/ports/event_kinds.h"
 #include "experiment/record/read/timing_report.h"
 #include "tests/app/small_experiment.h"
 #include "tests/support/tsv_file.h"

@@ -1,4 +1,5 @@
 /// What the operator's keys do in each phase, on ports that do what they are told.
+#include "experiment/ports/event_kinds.h"
 #include "experiment/ports/response_panel.h"
 #include "experiment/ports/session_phase.h"
 #include "tests/experiment/record/plain_session.h"
@@ -164,7 +165,7 @@ TEST_CASE("the key that ends the session ends an animation; taken back, the tria
         CHECK(sitting.log.outcomes[0].shown_refreshes > 0);
         CHECK(sitting.log.outcomes[0].shown_refreshes < 12);
         CHECK(sitting.log.outcomes[0].presentation_end > sitting.log.outcomes[0].presentation_onset);
-        CHECK(sitting.log.kinds.back() == (is_meant ? "session aborted" : "session completed"));
+        CHECK(sitting.log.kinds.back() == (is_meant ? session_aborted_event : session_completed_event));
     }
 }
 

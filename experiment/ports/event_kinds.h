@@ -1,0 +1,46 @@
+/// The kinds of events that a session's record has, by the words that stand in the record and in its exports. What is
+/// written under a name here is read by that name: a word that changes makes older sessions say something else.
+#pragma once
+
+#include <string_view>
+
+namespace overt {
+
+// Steps of a session that have no rows of their own; each change of phase is a phase_event (session_phase.h).
+inline constexpr std::string_view text_shown_event = "text shown"; ///< to the observer; which
+inline constexpr std::string_view practice_event = "practice";     ///< begins: number and condition
+inline constexpr std::string_view practice_answered_event = "practice answered";
+inline constexpr std::string_view practice_skipped_event = "practice skipped";
+inline constexpr std::string_view break_begins_event = "break begins";
+inline constexpr std::string_view break_ends_event = "break ends";
+inline constexpr std::string_view session_completed_event = "session completed";
+inline constexpr std::string_view session_aborted_event = "session aborted"; ///< and why
+
+// What happened in a trial, or to it.
+inline constexpr std::string_view trial_failed_event = "trial failed"; ///< and what becomes of it
+inline constexpr std::string_view drift_check_failed_event = "drift check failed";
+inline constexpr std::string_view presentation_broken_off_event = "presentation broken off";
+inline constexpr std::string_view response_timed_out_event = "response timed out";
+inline constexpr std::string_view answer_recording_event = "answer recording"; ///< what is to be known of it
+inline constexpr std::string_view machine_slept_event = "machine slept";
+inline constexpr std::string_view wall_clock_set_event = "wall clock was set";
+
+// What the operator did.
+inline constexpr std::string_view operator_event = "operator";
+inline constexpr std::string_view operator_pressed_event = "operator pressed";
+inline constexpr std::string_view operator_asked_event = "operator asked"; ///< was asked
+inline constexpr std::string_view operator_answered_event = "operator answered";
+
+// Of the equipment.
+inline constexpr std::string_view validation_event = "validation"; ///< of a calibration: mean and largest error
+inline constexpr std::string_view screen_event = "screen";         ///< a finding about it
+inline constexpr std::string_view thread_event = "thread";         ///< how the program's threads are scheduled
+inline constexpr std::string_view output_verified_event = "output verified";
+inline constexpr std::string_view display_box_event = "display box";
+inline constexpr std::string_view display_box_lost_event = "display box lost";
+inline constexpr std::string_view display_box_left_event = "display box left";
+inline constexpr std::string_view display_fault_event = "display fault"; ///< a simulated one that struck
+/// The text of the faults that a display was made to have.
+inline constexpr std::string_view simulated_faults_event = "simulated display faults";
+
+} // namespace overt

@@ -1,0 +1,42 @@
+#include "experiment/ports/event_kinds.h"
+
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+
+#include <catch2/catch.hpp>
+
+using namespace overt;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string text_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+} // namespace
+
+TEST_CASE("the words of kinds of events differ, and stand in no source but their list", "[unit]") {
+    const fs::path root = OVERT_SOURCE_DIR;
+    const std::string list = text_of(root / "experiment/ports/event_kinds.h");
+    std::map<std::string, int> words;
+    const std::regex row("_event = \"([^\"]+)\"");
+    for (std::sregex_iterator at(list.begin(), list.end(), row), end; at != end; ++at)
+        CHECK(++words[(*at)[1]] == 1);
+    CHECK(words.size() > 20);
+    for (const char* folder : {"app", "devices", "experiment", "render"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+            const fs::path& file = entry.path();
+            if ((file.extension() != ".cpp" && file.extension() != ".h") || file.filename() == "event_kinds.h")
+                continue;
+            const std::string text = text_of(file);
+            // A single word may be the name of other things, too.
+            for (const auto& [word, count] : words)
+                if (word.find(' ') != std::string::npos && text.find('"' + word + '"') != std::string::npos)
+                    FAIL_CHECK(file.string() << " retypes \"" << word << "\"");
+        }
+    }
+}
