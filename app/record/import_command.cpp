@@ -10,6 +10,7 @@
 #include "app/record/record_commands.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
+#include "experiment/base/json_text.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/record/asc/asc_import.h"
 
@@ -93,7 +94,7 @@ int run_import(const ImportOptions& options) {
     if (!options.print_session_to.empty())
         write_to(options.print_session_to, summary.session.string() + "\n");
     if (options.json)
-        fmt::print("{}\n", to_json(summary).dump(2));
+        fmt::print("{}", json_text(to_json(summary)));
     else
         print(summary);
     return 0;

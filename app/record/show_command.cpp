@@ -9,6 +9,7 @@
 #include "app/record/timing_plot.h"
 #include "app/record/timing_text.h"
 #include "experiment/base/error.h"
+#include "experiment/base/json_text.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/record/preview_file.h"
 #include "experiment/record/read/sample_join.h"
@@ -168,7 +169,7 @@ int run_show(const ShowOptions& options) {
     if (options.order) {
         const RecordedOrder order = recorded_order(record.header());
         if (options.json)
-            fmt::print("{}\n", to_json(order, record.header()).dump(2));
+            fmt::print("{}", json_text(to_json(order, record.header())));
         else
             fmt::print("{}", to_text(order, record.header()));
         return order.is_same() ? 0 : 1;
@@ -176,7 +177,7 @@ int run_show(const ShowOptions& options) {
     if (options.json) {
         nlohmann::ordered_json json = session_json(record);
         json["timing"] = to_json(timing_report(record));
-        fmt::print("{}\n", json.dump(2));
+        fmt::print("{}", json_text(json));
     } else {
         print_session(record);
     }

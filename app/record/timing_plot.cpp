@@ -94,7 +94,7 @@ class Drawing {
 
   private:
     template <class... Values> void add(fmt::format_string<Values...> format, Values&&... values) {
-        fmt::format_to(std::back_inserter(body_), format, std::forward<Values>(values)...);
+        body_ += fmt::format(format, std::forward<Values>(values)...);
     }
     std::string body_;
 };

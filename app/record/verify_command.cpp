@@ -5,6 +5,7 @@
 #include "app/record/record_commands.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
+#include "experiment/base/json_text.h"
 #include "experiment/record/verify/verification.h"
 
 namespace overt {
@@ -73,7 +74,7 @@ int run_verify(const VerifyOptions& options) {
         nlohmann::ordered_json json =
             to_json(BenchFigures{at_most("damaged places", static_cast<double>(places), "", 0.0)});
         json["sessions"] = std::move(sessions);
-        fmt::print("{}\n", json.dump(2));
+        fmt::print("{}", json_text(json));
     }
     return is_missing ? 2 : is_damaged ? 1 : 0;
 }

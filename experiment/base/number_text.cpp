@@ -3,7 +3,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <iterator>
 
 #include <fmt/format.h>
 
@@ -44,7 +43,7 @@ void append_fixed(std::string& text, double number, int decimals) {
     if (std::abs(scaled) < largest_exact)
         append_scaled(text, std::llround(scaled), decimals);
     else
-        fmt::format_to(std::back_inserter(text), "{:.{}f}", number, decimals);
+        text += fmt::format("{:.{}f}", number, decimals);
 }
 
 double shortest_decimal(float number) {

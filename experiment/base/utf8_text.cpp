@@ -1,7 +1,6 @@
 #include "experiment/base/utf8_text.h"
 
 #include <cstdint>
-#include <iterator>
 
 #include <fmt/format.h>
 
@@ -59,9 +58,9 @@ std::string ascii_of(std::string_view text) {
         else if (character < 0x7f)
             ascii += static_cast<char>(character);
         else if (character < 0x10000)
-            fmt::format_to(std::back_inserter(ascii), "\\u{:04x}", character);
+            ascii += fmt::format("\\u{:04x}", character);
         else
-            fmt::format_to(std::back_inserter(ascii), "\\U{:08x}", character);
+            ascii += fmt::format("\\U{:08x}", character);
     }
     return ascii;
 }

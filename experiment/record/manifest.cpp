@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/base/error.h"
+#include "experiment/base/json_text.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/record/session_schema.h"
 
@@ -82,8 +83,8 @@ void add_program(SessionManifest& manifest, const SessionManifest::Program& prog
 } // namespace
 
 std::string to_text(const SessionManifest& manifest) {
-    std::string text = to_json(manifest).dump(2);
-    text.erase(text.size() - 2); // «\n}»
+    std::string text = json_text(to_json(manifest));
+    text.erase(text.size() - 3); // the last brace and the newlines around it
     return with_own_hash(text + ",");
 }
 
@@ -92,7 +93,7 @@ SessionManifest manifest_from(const std::string& text, const fs::path& file) {
     if (end == std::string::npos || with_own_hash(text.substr(0, end)) != text)
         throw RecordError(fmt::format("{}: is not as it was written", file.string()));
     try {
-        const Json json = Json::parse(text);
+        const Json json = parse_json(text);
         if (json.at("format").get<int>() != manifest_format)
             throw RecordError(
                 fmt::format("{}: written by a newer overt: update overt to read it.", file.string()));

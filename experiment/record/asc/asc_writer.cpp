@@ -60,8 +60,7 @@ std::string_view prefix(GazeEvent::Kind kind, bool begins) {
 }
 
 void append_prefix(std::string& text, const GazeEvent& event, bool begins) {
-    fmt::format_to(std::back_inserter(text), fmt::runtime(prefix(event.kind, begins)),
-                   event.eye == Eye::left ? 'L' : 'R');
+    text += fmt::format(fmt::runtime(prefix(event.kind, begins)), event.eye == Eye::left ? 'L' : 'R');
 }
 
 } // namespace
@@ -96,7 +95,7 @@ void AscWriter::message(std::int64_t ms, std::string_view text) {
         if (const std::optional<double> rate_hz = number_of(words.next()); rate_hz && *rate_hz >= 1.0)
             layout_.rate_hz = *rate_hz;
     }
-    fmt::format_to(std::back_inserter(file_.text()), "MSG\t{} {}", ms - layout_.base_ms, ascii_of(text));
+    file_.text() += fmt::format("MSG\t{} {}", ms - layout_.base_ms, ascii_of(text));
     end_line();
 }
 
@@ -167,8 +166,8 @@ void AscWriter::event_begin(const GazeEvent& event) {
 void AscWriter::event_end(const GazeEvent& event) {
     std::string& text = file_.text();
     append_prefix(text, event, false);
-    fmt::format_to(std::back_inserter(text), "{}\t{}\t{}", written_ms(event.start), written_ms(event.end),
-                   event.duration.count() / 1000);
+    text += fmt::format("{}\t{}\t{}", written_ms(event.start), written_ms(event.end),
+                        event.duration.count() / 1000);
     if (event.kind == GazeEvent::Kind::fixation) {
         append_place(text, event.place);
         append_or_dot(text, event.pupil, 0);

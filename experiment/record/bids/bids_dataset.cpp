@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/base/error.h"
+#include "experiment/base/json_text.h"
 #include "experiment/base/output_file.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/record/tables/export_tables.h"
@@ -93,7 +94,7 @@ std::vector<fs::path> files_of(const fs::path& dataset, const BidsNames& names) 
 bool is_ours(const fs::path& dataset) {
     int error = 0;
     const auto text = read_whole_file(dataset / "dataset_description.json", most_text_bytes, error);
-    const Json json = Json::parse(text.value_or(""), nullptr, false);
+    const Json json = parse_json(text.value_or(""));
     if (!json.is_object() || !json.contains("GeneratedBy") || !json["GeneratedBy"].is_array())
         return false;
     for (const Json& program : json["GeneratedBy"])

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/base/error.h"
+#include "experiment/base/json_text.h"
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/record/tables/joined_cells.h"
 #include "experiment/record/tables/table_writer.h"
@@ -30,114 +31,115 @@ template <class List> Levels levels_of(const List& list) {
     return levels;
 }
 
-Table events_table(const SessionHeader& header) {
+/// An attempt at a trial, or a screen that it got to.
+struct BidsEvent {
+    const TrialRecord& trial;
+    std::string_view what;
+    SessionTime from, to; ///< the same where something else ended it
+    std::optional<SessionDuration> response_time = {};
+    std::string stimulus_file = {};
+    const TrialOutcome* outcome = nullptr; ///< of the attempt itself, once it has one
+};
+
+/// `header` must outlive it.
+RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero) {
     Levels tasks, blocks;
     for (const RecordedTask& task : header.tasks)
         tasks.emplace_back(task.id, task.question.empty() ? task.id : task.question);
     for (const std::string& block : header.blocks)
         blocks.emplace_back(block, "the block of that name");
-    return {"",
-            "",
+    return {
+        "",
+        "",
+        {
             {{"onset", "Begin of the event, from the first gaze sample of the run", "s", {}},
-             {"duration", "Until it gave way; n/a where it was cut off", "s", {}},
-             {"trial_type",
+             [zero](auto& to, auto& row) { to.seconds(row.from - zero); }},
+            {{"duration", "Until it gave way; n/a where it was cut off", "s", {}},
+             [](auto& to, auto& row) { row.to > row.from ? to.seconds(row.to - row.from) : to.missing(); }},
+            {{"trial_type",
               "What it was",
               "",
               {{"trial", "an attempt at a trial, from its begin to the answer"},
                {"question", "the screen with the question"},
                {"presentation", "the animated stimulus"},
                {"response", "the screen during the answer"}}},
-             {"response_time", "From the onset of the response screen to the end of the answer", "s", {}},
-             {"stim_file", "First frame of the animated stimulus, in the folder stimuli", "", {}},
-             {"trial", "Position of the trial in the observer's order, from 1", "", {}},
-             {"attempt", "Which attempt at this trial, from 1", "", {}},
-             {"status",
+             [](auto& to, auto& row) { to.word(row.what); }},
+            {{"response_time", "From the onset of the response screen to the end of the answer", "s", {}},
+             [](auto& to, auto& row) { row.response_time ? to.seconds(*row.response_time) : to.missing(); }},
+            {{"stim_file", "First frame of the animated stimulus, in the folder stimuli", "", {}},
+             [](auto& to, auto& row) { to.text(row.stimulus_file); }},
+            {{"trial", "Position of the trial in the observer's order, from 1", "", {}},
+             [](auto& to, auto& row) { to.integer(row.trial.trial.index + 1); }},
+            {{"attempt", "Which attempt at this trial, from 1", "", {}},
+             [](auto& to, auto& row) { to.integer(row.trial.attempt); }},
+            {{"status",
               "How the attempt ended",
               "",
               {{"completed", "all of it was done"},
                {"aborted", "broken off, or failed and to come again"},
                {"interrupted", "cut off when the program was killed, and the session went on later"},
                {"open", "cut off when the program was killed"}}},
-             {"counts",
+             [](auto& to, auto& row) { to.word(name_of(row.trial.status)); }},
+            {{"counts",
               "Whether this is the attempt that counts",
               "",
               {{"yes", "completed"},
                {"no", "not completed, or its block was begun again later: the attempt there counts"}}},
-             {"block", "The block that the trial is of, where there are blocks", "", std::move(blocks)},
-             {"question", "Which question was asked", "", std::move(tasks)},
-             {"sculpture", "Which sculpture was shown", "", levels_of(header.sculptures)},
-             {"material", "In which material it was shown", "", levels_of(header.materials)},
-             {"missed_refreshes", "Refreshes of the display that went by with an old picture", "", {}},
-             {"drift_deg", "Gaze error at the drift check", "deg", {}},
-             {"answer", "The answer, where it was taken down", "", {}}}};
+             [](auto& to, auto& row) { to.word(row.trial.counts ? "yes" : "no"); }},
+            {{"block", "The block that the trial is of, where there are blocks", "", blocks},
+             [&header](auto& to, auto& row) {
+                 const std::string* const block = item_of(header.blocks, row.trial.trial.block);
+                 block ? to.text(*block) : to.missing();
+             }},
+            {{"question", "Which question was asked", "", tasks},
+             [&header](auto& to, auto& row) { to.text(item(header.tasks, row.trial.trial.task).id); }},
+            {{"sculpture", "Which sculpture was shown", "", levels_of(header.sculptures)},
+             [&header](auto& to, auto& row) {
+                 to.text(item(header.sculptures, row.trial.trial.condition.sculpture).id);
+             }},
+            {{"material", "In which material it was shown", "", levels_of(header.materials)},
+             [&header](auto& to, auto& row) {
+                 to.text(item(header.materials, row.trial.trial.condition.material).id);
+             }},
+            {{"missed_refreshes", "Refreshes of the display that went by with an old picture", "", {}},
+             [](auto& to, auto& row) {
+                 row.outcome ? to.integer(row.outcome->missed_refreshes) : to.missing();
+             }},
+            {{"drift_deg", "Gaze error at the drift check", "deg", {}},
+             [](auto& to, auto& row) {
+                 row.outcome&& row.outcome->drift ? to.fixed(row.outcome->drift->value, angle_decimals)
+                                                  : to.missing();
+             }},
+            {{"answer", "The answer, where it was taken down", "", {}},
+             [](auto& to, auto& row) { row.outcome ? to.text(row.outcome->answer) : to.missing(); }},
+        }};
 }
 
-class EventRows {
-  public:
-    EventRows(const SessionRecord& record, SessionTime zero, const StimulusFile& stimulus_file,
-              TableWriter& row)
-        : header_(record.header()), zero_(zero), stimulus_file_(stimulus_file), row_(row) {}
-
-    void write(const TrialRecord& trial);
-
-  private:
-    /// Onset, duration and what it was; an event that something else ended has no duration.
-    void begin(SessionTime from, SessionTime to, std::string_view what) {
-        row_.seconds(from - zero_);
-        to > from ? row_.seconds(to - from) : row_.missing();
-        row_.word(what);
-    }
-    void end(const TrialRecord& trial);
-
-    const SessionHeader& header_;
-    SessionTime zero_;
-    const StimulusFile& stimulus_file_;
-    TableWriter& row_;
-};
-
-void EventRows::end(const TrialRecord& trial) {
-    const Condition condition = trial.trial.condition;
-    row_.integer(trial.trial.index + 1).integer(trial.attempt).word(name_of(trial.status));
-    row_.word(trial.counts ? "yes" : "no");
-    const auto block = static_cast<std::size_t>(trial.trial.block);
-    block < header_.blocks.size() ? row_.text(header_.blocks[block]) : row_.missing();
-    row_.text(item(header_.tasks, trial.trial.task).id)
-        .text(item(header_.sculptures, condition.sculpture).id)
-        .text(item(header_.materials, condition.material).id);
-}
-
-void EventRows::write(const TrialRecord& trial) {
+void write_events(TableWriter& to, const RowLayout<BidsEvent>& layout, const TrialRecord& trial,
+                  const StimulusFile& stimulus_file) {
     const TrialOutcome& outcome = trial.outcome;
-    const bool is_open = !trial.has_outcome();
     // Screens that the attempt did not get to have no time.
-    const auto was = [&](SessionTime time) { return !is_open && time > trial.started; };
-    begin(trial.started, was(outcome.responded_at) ? outcome.responded_at : trial.started, "trial");
-    row_.missing(2);
-    end(trial);
-    is_open ? row_.missing() : row_.integer(outcome.missed_refreshes);
-    !is_open&& outcome.drift ? row_.fixed(outcome.drift->value, angle_decimals) : row_.missing();
-    is_open ? row_.missing() : row_.text(outcome.answer);
-    row_.end_row();
-    if (was(outcome.task_screen_onset)) {
-        begin(outcome.task_screen_onset, outcome.task_screen_onset, "question");
-        row_.missing(2);
-        end(trial);
-        row_.missing(3).end_row();
-    }
-    if (was(outcome.presentation_onset)) {
-        begin(outcome.presentation_onset, outcome.presentation_end, "presentation");
-        const std::string file = stimulus_file_(trial.trial.condition);
-        row_.missing().text(file);
-        end(trial);
-        row_.missing(3).end_row();
-    }
+    const auto was = [&](SessionTime time) { return trial.has_outcome() && time > trial.started; };
+    layout.write(to, {.trial = trial,
+                      .what = "trial",
+                      .from = trial.started,
+                      .to = was(outcome.responded_at) ? outcome.responded_at : trial.started,
+                      .outcome = trial.has_outcome() ? &outcome : nullptr});
+    if (was(outcome.task_screen_onset))
+        layout.write(to, {trial, "question", outcome.task_screen_onset, outcome.task_screen_onset});
+    if (was(outcome.presentation_onset))
+        layout.write(to, {trial,
+                          "presentation",
+                          outcome.presentation_onset,
+                          outcome.presentation_end,
+                          {},
+                          stimulus_file(trial.trial.condition)});
     if (was(outcome.response_screen_onset)) {
-        begin(outcome.response_screen_onset, outcome.responded_at, "response");
-        was(outcome.responded_at) ? row_.seconds(outcome.responded_at - outcome.response_screen_onset)
-                                  : row_.missing();
-        row_.missing();
-        end(trial);
-        row_.missing(3).end_row();
+        std::optional<SessionDuration> response_time;
+        if (was(outcome.responded_at))
+            response_time = outcome.responded_at - outcome.response_screen_onset;
+        layout.write(to,
+                     {trial, "response", outcome.response_screen_onset, outcome.responded_at, response_time});
     }
 }
 
@@ -166,13 +168,12 @@ void write_bids_events(const SessionRecord& record, int run, std::optional<Sessi
                        const StimulusFile& stimulus_file, const std::filesystem::path& stem) {
     const SessionHeader& header = record.header();
     const Json screen = screen_of(record);
-    const Table table = events_table(header);
-    TableWriter writer(stem.string() + ".tsv", table, TableFormat::tsv, Packing::none,
+    const RowLayout<BidsEvent> layout = events_layout(header, zero.value_or(SessionTime()));
+    TableWriter writer(stem.string() + ".tsv", layout.table(), TableFormat::tsv, Packing::none,
                        TableWriter::Header::names);
-    EventRows rows(record, zero.value_or(SessionTime()), stimulus_file, writer);
     for (const TrialRecord& trial : record.trials())
         if (trial.sitting == run)
-            rows.write(trial);
+            write_events(writer, layout, trial, stimulus_file);
     writer.close();
 
     std::string questions;
@@ -195,7 +196,7 @@ void write_bids_events(const SessionRecord& record, int run, std::optional<Sessi
     json["SessionTimeOfOnsetZero"] = {{"Description", "What onset 0 is by the clock of the session"},
                                       {"Units", "s"},
                                       {"Value", to_seconds(zero.value_or(SessionTime()))}};
-    json.update(describe_columns(table.columns, TableFormat::tsv));
+    json.update(describe_columns(layout.table().columns, TableFormat::tsv));
     write_text_file(stem.string() + ".json", json_text(json));
 }
 

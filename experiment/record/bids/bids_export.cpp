@@ -16,7 +16,7 @@
 #include "experiment/record/bids/bids_gaze.h"
 #include "experiment/record/bids/bids_participants.h"
 #include "experiment/record/preview_file.h"
-#include "experiment/record/write/row_writer.h"
+#include "experiment/record/session_lock.h"
 
 namespace fs = std::filesystem;
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/base/error.h"
-#include "experiment/base/number_text.h"
+#include "experiment/base/json_text.h"
 #include "experiment/record/bids/bids_gaze_events.h"
 #include "experiment/record/bids/bids_tracker.h"
 #include "experiment/record/tables/export_tables.h"
@@ -22,31 +22,41 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// BIDS wants these three first, in this order.
-Table physio_table(bool pupil_is_diameter) {
-    return {"",
-            "",
-            {{"timestamp", "Time of the sample by the tracker's own clock", "us", {}},
-             {"x_coordinate",
-              "Gaze on the screen, to the right from its left edge, as the tracker gave it",
-              "pixel",
-              {}},
-             {"y_coordinate",
-              "Gaze on the screen, downwards from its top edge, as the tracker gave it",
-              "pixel",
-              {}},
-             {"pupil_size",
-              pupil_is_diameter ? "Pupil diameter, in the tracker's own unit"
-                                : "Pupil area, in the tracker's own unit",
-              "arbitrary",
-              {}}}};
+JoinedColumns first_columns() {
+    return {
+        {{"timestamp", "Time of the sample by the tracker's own clock", "us", {}},
+         [](auto& to, auto& row) { to.integer(row.sample.sampled_at.time_since_epoch().count()); }},
+        {{"x_coordinate",
+          "Gaze on the screen, to the right from its left edge, as the tracker gave it",
+          "pixel",
+          {}},
+         [](auto& to, auto& row) { write_gaze_x(to, row.sample); }},
+        {{"y_coordinate",
+          "Gaze on the screen, downwards from its top edge, as the tracker gave it",
+          "pixel",
+          {}},
+         [](auto& to, auto& row) { write_gaze_y(to, row.sample); }},
+    };
 }
 
-Table surface_table(const SessionHeader& header, bool pupil_is_diameter) {
-    Table table = physio_table(pupil_is_diameter);
-    table.columns.pop_back();
-    for (const auto& columns : {time_columns(), place_columns(header)})
-        table.columns.insert(table.columns.end(), columns.begin(), columns.end());
-    return table;
+RowLayout<JoinedRow> physio_layout(bool pupil_is_diameter) {
+    RowLayout<JoinedRow> layout("", "", first_columns());
+    layout.add<JoinedRow>({
+        {{"pupil_size",
+          pupil_is_diameter ? "Pupil diameter, in the tracker's own unit"
+                            : "Pupil area, in the tracker's own unit",
+          "arbitrary",
+          {}},
+         [](auto& to, auto& row) { write_pupil(to, row.sample); }},
+    });
+    return layout;
+}
+
+RowLayout<JoinedRow> surface_layout(const SessionHeader& header) {
+    RowLayout<JoinedRow> layout("", "", first_columns());
+    layout.add<JoinedRow>(time_columns());
+    layout.add<JoinedRow>(place_columns(header));
+    return layout;
 }
 
 /// The files of one eye.
@@ -55,52 +65,38 @@ class EyeFiles {
     EyeFiles(const SessionRecord& record, Eye eye, int number, int run, bool pupil_is_diameter,
              const fs::path& raw, const fs::path& derived)
         : record_(record), eye_(eye), stem_(BidsNames(record.header()).eye_stem(run, number)), raw_(raw),
-          derived_(derived), physio_(physio_table(pupil_is_diameter)),
-          surface_(surface_table(record.header(), pupil_is_diameter)),
-          samples_(raw / (stem_ + "_physio.tsv.gz"), physio_, TableFormat::tsv, Packing::gzip,
+          derived_(derived), physio_(physio_layout(pupil_is_diameter)),
+          surface_(surface_layout(record.header())),
+          samples_(raw / (stem_ + "_physio.tsv.gz"), physio_.table(), TableFormat::tsv, Packing::gzip,
                    TableWriter::Header::none) {
         if (!record.header().stimuli.empty())
-            places_ =
-                std::make_unique<TableWriter>(derived / (stem_ + "_desc-surface_physio.tsv.gz"), surface_,
-                                              TableFormat::tsv, Packing::gzip, TableWriter::Header::none);
+            places_ = std::make_unique<TableWriter>(derived / (stem_ + "_desc-surface_physio.tsv.gz"),
+                                                    surface_.table(), TableFormat::tsv, Packing::gzip,
+                                                    TableWriter::Header::none);
     }
 
     Eye eye() const { return eye_; }
     bool has_places() const { return places_ != nullptr; }
 
-    void sample(const GazeSample& sample) {
+    void sample(const JoinedRow& row) {
         if (!first_)
-            first_ = sample.sampled_at;
-        gaze(samples_, sample);
-        sample.pupil_area > 0.0f ? samples_.fixed(shortest_decimal(sample.pupil_area), pupil_decimals)
-                                 : samples_.missing();
-        samples_.end_row();
-    }
-    void place(const GazeSample& sample, const JoinedSample& joined, const JoinedCells& cells) {
-        gaze(*places_, sample);
-        cells.time(*places_, joined);
-        cells.place(*places_, joined);
-        places_->end_row();
+            first_ = row.sample.sampled_at;
+        physio_.write(samples_, row);
+        if (places_)
+            surface_.write(*places_, row);
     }
 
     void close(const std::optional<ClockMap>& clock_map, std::optional<SessionTime> zero, int run,
                BidsGazeCounts& counts);
 
   private:
-    static void gaze(TableWriter& row, const GazeSample& sample) {
-        row.integer(sample.sampled_at.time_since_epoch().count());
-        if (sample.gaze)
-            row.fixed(sample.gaze->x_px, pixel_decimals).fixed(sample.gaze->y_px, pixel_decimals);
-        else
-            row.missing(2);
-    }
     Json side_car(const Table& table, double start_s, int run) const;
 
     const SessionRecord& record_;
     Eye eye_;
     std::string stem_;
     fs::path raw_, derived_;
-    Table physio_, surface_;
+    RowLayout<JoinedRow> physio_, surface_;
     TableWriter samples_;
     std::unique_ptr<TableWriter> places_; ///< null: nothing was presented
     std::optional<TrackerTime> first_;
@@ -131,10 +127,10 @@ void EyeFiles::close(const std::optional<ClockMap>& clock_map, std::optional<Ses
         counts.bytes += writer->bytes();
         writer->close();
     }
-    write_text_file(raw_ / (stem_ + "_physio.json"), json_text(side_car(physio_, start_s, run)));
+    write_text_file(raw_ / (stem_ + "_physio.json"), json_text(side_car(physio_.table(), start_s, run)));
     if (places_)
         write_text_file(derived_ / (stem_ + "_desc-surface_physio.json"),
-                        json_text(side_car(surface_, start_s, run)));
+                        json_text(side_car(surface_.table(), start_s, run)));
     counts.samples += samples_.rows();
     ++counts.recordings;
     write_bids_gaze_events(record_, run, eye_, raw_ / (stem_ + "_physioevents"));
@@ -170,7 +166,7 @@ BidsGazeCounts write_bids_gaze(const SessionRecord& record, int run, const Looku
         const int sculpture = trial.trial.condition.sculpture;
         const bool has_places = files.front()->has_places();
         const SampleJoin join(record, trial, has_places ? lookup_for(sculpture) : nullptr);
-        const JoinedCells cells(record.header(), sculpture, TableFormat::tsv);
+        const std::vector<std::string> parts = part_cells_of(record.header(), sculpture, TableFormat::tsv);
         record.read_samples(trial, samples_at_a_time, [&](std::span<const GazeSample> samples) {
             joined.resize(samples.size());
             if (has_places)
@@ -184,9 +180,7 @@ BidsGazeCounts write_bids_gaze(const SessionRecord& record, int run, const Looku
                         fmt::format("{}: a sample is of an eye that no trial's samples are of: the "
                                     "session file is damaged.",
                                     record.directory().string()));
-                (*of_eye)->sample(samples[i]);
-                if (has_places)
-                    (*of_eye)->place(samples[i], joined[i], cells);
+                (*of_eye)->sample({samples[i], joined[i], parts});
             }
         });
     }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "experiment/base/json_text.h"
 #include "experiment/record/asc/asc_trial.h"
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/record/tables/joined_cells.h"
@@ -16,71 +17,10 @@ namespace {
 
 using Kind = GazeEvent::Kind;
 
-Table events_table() {
-    return {
-        "",
-        "",
-        {{"onset",
-          "Begin of the event by the tracker's own clock, as the timestamps of the samples",
-          "us",
-          {}},
-         {"duration", "From the begin of the first to the end of the last sample in it", "s", {}},
-         {"trial_type",
-          "What the tracker found the eye to do; n/a of messages",
-          "",
-          {{"fixation", "the eye rested"}, {"saccade", "the eye jumped"}, {"blink", "there was no pupil"}}},
-         {"blink", "Whether a blink lies in a saccade", "", {{"0", "no"}, {"1", "yes: it may be none"}}},
-         {"message", "Text sent to the tracker or by it; BUTTON and INPUT are its own ports", "", {}},
-         {"x_px", "Mean place of a fixation, start of a saccade", "pixel", {}},
-         {"y_px", "The same, downwards", "pixel", {}},
-         {"end_x_px", "End of a saccade", "pixel", {}},
-         {"end_y_px", "The same, downwards", "pixel", {}},
-         {"pupil", "Mean pupil size of a fixation", "arbitrary", {}},
-         {"amplitude_deg", "Size of a saccade", "deg", {}},
-         {"peak_velocity_deg_s", "Peak velocity of a saccade", "deg/s", {}}}};
-}
-
-/// When the trial and its screens began, in the tracker's time.
-std::vector<GazeEvent> begins_of(const TrialRecord& trial, const ClockMap& clock_map) {
-    std::vector<GazeEvent> messages;
-    const auto add = [&](SessionTime time, std::string text) {
-        GazeEvent event;
-        event.start = event.end = clock_map.to_other(time);
-        event.text = std::move(text);
-        messages.push_back(std::move(event));
-    };
-    add(trial.started, fmt::format("TRIALID {}", trial.trial.index + 1));
-    for (const auto& [word, at] : screens_of(trial))
-        add(at, std::string(word));
-    return messages;
-}
-
-class EventRows {
-  public:
-    EventRows(const std::filesystem::path& file, Eye eye, const Table& table)
-        : row_(file, table, TableFormat::tsv, Packing::gzip, TableWriter::Header::none), eye_(eye) {}
-
-    /// In the order of their begins.
-    void write(std::vector<GazeEvent> events) {
-        std::stable_sort(events.begin(), events.end(),
-                         [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
-        for (const GazeEvent& event : events)
-            if (event.kind != Kind::note && (!is_eye_event(event.kind) || event.eye == eye_))
-                write(event, events);
-    }
-    void close() { row_.close(); }
-
-  private:
-    void write(const GazeEvent& event, const std::vector<GazeEvent>& all);
-    void number(const std::optional<double>& value, int decimals) {
-        value ? row_.fixed(*value, decimals) : row_.missing();
-    }
-    void place(const std::optional<ScreenPoint>& place) {
-        place ? row_.fixed(place->x_px, pixel_decimals).fixed(place->y_px, pixel_decimals) : row_.missing(2);
-    }
-
-    TableWriter row_;
-    Eye eye_;
+struct PhysioEvent {
+    const GazeEvent& event;
+    bool is_of_eye;
+    std::optional<bool> has_blink; ///< of a saccade: whether a blink lies in it
 };
 
 std::string message_of(const GazeEvent& event) {
@@ -98,41 +38,112 @@ std::string message_of(const GazeEvent& event) {
     }
 }
 
-void EventRows::write(const GazeEvent& event, const std::vector<GazeEvent>& all) {
-    row_.integer(event.start.time_since_epoch().count());
-    if (!is_eye_event(event.kind)) {
-        row_.integer(0).missing(2).text(message_of(event)).missing(7).end_row();
-        return;
+RowLayout<PhysioEvent> physio_events_layout() {
+    return {
+        "",
+        "",
+        {
+            {{"onset",
+              "Begin of the event by the tracker's own clock, as the timestamps of the samples",
+              "us",
+              {}},
+             [](auto& to, auto& row) { to.integer(row.event.start.time_since_epoch().count()); }},
+            {{"duration", "From the begin of the first to the end of the last sample in it", "s", {}},
+             [](auto& to, auto& row) {
+                 row.is_of_eye ? to.fixed(1e-6 * static_cast<double>(row.event.duration.count()), 6)
+                               : to.integer(0);
+             }},
+            {{"trial_type",
+              "What the tracker found the eye to do; n/a of messages",
+              "",
+              {{"fixation", "the eye rested"},
+               {"saccade", "the eye jumped"},
+               {"blink", "there was no pupil"}}},
+             [](auto& to, auto& row) { row.is_of_eye ? to.word(name_of(row.event.kind)) : to.missing(); }},
+            {{"blink", "Whether a blink lies in a saccade", "", {{"0", "no"}, {"1", "yes: it may be none"}}},
+             [](auto& to, auto& row) { row.has_blink ? to.integer(*row.has_blink) : to.missing(); }},
+            {{"message", "Text sent to the tracker or by it; BUTTON and INPUT are its own ports", "", {}},
+             [](auto& to, auto& row) { row.is_of_eye ? to.missing() : to.text(message_of(row.event)); }},
+            {{"x_px", "Mean place of a fixation, start of a saccade", "pixel", {}},
+             [](auto& to, auto& row) {
+                 row.event.place ? to.fixed(row.event.place->x_px, pixel_decimals) : to.missing();
+             }},
+            {{"y_px", "The same, downwards", "pixel", {}},
+             [](auto& to, auto& row) {
+                 row.event.place ? to.fixed(row.event.place->y_px, pixel_decimals) : to.missing();
+             }},
+            {{"end_x_px", "End of a saccade", "pixel", {}},
+             [](auto& to, auto& row) {
+                 row.event.arrival ? to.fixed(row.event.arrival->x_px, pixel_decimals) : to.missing();
+             }},
+            {{"end_y_px", "The same, downwards", "pixel", {}},
+             [](auto& to, auto& row) {
+                 row.event.arrival ? to.fixed(row.event.arrival->y_px, pixel_decimals) : to.missing();
+             }},
+            {{"pupil", "Mean pupil size of a fixation", "arbitrary", {}},
+             [](auto& to, auto& row) {
+                 row.event.pupil ? to.fixed(*row.event.pupil, pupil_decimals) : to.missing();
+             }},
+            {{"amplitude_deg", "Size of a saccade", "deg", {}},
+             [](auto& to, auto& row) {
+                 row.event.amplitude_deg ? to.fixed(*row.event.amplitude_deg, pixel_decimals) : to.missing();
+             }},
+            {{"peak_velocity_deg_s", "Peak velocity of a saccade", "deg/s", {}},
+             [](auto& to, auto& row) {
+                 row.event.peak_velocity_deg_s ? to.fixed(*row.event.peak_velocity_deg_s, pixel_decimals)
+                                               : to.missing();
+             }},
+        }};
+}
+
+/// When the trial and its screens began, in the tracker's time.
+std::vector<GazeEvent> begins_of(const TrialRecord& trial, const ClockMap& clock_map) {
+    std::vector<GazeEvent> messages;
+    const auto add = [&](SessionTime time, std::string text) {
+        GazeEvent event;
+        event.start = event.end = clock_map.to_other(time);
+        event.text = std::move(text);
+        messages.push_back(std::move(event));
+    };
+    add(trial.started, fmt::format("TRIALID {}", trial.trial.index + 1));
+    for (const auto& [word, at] : screens_of(trial))
+        add(at, std::string(word));
+    return messages;
+}
+
+/// In the order of their begins.
+void write_events(TableWriter& to, const RowLayout<PhysioEvent>& layout, std::vector<GazeEvent> events,
+                  Eye eye) {
+    std::stable_sort(events.begin(), events.end(),
+                     [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
+    const auto has_blink = [&](const GazeEvent& saccade) {
+        return std::any_of(events.begin(), events.end(), [&](const GazeEvent& other) {
+            return other.kind == Kind::blink && other.eye == saccade.eye && other.start >= saccade.start &&
+                   other.end <= saccade.end;
+        });
+    };
+    for (const GazeEvent& event : events) {
+        const bool is_of_eye = is_eye_event(event.kind);
+        if (event.kind == Kind::note || (is_of_eye && event.eye != eye))
+            continue;
+        layout.write(to, {event, is_of_eye,
+                          event.kind == Kind::saccade ? std::optional(has_blink(event)) : std::nullopt});
     }
-    row_.fixed(1e-6 * static_cast<double>(event.duration.count()), 6).word(name_of(event.kind));
-    if (event.kind == Kind::saccade)
-        row_.integer(std::any_of(all.begin(), all.end(), [&](const GazeEvent& other) {
-            return other.kind == Kind::blink && other.eye == event.eye && other.start >= event.start &&
-                   other.end <= event.end;
-        }));
-    else
-        row_.missing();
-    row_.missing();
-    place(event.place);
-    place(event.arrival);
-    number(event.pupil, pupil_decimals);
-    number(event.amplitude_deg, pixel_decimals);
-    number(event.peak_velocity_deg_s, pixel_decimals);
-    row_.end_row();
 }
 
 } // namespace
 
 void write_bids_gaze_events(const SessionRecord& record, int run, Eye eye,
                             const std::filesystem::path& stem) {
-    const Table table = events_table();
-    EventRows rows(stem.string() + ".tsv.gz", eye, table);
+    const RowLayout<PhysioEvent> layout = physio_events_layout();
+    TableWriter writer(stem.string() + ".tsv.gz", layout.table(), TableFormat::tsv, Packing::gzip,
+                       TableWriter::Header::none);
     const bool is_imported = record.gaze_source(run).has_value();
     const std::optional<ClockMap> clock_map = record.clock_map(run);
     std::vector<GazeEvent> outside;
     record.read_gaze_events_outside([&](const GazeEvent& event) { outside.push_back(event); });
     if (is_imported)
-        rows.write(std::move(outside));
+        write_events(writer, layout, std::move(outside), eye);
     for (const TrialRecord& trial : record.trials()) {
         if (trial.sitting != run)
             continue;
@@ -140,9 +151,9 @@ void write_bids_gaze_events(const SessionRecord& record, int run, Eye eye,
         record.read_gaze_events(trial, [&](const GazeEvent& event) { events.push_back(event); });
         if (!is_imported && clock_map)
             events = begins_of(trial, *clock_map);
-        rows.write(std::move(events));
+        write_events(writer, layout, std::move(events), eye);
     }
-    rows.close();
+    writer.close();
 
     nlohmann::ordered_json json;
     json["Description"] = is_imported
@@ -151,10 +162,10 @@ void write_bids_gaze_events(const SessionRecord& record, int run, Eye eye,
                                 "readings of both clocks.";
     json["OnsetSource"] = "timestamp";
     nlohmann::ordered_json columns = nlohmann::ordered_json::array();
-    for (const TableColumn& column : table.columns)
+    for (const TableColumn& column : layout.table().columns)
         columns.push_back(column.name);
     json["Columns"] = std::move(columns);
-    json.update(describe_columns(table.columns, TableFormat::tsv));
+    json.update(describe_columns(layout.table().columns, TableFormat::tsv));
     write_text_file(stem.string() + ".json", json_text(json));
 }
 

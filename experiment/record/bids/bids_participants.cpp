@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/base/error.h"
+#include "experiment/base/json_text.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/record/tables/table_writer.h"
@@ -114,7 +115,7 @@ std::vector<std::string> add_bids_participant(const fs::path& dataset, const Ses
     Participants participants(table_file);
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     if (fs::exists(json_file)) {
-        json = nlohmann::ordered_json::parse(read_whole_file(json_file), nullptr, false);
+        json = parse_json(read_whole_file(json_file));
         if (!json.is_object())
             throw InputError(fmt::format("{}: is no JSON.", json_file.string()));
     }

@@ -9,35 +9,40 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "experiment/record/session_header.h"
-#include "experiment/record/tables/table_writer.h"
+#include "experiment/record/tables/gaze_event_rows.h"
+#include "experiment/record/tables/ledger_rows.h"
+#include "experiment/record/tables/session_tables.h"
+#include "experiment/record/tables/trial_tables.h"
 #include "experiment/units.h"
 
 namespace overt {
 
 /// All tables of one session's export. Levels name the session's own tasks, sculptures and materials.
-struct ExportTables {
+class ExportTables {
+  public:
     /// With the columns of a gaze cone if its accuracy is given.
-    explicit ExportTables(const SessionHeader& header, std::optional<Degrees> cone_accuracy = {});
+    /// `header` must outlive it.
+    explicit ExportTables(const SessionHeader& header, std::optional<Degrees> cone_accuracy = {})
+        : ExportTables(header, SharedColumns(header), cone_accuracy) {}
 
-    /// The parts of all sculptures, each name once: a cone has a column for each, after p_object.
-    std::vector<std::string> cone_parts;
-
-    Table trials, flips, samples, gaze_events, events, responses, stimuli, display_box;
+    RowLayout<TrialRow> trials;
+    RowLayout<LedgerRow> flips;
+    RowLayout<SampleCells> samples;
+    RowLayout<GazeEventRow> gaze_events;
+    RowLayout<RecordedEvent> events;
+    RowLayout<TrialRecord> responses;
+    RowLayout<RecordedStimulus> stimuli;
+    RowLayout<DisplayBoxRow> display_box;
 
     std::vector<const Table*> all() const;
+
+  private:
+    ExportTables(const SessionHeader& header, const SharedColumns& shared,
+                 std::optional<Degrees> cone_accuracy);
 };
-
-/// Columns of samples: by the session's clock, and how far that can be off.
-std::vector<TableColumn> time_columns();
-
-/// Columns of samples: the frame that was lit, the place in the image and on the surface.
-std::vector<TableColumn> place_columns(const SessionHeader& header);
 
 /// Of each column Description, Units and Levels, as in BIDS side cars.
 nlohmann::ordered_json describe_columns(const std::vector<TableColumn>& columns, TableFormat format);
-
-/// As it is written to a file: indented, always valid UTF-8, with a newline at its end.
-std::string json_text(const nlohmann::ordered_json& json);
 
 /// The dictionary as JSON: for each file its description and its columns (see describe_columns).
 std::string table_dictionary(const ExportTables& tables, TableFormat format);

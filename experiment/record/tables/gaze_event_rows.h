@@ -1,18 +1,28 @@
 /// What the tracker itself said besides samples, as rows of a table.
 #pragma once
 
+#include <optional>
+
 #include "experiment/record/read/session_record.h"
-#include "experiment/record/tables/table_writer.h"
+#include "experiment/record/tables/row_layout.h"
 
 namespace overt {
 
-/// One row for each fixation, saccade, blink, message, button, input, begin and end of a recording, and note.
-Table gaze_events_table();
+struct GazeEventRow {
+    const GazeEvent& event;
+    int trial; ///< from 1; 0: outside of trials
+    const std::optional<ClockMap>& clock_map;
+};
 
-/// Writes those of a trial. Columns as gaze_events_table() has them. Throws RecordError.
-void write_gaze_events(TableWriter& writer, const SessionRecord& record, const TrialRecord& trial);
+/// One row for each fixation, saccade, blink, message, button, input, begin and end of a recording, and note.
+RowLayout<GazeEventRow> gaze_events_layout();
+
+/// Writes those of a trial. Throws RecordError.
+void write_gaze_events(TableWriter& writer, const RowLayout<GazeEventRow>& layout,
+                       const SessionRecord& record, const TrialRecord& trial);
 
 /// The same of those outside of trials.
-void write_gaze_events_outside(TableWriter& writer, const SessionRecord& record);
+void write_gaze_events_outside(TableWriter& writer, const RowLayout<GazeEventRow>& layout,
+                               const SessionRecord& record);
 
 } // namespace overt

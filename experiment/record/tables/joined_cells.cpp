@@ -1,6 +1,12 @@
 #include "experiment/record/tables/joined_cells.h"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiment/base/number_text.h"
 #include "experiment/maps/surface_walk.h"
+#include "experiment/record/tables/shared_columns.h"
 
 namespace overt {
 namespace {
@@ -11,48 +17,126 @@ constexpr int silhouette_decimals = 4; // a hundredth of a pixel
 
 } // namespace
 
-void write_angle(TableWriter& row, const SessionHeader& header, PoseIndex pose) {
-    const std::vector<Degrees>& angles = header.poses.angles;
-    if (pose.value >= 0 && static_cast<std::size_t>(pose.value) < angles.size())
-        row.fixed(angles[static_cast<std::size_t>(pose.value)].value, angle_decimals);
-    else
-        row.missing();
+void write_angle(TableWriter& to, const SessionHeader& header, PoseIndex pose) {
+    const Degrees* const angle = item_of(header.poses.angles, pose.value);
+    angle ? to.fixed(angle->value, angle_decimals) : to.missing();
 }
 
-JoinedCells::JoinedCells(const SessionHeader& header, int sculpture, TableFormat format) : header_(header) {
+void write_gaze_x(TableWriter& to, const GazeSample& sample) {
+    sample.gaze ? to.fixed(sample.gaze->x_px, pixel_decimals) : to.missing();
+}
+
+void write_gaze_y(TableWriter& to, const GazeSample& sample) {
+    sample.gaze ? to.fixed(sample.gaze->y_px, pixel_decimals) : to.missing();
+}
+
+void write_pupil(TableWriter& to, const GazeSample& sample) {
+    sample.pupil_area > 0.0f ? to.fixed(shortest_decimal(sample.pupil_area), pupil_decimals) : to.missing();
+}
+
+std::vector<std::string> all_part_names(const SessionHeader& header) {
+    std::vector<std::string> names;
+    for (const RecordedSculpture& sculpture : header.sculptures)
+        for (const std::string& name : sculpture.part_names)
+            if (std::find(names.begin(), names.end(), name) == names.end())
+                names.push_back(name);
+    return names;
+}
+
+std::vector<std::string> part_cells_of(const SessionHeader& header, int sculpture, TableFormat format) {
+    std::vector<std::string> cells;
     for (const std::string& name : header.sculptures[static_cast<std::size_t>(sculpture)].part_names)
-        parts_.push_back(prepare_cells({name}, format));
+        cells.push_back(text_cell(name, format));
+    return cells;
 }
 
-void JoinedCells::time(TableWriter& row, const JoinedSample& joined) const {
-    if (joined.at)
-        row.seconds(joined.at->time).seconds(joined.at->uncertainty);
-    else
-        row.missing(2);
+JoinedColumns time_columns() {
+    return {
+        {session_seconds("time_s", "When the sample was taken"),
+         [](auto& to, auto& row) { row.joined.at ? to.seconds(row.joined.at->time) : to.missing(); }},
+        {{"time_uncertainty_s", "Bound on the error of time_s", "s", {}},
+         [](auto& to, auto& row) { row.joined.at ? to.seconds(row.joined.at->uncertainty) : to.missing(); }},
+    };
 }
 
-void JoinedCells::place(TableWriter& row, const JoinedSample& joined) const {
-    if (joined.shown) {
-        row.integer(joined.shown->frame.value);
-        write_angle(row, header_, joined.shown->pose);
-    } else {
-        row.missing(2);
-    }
-    if (joined.image_px)
-        row.fixed(joined.image_px->x, pixel_decimals).fixed(joined.image_px->y, pixel_decimals);
-    else
-        row.missing(2);
-    if (const auto& surface = joined.sight.surface) {
-        for (const double coordinate : {surface->position.x, surface->position.y, surface->position.z})
-            row.fixed(coordinate, surface_decimals);
-        surface->triangle == no_triangle ? row.missing() : row.integer(surface->triangle);
-        const auto part = static_cast<std::size_t>(surface->part);
-        part < parts_.size() ? row.prepared(parts_[part]) : row.missing();
-        row.fixed(surface->depth, surface_decimals).fixed(surface->incidence.value, incidence_decimals);
-    } else {
-        row.missing(7);
-    }
-    joined.outline_distance ? row.fixed(joined.outline_distance->value, silhouette_decimals) : row.missing();
+JoinedColumns place_columns(const SessionHeader& header) {
+    TableColumn part{"part", "Part of the figure that is looked at", "", {}};
+    for (const std::string& name : all_part_names(header))
+        part.levels.emplace_back(name, fmt::format("the triangles labelled «{}»", name));
+    const std::string mesh_unit = "unit of the mesh";
+    return {
+        {{"frame", "Animation frame lit at the gaze's row", "", {}},
+         [](auto& to, auto& row) {
+             row.joined.shown ? to.integer(row.joined.shown->frame.value) : to.missing();
+         }},
+        {SharedColumns(header).angle,
+         [&header](auto& to, auto& row) {
+             row.joined.shown ? write_angle(to, header, row.joined.shown->pose)
+                              : static_cast<void>(to.missing());
+         }},
+        {{"image_x_px", "Gaze in the stimulus image, to the right", "px", {}},
+         [](auto& to, auto& row) {
+             row.joined.image_px ? to.fixed(row.joined.image_px->x, pixel_decimals) : to.missing();
+         }},
+        {{"image_y_px", "Gaze in the stimulus image, downwards", "px", {}},
+         [](auto& to, auto& row) {
+             row.joined.image_px ? to.fixed(row.joined.image_px->y, pixel_decimals) : to.missing();
+         }},
+        {{"surface_x", "Place on the unturned surface", mesh_unit, {}},
+         [](auto& to, auto& row) {
+             const auto& surface = row.joined.sight.surface;
+             surface ? to.fixed(surface->position.x, surface_decimals) : to.missing();
+         }},
+        {{"surface_y", "Place on the unturned surface", mesh_unit, {}},
+         [](auto& to, auto& row) {
+             const auto& surface = row.joined.sight.surface;
+             surface ? to.fixed(surface->position.y, surface_decimals) : to.missing();
+         }},
+        {{"surface_z", "Place on the unturned surface, upwards", mesh_unit, {}},
+         [](auto& to, auto& row) {
+             const auto& surface = row.joined.sight.surface;
+             surface ? to.fixed(surface->position.z, surface_decimals) : to.missing();
+         }},
+        {{"triangle",
+          "Index of the mesh's triangle, from 0; n/a where maps were given without a mesh",
+          "",
+          {}},
+         [](auto& to, auto& row) {
+             const auto& surface = row.joined.sight.surface;
+             surface && surface->triangle != no_triangle ? to.integer(surface->triangle) : to.missing();
+         }},
+        {part,
+         [](auto& to, auto& row) {
+             const auto& surface = row.joined.sight.surface;
+             const auto index = surface ? static_cast<std::size_t>(surface->part) : row.part_cells.size();
+             index < row.part_cells.size() ? to.ready(row.part_cells[index]) : to.missing();
+         }},
+        {{"depth", "Distance of the surface from the camera along the viewing direction", mesh_unit, {}},
+         [](auto& to, auto& row) {
+             const auto& surface = row.joined.sight.surface;
+             surface ? to.fixed(surface->depth, surface_decimals) : to.missing();
+         }},
+        {{"incidence_deg",
+          "Angle between the line of sight and the surface's normal, 0 is head-on",
+          "deg",
+          {}},
+         [](auto& to, auto& row) {
+             const auto& surface = row.joined.sight.surface;
+             surface ? to.fixed(surface->incidence.value, incidence_decimals) : to.missing();
+         }},
+        {{"silhouette_distance_deg",
+          "Visual angle from the gaze to the nearest place of the outline of the sculpture's picture: "
+          "positive "
+          "beside the sculpture, negative on it; n/a without gaze, when no frame was lit, or if the "
+          "sculpture "
+          "has no map. Right to within a pixel",
+          "deg",
+          {}},
+         [](auto& to, auto& row) {
+             const auto& distance = row.joined.outline_distance;
+             distance ? to.fixed(distance->value, silhouette_decimals) : to.missing();
+         }},
+    };
 }
 
 } // namespace overt

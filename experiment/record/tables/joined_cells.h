@@ -1,11 +1,12 @@
 /// A sample that was joined with its frame and its surface, as cells of a row.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "experiment/record/read/sample_join.h"
-#include "experiment/record/tables/table_writer.h"
+#include "experiment/record/tables/row_layout.h"
 
 namespace overt {
 
@@ -14,23 +15,30 @@ inline constexpr int pixel_decimals = 3; // a thousandth of a pixel
 inline constexpr int pupil_decimals = 4;
 inline constexpr int angle_decimals = 6; // a millionth of a degree
 
-/// Of the samples of one sculpture.
-class JoinedCells {
-  public:
-    /// `header` must outlive this.
-    JoinedCells(const SessionHeader& header, int sculpture, TableFormat format);
-
-    /// As time_columns() has them.
-    void time(TableWriter& row, const JoinedSample& joined) const;
-    /// As place_columns() has them.
-    void place(TableWriter& row, const JoinedSample& joined) const;
-
-  private:
-    const SessionHeader& header_;
-    std::vector<PreparedCells> parts_; ///< by PartIndex
+struct JoinedRow {
+    const GazeSample& sample;
+    const JoinedSample& joined;
+    std::span<const std::string> part_cells; ///< of the sample's sculpture, by PartIndex: part_cells_of()
 };
+using JoinedColumns = std::vector<RowLayout<JoinedRow>::Column>;
+
+/// The names of a sculpture's parts as cells, made once for many rows.
+std::vector<std::string> part_cells_of(const SessionHeader& header, int sculpture, TableFormat format);
+
+/// By the session's clock, and how far that can be off.
+JoinedColumns time_columns();
+/// The frame that was lit, the place in the image and on the surface. `header` must outlive them.
+JoinedColumns place_columns(const SessionHeader& header);
+
+// Cells of a sample itself.
+void write_gaze_x(TableWriter& to, const GazeSample& sample);
+void write_gaze_y(TableWriter& to, const GazeSample& sample);
+void write_pupil(TableWriter& to, const GazeSample& sample);
 
 /// A frame's angle; n/a if the session knows no such pose.
-void write_angle(TableWriter& row, const SessionHeader& header, PoseIndex pose);
+void write_angle(TableWriter& to, const SessionHeader& header, PoseIndex pose);
+
+/// The parts of all sculptures, each name once.
+std::vector<std::string> all_part_names(const SessionHeader& header);
 
 } // namespace overt

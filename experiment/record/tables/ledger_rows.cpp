@@ -4,70 +4,111 @@
 
 namespace overt {
 
-namespace {
+RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHeader& header) {
+    return {
+        "flips",
+        "The ledger of the completed trials: one row for each refresh of the display, from the "
+        "presentation's onset to the plan's end, or longer where pictures came later.",
+        {{shared.trial, [](auto& to, auto& row) { to.integer(row.trial); }},
+         {{"refresh", "Refresh of the display since the presentation's onset, from 0", "", {}},
+          [](auto& to, auto& row) { to.integer(row.refresh); }},
+         {{"state",
+           "Whether a picture was handed over for this refresh",
+           "",
+           {{"flipped", "shown_frame began, or went on, by a flip"},
+            {"missed", "it went by with the frame before"}}},
+          [](auto& to, auto& row) { to.word(row.flipped ? "flipped" : "missed"); }},
+         {{"planned_frame",
+           "Animation frame that the plan had for this refresh; n/a after the plan's end",
+           "",
+           {}},
+          [](auto& to, auto& row) {
+              row.planned == no_frame ? to.missing() : to.integer(row.planned.value);
+          }},
+         {{"shown_frame", "Animation frame that was lit", "", {}},
+          [](auto& to, auto& row) { to.integer(row.lit.shown.value); }},
+         {shared.angle, [&header](auto& to, auto& row) { write_angle(to, header, row.lit.pose); }},
+         {session_seconds("requested_s", "When the picture was asked for"),
+          [](auto& to, auto& row) { row.flipped ? to.seconds(row.flipped->requested) : to.missing(); }},
+         {session_seconds("swapped_s", "When the buffer swap had been handed over"),
+          [](auto& to, auto& row) { row.flipped ? to.seconds(row.flipped->swapped) : to.missing(); }},
+         {session_seconds("vertical_blank_s", "When scan-out of this refresh began, by its own time stamp"),
+          [](auto& to, auto& row) { row.flipped ? to.seconds(row.flipped->vertical_blank) : to.missing(); }},
+         {{"vertical_blank_uncertainty_s", "How far off the source may be", "s", {}},
+          [](auto& to, auto& row) { row.flipped ? to.seconds(row.flipped->uncertainty) : to.missing(); }},
+         {session_seconds("onset_s",
+                          "The same by the line through all time stamps of the presentation; of a missed "
+                          "refresh, too"),
+          [](auto& to, auto& row) { to.seconds(row.onset.time); }},
+         {{"onset_uncertainty_s",
+           "Two standard errors of the line; where time stamps scatter by less than 1 us they stand as "
+           "they "
+           "are, with their own uncertainty",
+           "s",
+           {}},
+          [](auto& to, auto& row) { to.seconds(row.onset.uncertainty); }},
+         {{"source",
+           "Where vertical_blank_s comes from",
+           "",
+           {{std::string(name_of(VblankSource::virtual_display)), "the program's own clock, exact"},
+            {std::string(name_of(VblankSource::swap_return)), "when the buffer swap returned"},
+            {std::string(name_of(VblankSource::glx_sync_control)),
+             "GLX_OML_sync_control: the refresh at which the swap was lit"},
+            {std::string(name_of(VblankSource::present_swap)),
+             "X Present: the refresh at which the swap was lit"},
+            {std::string(name_of(VblankSource::present_count)),
+             "X Present, which only counts: the first refresh after the swap"},
+            {std::string(name_of(VblankSource::egl_sync_control)),
+             "EGL_CHROMIUM_sync_control: the refresh at which the swap was lit"},
+            {std::string(name_of(VblankSource::drm_vblank)),
+             "the kernel's count for the screen: the first refresh after the swap"}}},
+          [](auto& to, auto& row) { to.text(name_of(row.lit.report.source)); }},
+         {{"missed", "Refreshes that went by with the old picture before this one", "", {}},
+          [](auto& to, auto& row) { to.integer(row.missed_before); }},
+         {{"cause",
+           "Why a refresh was missed",
+           "",
+           {{std::string(name_of(MissCause::asked_late)),
+             "the flip was asked for when the refresh had begun"},
+            {std::string(name_of(MissCause::drawn_late)), "it was asked for in time, but drawn too late"},
+            {std::string(name_of(MissCause::shown_late)),
+             "it was drawn in time, but the display took it later"}}},
+          [](auto& to, auto& row) { row.cause ? to.word(name_of(*row.cause)) : to.missing(); }}}};
+}
 
-class LedgerRows {
-  public:
-    LedgerRows(TableWriter& writer, const SessionHeader& header, const TrialRecord& trial)
-        : row_(writer), header_(header), number_(trial.trial.index + 1),
-          plan_(make_page_cycle(header_.animation, header_.display.refresh_hz)) {}
-
-    /// `fitted` is `recorded` at the times of the line.
-    void flip(const FlipRecord& recorded, const FlipRecord& fitted) {
-        begin(fitted.refresh_in_trial, "flipped");
-        // Where the count was inferred anew, the plan has another frame for this refresh than was noted.
-        frames(fitted.refresh_in_trial == recorded.refresh_in_trial ? fitted.planned
-                                                                    : planned_at(fitted.refresh_in_trial),
-               fitted);
-        row_.seconds(fitted.report.requested).seconds(fitted.report.swapped);
-        row_.seconds(recorded.report.vertical_blank).seconds(recorded.report.uncertainty);
-        row_.seconds(fitted.report.vertical_blank).seconds(fitted.report.uncertainty);
-        row_.text(name_of(fitted.report.source)).integer(fitted.report.missed_refreshes).missing().end_row();
-    }
-
-    /// The refreshes of a run, one by one; after the plan's end the count in the flip that follows says it.
-    void missed(const MissedRun& run, const LedgerFit& fit, const FlipRecord& before) {
-        for (int i = 0; i < run.count && run.refresh_in_trial + i < plan_.total_refreshes; ++i) {
-            const int refresh = run.refresh_in_trial + i;
-            begin(refresh, "missed");
-            frames(planned_at(refresh), before);
-            const MappedTime at = fit.begin_of(refresh);
-            row_.missing(4).seconds(at.time).seconds(at.uncertainty);
-            row_.text(name_of(before.report.source)).integer(0).word(name_of(run.cause)).end_row();
-        }
-    }
-
-  private:
-    AnimationFrameIndex planned_at(int refresh) const {
-        return refresh < plan_.total_refreshes ? plan_.entry_at(refresh).frame : no_frame;
-    }
-    void begin(int refresh, std::string_view state) { row_.integer(number_).integer(refresh).word(state); }
-    void frames(AnimationFrameIndex planned, const FlipRecord& lit) {
-        planned == no_frame ? row_.missing() : row_.integer(planned.value);
-        row_.integer(lit.shown.value);
-        write_angle(row_, header_, lit.pose);
-    }
-
-    TableWriter& row_;
-    const SessionHeader& header_;
-    int number_;
-    PageCycle plan_;
-};
-
-} // namespace
-
-std::int64_t write_ledger(TableWriter& writer, const SessionHeader& header, const TrialRecord& trial,
+std::int64_t write_ledger(TableWriter& writer, const RowLayout<LedgerRow>& layout,
+                          const SessionHeader& header, const TrialRecord& trial,
                           const std::optional<TrialLedger>& ledger) {
     if (!ledger)
         return 0;
     const auto& [recorded, fit] = *ledger;
-    LedgerRows rows(writer, header, trial);
+    const PageCycle plan = make_page_cycle(header.animation, header.display.refresh_hz);
+    const auto planned_at = [&](int refresh) {
+        return refresh < plan.total_refreshes ? plan.entry_at(refresh).frame : no_frame;
+    };
+    const int number = trial.trial.index + 1;
     auto run = fit.missed_runs().begin();
     for (std::size_t i = 0; i < recorded.size(); ++i) {
         const FlipRecord& fitted = fit.flips()[i];
-        if (i > 0 && fitted.report.missed_refreshes > 0)
-            rows.missed(*run++, fit, fit.flips()[i - 1]);
-        rows.flip(recorded[i], fitted);
+        if (i > 0 && fitted.report.missed_refreshes > 0) {
+            // One by one to the plan's end; after it the count in the flip that follows says it.
+            for (int k = 0; k < run->count && run->refresh_in_trial + k < plan.total_refreshes; ++k) {
+                const int refresh = run->refresh_in_trial + k;
+                layout.write(writer, {number, refresh, nullptr, planned_at(refresh), fit.flips()[i - 1],
+                                      fit.begin_of(refresh), 0, run->cause});
+            }
+            ++run;
+        }
+        const int refresh = fitted.refresh_in_trial;
+        // Where the count was inferred anew, the plan has another frame for this refresh than was noted.
+        layout.write(writer, {number,
+                              refresh,
+                              &recorded[i].report,
+                              refresh == recorded[i].refresh_in_trial ? fitted.planned : planned_at(refresh),
+                              fitted,
+                              {fitted.report.vertical_blank, fitted.report.uncertainty},
+                              fitted.report.missed_refreshes,
+                              std::nullopt});
     }
     return static_cast<std::int64_t>(recorded.size());
 }

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "experiment/base/number_text.h"
+#include <fmt/format.h>
+
 #include "experiment/base/parallel.h"
 
 namespace overt {
@@ -14,9 +15,72 @@ const auto& item(const auto& list, int index) { return list[static_cast<std::siz
 
 } // namespace
 
-SampleRows::SampleRows(TableWriter& writer, const SessionRecord& record, const ExportTables& tables,
+RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const SessionHeader& header,
+                                      std::optional<Degrees> cone_accuracy) {
+    RowLayout<SampleCells> layout{
+        "samples",
+        "One row for each gaze sample of the completed trials, joined with the frame that was lit on its row "
+        "when it was taken. Pixels: origin at the top left corner, y down, pixel centres at 0.5.",
+        {
+            {shared.trial, [](auto& to, auto& row) { to.integer(row.trial); }},
+            {shared.task, [](auto& to, auto& row) { to.ready(row.task); }},
+            {shared.sculpture, [](auto& to, auto& row) { to.ready(row.sculpture); }},
+            {shared.material, [](auto& to, auto& row) { to.ready(row.material); }},
+        }};
+    layout.add<JoinedRow>(time_columns());
+    layout.add<SampleCells>({
+        {{"tracker_time_us", "When the sample was taken, by the tracker's own clock", "us", {}},
+         [](auto& to, auto& row) { to.integer(row.sample.sampled_at.time_since_epoch().count()); }},
+        {{"eye", "Which eye", "", {{"left", "left eye"}, {"right", "right eye"}}},
+         [](auto& to, auto& row) { to.word(row.sample.eye == Eye::left ? "left" : "right"); }},
+        {{"x_px", "Gaze on the screen, to the right", "px", {}},
+         [](auto& to, auto& row) { write_gaze_x(to, row.sample); }},
+        {{"y_px", "Gaze on the screen, downwards", "px", {}},
+         [](auto& to, auto& row) { write_gaze_y(to, row.sample); }},
+        {{"pupil_area", "Pupil area", "the tracker's own unit", {}},
+         [](auto& to, auto& row) { write_pupil(to, row.sample); }},
+    });
+    layout.add<JoinedRow>(place_columns(header));
+    if (!cone_accuracy)
+        return layout;
+    const Degrees accuracy = *cone_accuracy;
+    layout.add<SampleCells>({
+        {{"p_object",
+          fmt::format(
+              "Probability that the gaze was on the sculpture, taking the tracker to be {} degrees off "
+              "on average, normally distributed to all sides; n/a as in silhouette_distance_deg",
+              accuracy.value),
+          "",
+          {}},
+         [](auto& to, auto& row) {
+             row.shares && !row.shares->of_part.empty()
+                 ? to.fixed(row.shares->of_object, probability_decimals)
+                 : to.missing();
+         }},
+    });
+    for (const std::string& part : all_part_names(header))
+        layout.add<SampleCells>({
+            {{"p_" + part,
+              fmt::format(
+                  "The same for the part «{}»; n/a, too, if the sculpture has no such part. All parts "
+                  "together make p_object",
+                  part),
+              "",
+              {}},
+             [part](auto& to, auto& row) {
+                 const auto own = std::find(row.own_parts.begin(), row.own_parts.end(), part);
+                 row.shares && !row.shares->of_part.empty() && own != row.own_parts.end()
+                     ? to.fixed(row.shares->of_part[static_cast<std::size_t>(own - row.own_parts.begin())],
+                                probability_decimals)
+                     : to.missing();
+             }},
+        });
+    return layout;
+}
+
+SampleRows::SampleRows(TableWriter& writer, const RowLayout<SampleCells>& layout, const SessionRecord& record,
                        std::optional<Degrees> cone_accuracy)
-    : row_(writer), record_(record), header_(record.header()), tables_(tables) {
+    : row_(writer), layout_(layout), record_(record), header_(record.header()) {
     if (cone_accuracy)
         cone_.emplace(header_.display.screen, *cone_accuracy);
 }
@@ -34,42 +98,31 @@ SampleCounts SampleRows::write(const TrialRecord& trial, const std::optional<Tri
 void SampleRows::write_piece(std::span<const GazeSample> samples, const TrialRecord& trial,
                              const SampleJoin& join, const SurfaceLookup* lookup) {
     const Condition condition = trial.trial.condition;
-    const PreparedCells trial_cells = prepare_cells({item(header_.tasks, trial.trial.task).id,
-                                                     item(header_.sculptures, condition.sculpture).id,
-                                                     item(header_.materials, condition.material).id},
-                                                    row_.format());
-    const JoinedCells cells(header_, condition.sculpture, row_.format());
+    const TableFormat format = row_.format();
+    const std::string task = text_cell(item(header_.tasks, trial.trial.task).id, format);
+    const std::string sculpture = text_cell(item(header_.sculptures, condition.sculpture).id, format);
+    const std::string material = text_cell(item(header_.materials, condition.material).id, format);
+    const std::vector<std::string> parts = part_cells_of(header_, condition.sculpture, format);
+    const std::vector<std::string>& own_parts = item(header_.sculptures, condition.sculpture).part_names;
     joined_.resize(samples.size());
     join.join(samples, joined_);
     std::vector<GazeCone::Shares> shares;
     if (cone_ && lookup)
-        shares =
-            cone_shares(*lookup, samples, item(header_.sculptures, condition.sculpture).part_names.size());
+        shares = cone_shares(*lookup, samples, own_parts.size());
 
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        row_.integer(trial.trial.index + 1).prepared(trial_cells);
-        cells.time(row_, joined_[i]);
-        write_gaze(samples[i]);
-        cells.place(row_, joined_[i]);
-        if (cone_)
-            write_cone(shares.empty() ? GazeCone::Shares{} : shares[i], condition.sculpture);
-        row_.end_row();
+        layout_.write(row_, {{samples[i], joined_[i], parts},
+                             trial.trial.index + 1,
+                             task,
+                             sculpture,
+                             material,
+                             own_parts,
+                             shares.empty() ? nullptr : &shares[i]});
         counts_.without_gaze += !samples[i].gaze;
         counts_.on_object += joined_[i].sight.surface.has_value();
         counts_.off_plan += joined_[i].off_plan;
     }
     counts_.samples += static_cast<std::int64_t>(samples.size());
-}
-
-void SampleRows::write_gaze(const GazeSample& sample) {
-    row_.integer(sample.sampled_at.time_since_epoch().count());
-    row_.word(sample.eye == Eye::left ? "left" : "right");
-    if (sample.gaze)
-        row_.fixed(sample.gaze->x_px, pixel_decimals).fixed(sample.gaze->y_px, pixel_decimals);
-    else
-        row_.missing(2);
-    sample.pupil_area > 0.0f ? row_.fixed(shortest_decimal(sample.pupil_area), pupil_decimals)
-                             : row_.missing();
 }
 
 /// Of each sample that fell on a lit frame; the others' shares are empty.
@@ -86,21 +139,6 @@ std::vector<GazeCone::Shares> SampleRows::cone_shares(const SurfaceLookup& looku
         }
     });
     return shares;
-}
-
-void SampleRows::write_cone(const GazeCone::Shares& shares, int sculpture) {
-    const std::vector<std::string>& own_parts = item(header_.sculptures, sculpture).part_names;
-    if (shares.of_part.empty()) {
-        row_.missing(1 + static_cast<int>(tables_.cone_parts.size()));
-        return;
-    }
-    row_.fixed(shares.of_object, probability_decimals);
-    for (const std::string& name : tables_.cone_parts) {
-        const auto own = std::find(own_parts.begin(), own_parts.end(), name);
-        own == own_parts.end() ? row_.missing()
-                               : row_.fixed(shares.of_part[static_cast<std::size_t>(own - own_parts.begin())],
-                                            probability_decimals);
-    }
 }
 
 } // namespace overt

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "experiment/analysis/gaze_cone.h"
-#include "experiment/record/tables/export_tables.h"
 #include "experiment/record/tables/joined_cells.h"
+#include "experiment/record/tables/shared_columns.h"
 
 namespace overt {
 
@@ -20,10 +20,21 @@ struct SampleCounts {
     std::int64_t samples = 0, without_gaze = 0, on_object = 0, off_plan = 0;
 };
 
+struct SampleCells : JoinedRow {
+    int trial;                                      ///< from 1
+    const std::string &task, &sculpture, &material; ///< as cells
+    const std::vector<std::string>& own_parts;      ///< of the sculpture, by PartIndex
+    const GazeCone::Shares* shares;                 ///< null without a cone; empty beside lit frames
+};
+
+/// With the columns of a gaze cone if its accuracy is given. `header` must outlive it.
+RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const SessionHeader& header,
+                                      std::optional<Degrees> cone_accuracy);
+
 class SampleRows {
   public:
-    /// `record` and `tables` must outlive this. With a cone, `tables` must have its columns.
-    SampleRows(TableWriter& writer, const SessionRecord& record, const ExportTables& tables,
+    /// `layout` and `record` must outlive this. With a cone, `layout` must have its columns.
+    SampleRows(TableWriter& writer, const RowLayout<SampleCells>& layout, const SessionRecord& record,
                std::optional<Degrees> cone_accuracy);
 
     /// Writes the samples of a trial; `lookup` is null if its sculpture has no surface. Throws RecordError.
@@ -33,15 +44,13 @@ class SampleRows {
   private:
     void write_piece(std::span<const GazeSample> samples, const TrialRecord& trial, const SampleJoin& join,
                      const SurfaceLookup* lookup);
-    void write_gaze(const GazeSample& sample);
     std::vector<GazeCone::Shares> cone_shares(const SurfaceLookup& lookup,
                                               std::span<const GazeSample> samples, std::size_t parts) const;
-    void write_cone(const GazeCone::Shares& shares, int sculpture);
 
     TableWriter& row_;
+    const RowLayout<SampleCells>& layout_;
     const SessionRecord& record_;
     const SessionHeader& header_;
-    const ExportTables& tables_;
     std::optional<GazeCone> cone_;
     std::vector<JoinedSample> joined_; ///< of the piece being written
     SampleCounts counts_;

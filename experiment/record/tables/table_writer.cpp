@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "experiment/base/error.h"
+#include "experiment/base/json_text.h"
 #include "experiment/base/number_text.h"
 
 namespace overt {
@@ -49,10 +49,6 @@ std::string quoted(std::string_view text) {
     return cell + '"';
 }
 
-std::string json_string(std::string_view text) {
-    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 std::string_view separator_of(TableFormat format) {
     return format == TableFormat::tsv ? "\t" : format == TableFormat::csv ? "," : "";
 }
@@ -65,7 +61,7 @@ std::vector<std::string> befores(const Table& table, TableFormat format) {
     for (const TableColumn& column : table.columns) {
         const bool is_first = list.empty();
         if (format == TableFormat::jsonl)
-            list.push_back((is_first ? '{' : ',') + json_string(column.name) + ':');
+            list.push_back((is_first ? '{' : ',') + json_quoted(column.name) + ':');
         else
             list.emplace_back(is_first ? "" : separator_of(format));
     }
@@ -89,18 +85,7 @@ std::string text_cell(std::string_view text, TableFormat format) {
     case TableFormat::jsonl:
         break;
     }
-    return json_string(text);
-}
-
-PreparedCells prepare_cells(std::initializer_list<std::string_view> texts, TableFormat format) {
-    PreparedCells cells;
-    for (const std::string_view text : texts) {
-        if (!cells.ends.empty())
-            cells.text += separator_of(format);
-        cells.text += text_cell(text, format);
-        cells.ends.push_back(cells.text.size());
-    }
-    return cells;
+    return json_quoted(text);
 }
 
 TableWriter::TableWriter(const std::filesystem::path& directory, const Table& table, TableFormat format)
@@ -128,17 +113,8 @@ TableWriter& TableWriter::text(std::string_view text) {
     return *this;
 }
 
-TableWriter& TableWriter::prepared(const PreparedCells& cells) {
-    if (format_ != TableFormat::jsonl) {
-        begin_cell() += cells.text;
-        cells_ += cells.ends.size() - 1;
-        return *this;
-    }
-    std::size_t begin = 0;
-    for (const std::size_t end : cells.ends) {
-        begin_cell().append(cells.text, begin, end - begin);
-        begin = end;
-    }
+TableWriter& TableWriter::ready(std::string_view cell) {
+    begin_cell() += cell;
     return *this;
 }
 
@@ -171,9 +147,8 @@ TableWriter& TableWriter::seconds(SessionDuration duration) {
     return *this;
 }
 
-TableWriter& TableWriter::missing(int cells) {
-    for (int i = 0; i < cells; ++i)
-        begin_cell() += missing_in(format_);
+TableWriter& TableWriter::missing() {
+    begin_cell() += missing_in(format_);
     return *this;
 }
 

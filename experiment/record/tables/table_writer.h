@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -39,15 +38,8 @@ enum class TableFormat : std::uint8_t {
 /// What file names end with: "tsv", "csv" or "jsonl".
 std::string_view ending_of(TableFormat format);
 
-/// A text as a cell.
+/// A text as a cell: see TableWriter::ready().
 std::string text_cell(std::string_view text, TableFormat format);
-
-/// Cells that are the same in many rows, made once.
-struct PreparedCells {
-    std::string text;              ///< with what separates them
-    std::vector<std::size_t> ends; ///< of each cell, in text
-};
-PreparedCells prepare_cells(std::initializer_list<std::string_view> texts, TableFormat format);
 
 /// Writes the rows of one table, cell by cell from left to right. Nothing depends on a locale.
 class TableWriter {
@@ -63,7 +55,8 @@ class TableWriter {
                 Header header);
 
     TableWriter& text(std::string_view text);
-    TableWriter& prepared(const PreparedCells& cells);
+    /// One that text_cell() made, for many rows.
+    TableWriter& ready(std::string_view cell);
     /// A word that needs no escaping in any format.
     TableWriter& word(std::string_view word);
     TableWriter& integer(std::int64_t number);
@@ -72,7 +65,7 @@ class TableWriter {
     /// Seconds with nine decimals: each nanosecond is kept.
     TableWriter& seconds(SessionDuration duration);
     TableWriter& seconds(SessionTime time) { return seconds(time.time_since_epoch()); }
-    TableWriter& missing(int cells = 1);
+    TableWriter& missing();
 
     /// Each column must have got its cell. Throws RecordError.
     void end_row();

@@ -39,15 +39,6 @@ std::int64_t number(const SQLite::Database& database, const char* sql, std::int6
 
 } // namespace
 
-SessionLock::SessionLock(const std::filesystem::path& directory)
-    : lock_(directory, FolderLock::Patience::none) {
-    if (!lock_.has_folder())
-        throw RecordError(fmt::format("{}: there is no session here.", directory.string()));
-    if (lock_.is_refused())
-        throw RecordError(fmt::format("{}: another program is running this session: wait until it has ended.",
-                                      directory.string()));
-}
-
 RowWriter::RowWriter(const std::filesystem::path& session_file, const Sitting& sitting) try
     : lock_(session_file.parent_path()), database_(open_for_rows(session_file)),
       insert_flip_(database_,
@@ -150,7 +141,7 @@ void RowWriter::commit_to_disk() {
     database_.exec("PRAGMA synchronous = NORMAL");
 }
 
-void RowWriter::flip(const FlipRecord& flip) {
+void RowWriter::write(const FlipRecord& flip) {
     begin();
     Counts& counts = counts_of(flip.trial);
     const FlipReport& report = flip.report;
@@ -160,16 +151,17 @@ void RowWriter::flip(const FlipRecord& flip) {
                   static_cast<std::int64_t>(report.uncertainty.count()));
 }
 
-void RowWriter::missed(const MissedRefresh& refresh) {
+void RowWriter::write(const MissedRefresh& refresh) {
     begin();
     run_statement(insert_missed_, counts_of(refresh.trial).trial_id, refresh.refresh_in_trial,
                   refresh.refresh.value, refresh.planned.value, refresh.shown.value, refresh.pose.value,
                   refresh.vertical_blank, static_cast<std::int64_t>(refresh.uncertainty.count()));
 }
 
-void RowWriter::sample(int trial, const GazeSample& sample) {
+void RowWriter::write(const SampleRow& row) {
     begin();
-    Counts& counts = counts_of(trial);
+    const GazeSample& sample = row.sample;
+    Counts& counts = counts_of(row.trial);
     using Pixels = std::optional<double>;
     run_statement(insert_sample_, counts.trial_id, counts.samples++,
                   static_cast<std::int64_t>(sample.sampled_at.time_since_epoch().count()),
@@ -178,24 +170,25 @@ void RowWriter::sample(int trial, const GazeSample& sample) {
                   shortest_decimal(sample.pupil_area));
 }
 
-void RowWriter::clock_pair(const ClockPair& pair) {
+void RowWriter::write(const ClockPair& pair) {
     begin();
     run_statement(insert_clock_pair_, sitting_, pair.before,
                   static_cast<std::int64_t>(pair.other.time_since_epoch().count()), pair.after);
 }
 
-void RowWriter::event(SessionTime at, int trial, const std::string& kind, const std::string& detail) {
+void RowWriter::write(const EventRow& event) {
     begin();
-    run_statement(insert_event_, sitting_, at, trial < 0 ? std::nullopt : std::optional(trial), kind, detail);
+    run_statement(insert_event_, sitting_, event.at,
+                  event.trial < 0 ? std::nullopt : std::optional(event.trial), event.kind, event.detail);
 }
 
-void RowWriter::map(const RecordedMap& map) {
+void RowWriter::write(const RecordedMap& map) {
     begin_sealed();
     run_statement(insert_map_, map.sculpture, map.pose.value, map.file, map.sha256,
                   map.made == RecordedMap::Made::prepared ? "prepared" : "live");
 }
 
-void RowWriter::display_box(const RecordedBox& box) {
+void RowWriter::write(const RecordedBox& box) {
     begin_sealed();
     database_.exec(box_tables_sql);
     SQLite::Statement insert(
@@ -209,7 +202,7 @@ void RowWriter::display_box(const RecordedBox& box) {
                   is_there ? std::optional(box.video_rate_hz) : std::nullopt);
 }
 
-void RowWriter::box_clock(const std::vector<BoxClockPair>& readings) {
+void RowWriter::write(const std::vector<BoxClockPair>& readings) {
     begin();
     database_.exec(box_tables_sql);
     SQLite::Statement insert(
@@ -219,7 +212,7 @@ void RowWriter::box_clock(const std::vector<BoxClockPair>& readings) {
                       static_cast<std::int64_t>(reading.other.time_since_epoch().count()), reading.after);
 }
 
-void RowWriter::consent(const RecordedConsent& consent) {
+void RowWriter::write(const RecordedConsent& consent) {
     begin_sealed();
     database_.exec(observer_tables_sql);
     SQLite::Statement insert(database_, "INSERT INTO consent (sitting, observer, accepted, at_ns, at_utc, "
@@ -228,7 +221,7 @@ void RowWriter::consent(const RecordedConsent& consent) {
                   consent.text_sha256);
 }
 
-void RowWriter::answer(const RecordedAnswer& answer) {
+void RowWriter::write(const RecordedAnswer& answer) {
     begin();
     database_.exec(observer_tables_sql);
     SQLite::Statement insert(
@@ -247,7 +240,7 @@ void RowWriter::answer(const RecordedAnswer& answer) {
                   answer.clipped_samples, ns(answer.voice_onset), ns(answer.voice_end), answer.fault);
 }
 
-void RowWriter::observer_fields(const std::vector<RecordedObserverField>& fields) {
+void RowWriter::write(const std::vector<RecordedObserverField>& fields) {
     begin_sealed();
     database_.exec(observer_tables_sql);
     database_.exec("DELETE FROM observer_field");
@@ -256,19 +249,20 @@ void RowWriter::observer_fields(const std::vector<RecordedObserverField>& fields
         run_statement(insert, field.id, field.title, field.value);
 }
 
-void RowWriter::start_trial(const Trial& trial, SessionTime at) {
+void RowWriter::write(const TrialStart& start) {
+    const Trial& trial = start.trial;
     begin();
     trial_counts_ = {number(database_, "SELECT COALESCE(MAX(trial_id), 0) + 1 + ?1 FROM trial"), 0, 0};
     open_trial_ = trial.index;
     const std::int64_t attempt =
         1 + number(database_, "SELECT COUNT(*) FROM trial WHERE trial = ?1", trial.index);
     run_statement(insert_trial_, trial_counts_.trial_id, sitting_, trial.index, attempt, trial.task,
-                  trial.condition.sculpture, trial.condition.material, at);
+                  trial.condition.sculpture, trial.condition.material, start.at);
 }
 
-void RowWriter::finish_trial(const Trial& trial, const TrialOutcome& outcome, std::int64_t lost_flips,
-                             std::int64_t lost_samples) {
-    OVERT_EXPECTS(trial.index == open_trial_);
+void RowWriter::write(const TrialFinish& finish) {
+    OVERT_EXPECTS(finish.trial.index == open_trial_);
+    const TrialOutcome& outcome = finish.outcome;
     commit();
     database_.exec("PRAGMA synchronous = FULL"); // makes the next commit flush the whole log
     begin();
@@ -278,7 +272,7 @@ void RowWriter::finish_trial(const Trial& trial, const TrialOutcome& outcome, st
         outcome.task_screen_onset, outcome.presentation_onset, outcome.presentation_end,
         outcome.response_screen_onset, outcome.responded_at, outcome.shown_refreshes,
         outcome.missed_refreshes, outcome.drift ? std::optional(outcome.drift->value) : std::nullopt,
-        outcome.answer, lost_flips, lost_samples,
+        outcome.answer, finish.lost_flips, finish.lost_samples,
         outcome.failure.empty() ? std::nullopt : std::optional(outcome.failure),
         afterwards.empty() ? std::nullopt : std::optional(std::string(afterwards)), trial_counts_.trial_id);
     seals_.seal_trial(sitting_, trial_counts_.trial_id);

@@ -6,28 +6,12 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include "experiment/base/folder_lock.h"
-#include "experiment/flip_report.h"
-#include "experiment/ports/observer_field.h"
-#include "experiment/ports/recorded_answer.h"
-#include "experiment/ports/recorded_consent.h"
-#include "experiment/ports/trial_outcome.h"
-#include "experiment/record/recorded_box.h"
 #include "experiment/record/resumption.h"
 #include "experiment/record/seal_chain.h"
-#include "experiment/record/session_header.h"
+#include "experiment/record/session_lock.h"
+#include "experiment/record/write/row_kinds.h"
 
 namespace overt {
-
-/// Keeps others from writing to the same session: a lock on its directory that ends with the process.
-class SessionLock {
-  public:
-    /// Throws RecordError if another program holds it.
-    explicit SessionLock(const std::filesystem::path& directory);
-
-  private:
-    FolderLock lock_;
-};
 
 /// Inserts the rows of one sitting. One thread. All but the constructor throw SQLite::Exception; the caller
 /// then rolls back and writes no more.
@@ -39,23 +23,22 @@ class RowWriter {
     RowWriter(const std::filesystem::path& session_file, const Sitting& sitting);
 
     // The transaction begins by itself with the first row.
-    void flip(const FlipRecord& flip);
-    void missed(const MissedRefresh& refresh);
-    void sample(int trial, const GazeSample& sample);
-    void clock_pair(const ClockPair& pair);
-    void event(SessionTime at, int trial, const std::string& kind, const std::string& detail);
-    void map(const RecordedMap& map);
-    void display_box(const RecordedBox& box);
-    void box_clock(const std::vector<BoxClockPair>& readings);
-    void consent(const RecordedConsent& consent);
-    void answer(const RecordedAnswer& answer);
-    void observer_fields(const std::vector<RecordedObserverField>& fields);
-    void start_trial(const Trial& trial, SessionTime at);
+    void write(const FlipRecord& flip);
+    void write(const MissedRefresh& refresh);
+    void write(const SampleRow& row);
+    void write(const ClockPair& pair);
+    void write(const EventRow& event);
+    void write(const RecordedMap& map);
+    void write(const RecordedBox& box);
+    void write(const std::vector<BoxClockPair>& readings);
+    void write(const RecordedConsent& consent);
+    void write(const RecordedAnswer& answer);
+    void write(const std::vector<RecordedObserverField>& fields);
+    void write(const TrialStart& start);
 
     /// Commits what is open, then the outcome and the seal over the trial's rows in a transaction of their
     /// own that is on the disk, with everything before it, when this returns.
-    void finish_trial(const Trial& trial, const TrialOutcome& outcome, std::int64_t lost_flips,
-                      std::int64_t lost_samples);
+    void write(const TrialFinish& finish);
 
     /// Ends the open transaction, if there is one, without waiting for the disk.
     void commit();

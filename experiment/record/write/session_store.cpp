@@ -21,30 +21,30 @@ SessionStore::~SessionStore() {
     }
 }
 
-void SessionStore::flip(const FlipRecord& flip) noexcept { writer_->push(Writer::Row(flip)); }
+void SessionStore::flip(const FlipRecord& flip) noexcept { writer_->push(Row(flip)); }
 
-void SessionStore::missed(const MissedRefresh& refresh) noexcept { writer_->push(Writer::Row(refresh)); }
+void SessionStore::missed(const MissedRefresh& refresh) noexcept { writer_->push(Row(refresh)); }
 
 void SessionStore::sample(int trial, const GazeSample& sample) noexcept {
-    writer_->push(Writer::Row(Writer::SampleRow{trial, sample}));
+    writer_->push(Row(SampleRow{trial, sample}));
 }
 
-void SessionStore::clock_pair(const ClockPair& pair) noexcept { writer_->push(Writer::Row(pair)); }
+void SessionStore::clock_pair(const ClockPair& pair) noexcept { writer_->push(Row(pair)); }
 
 void SessionStore::event(const SessionEvent& event) {
-    writer_->send(Writer::Event{event.at, event.trial, std::string(event.kind), event.detail});
+    writer_->send(EventRow{event.at, event.trial, std::string(event.kind), event.detail});
 }
 
 void SessionStore::trial_started(const Trial& trial, SessionTime at) {
     writer_->lost_before_trial = writer_->lost();
-    writer_->send(Writer::TrialStart{trial, at});
+    writer_->send(TrialStart{trial, at});
 }
 
 void SessionStore::trial_finished(const Trial& trial, const TrialOutcome& outcome) {
     const LostRows now = writer_->lost();
     const LostRows before = writer_->lost_before_trial;
-    auto written = writer_->send(
-        Writer::TrialFinish{trial, outcome, {now.flips - before.flips, now.samples - before.samples}});
+    auto written =
+        writer_->send(TrialFinish{trial, outcome, now.flips - before.flips, now.samples - before.samples});
     writer_->wake();
     written.get();
 }

@@ -22,6 +22,12 @@ namespace overt {
 struct LostRows {
     std::int64_t flips = 0; ///< and missed refreshes
     std::int64_t samples = 0;
+
+    LostRows& operator+=(const LostRows& more) {
+        flips += more.flips;
+        samples += more.samples;
+        return *this;
+    }
 };
 
 /// The session file's writer. A thread of its own does all that touches the disk: it empties a ring of rows

@@ -14,6 +14,13 @@ namespace {
 /// How long rows wait at most before they are committed; the promise to the outside is 250 ms.
 constexpr std::chrono::milliseconds drain_interval{100};
 
+/// What is lost with a row.
+LostRows flips_and_samples(const Row& row) noexcept {
+    if (std::holds_alternative<SampleRow>(row))
+        return {0, 1};
+    return {std::holds_alternative<FlipRecord>(row) || std::holds_alternative<MissedRefresh>(row), 0};
+}
+
 } // namespace
 
 SessionStore::Writer::Writer(const std::filesystem::path& file, const Options& options)
@@ -24,7 +31,7 @@ SessionStore::Writer::Writer(const std::filesystem::path& file, const Options& o
 void SessionStore::Writer::push(const Row& row) noexcept {
     while (!ring_.try_push(row)) {
         bell_.ring();
-        if (!wait_when_full_ && !std::holds_alternative<Message*>(row))
+        if (!wait_when_full_ && !std::holds_alternative<RowMessage*>(row))
             return count_lost(row);
         ring_.wait_for_room();
     }
@@ -32,9 +39,9 @@ void SessionStore::Writer::push(const Row& row) noexcept {
         bell_.ring();
 }
 
-std::future<void> SessionStore::Writer::send(Content content) {
+std::future<void> SessionStore::Writer::send(decltype(RowMessage::content) content) {
     throw_failure();
-    auto message = std::make_unique<Message>(Message{std::move(content), {}});
+    auto message = std::make_unique<RowMessage>(RowMessage{std::move(content), {}});
     auto written = message->written.get_future();
     push(Row(message.release()));
     return written;
@@ -75,8 +82,8 @@ void SessionStore::Writer::drain() {
 }
 
 void SessionStore::Writer::handle(const Row& row) {
-    Message* const* const carried = std::get_if<Message*>(&row);
-    const std::unique_ptr<Message> message(carried ? *carried : nullptr);
+    RowMessage* const* const carried = std::get_if<RowMessage*>(&row);
+    const std::unique_ptr<RowMessage> message(carried ? *carried : nullptr);
     if (!failed_.load(std::memory_order_relaxed)) {
         try {
             write(row);
@@ -96,32 +103,21 @@ void SessionStore::Writer::handle(const Row& row) {
 }
 
 void SessionStore::Writer::write(const Row& row) {
-    if (const auto* sample = std::get_if<SampleRow>(&row)) {
-        rows_.sample(sample->trial, sample->sample);
-        ++uncommitted_.samples;
-    } else if (const auto* flip = std::get_if<FlipRecord>(&row)) {
-        rows_.flip(*flip);
-        ++uncommitted_.flips;
-    } else if (const auto* missed = std::get_if<MissedRefresh>(&row)) {
-        rows_.missed(*missed);
-        ++uncommitted_.flips;
-    } else if (const auto* pair = std::get_if<ClockPair>(&row)) {
-        rows_.clock_pair(*pair);
-    } else {
-        std::visit([this](const auto& content) { write_message(content); }, std::get<Message*>(row)->content);
-    }
+    std::visit(
+        [this]<class Content>(const Content& content) {
+            if constexpr (std::is_same_v<Content, RowMessage*>)
+                write_message(*content);
+            else
+                rows_.write(content);
+        },
+        row);
+    uncommitted_ += flips_and_samples(row);
 }
 
-void SessionStore::Writer::write_message(const Event& event) {
-    rows_.event(event.at, event.trial, event.kind, event.detail);
-}
-
-void SessionStore::Writer::write_message(const TrialStart& start) {
-    rows_.start_trial(start.trial, start.at);
-}
-
-void SessionStore::Writer::write_message(const TrialFinish& finish) {
-    rows_.finish_trial(finish.trial, finish.outcome, finish.lost.flips, finish.lost.samples);
+void SessionStore::Writer::write_message(const RowMessage& message) {
+    std::visit([this](const auto& content) { rows_.write(content); }, message.content);
+    if (!std::holds_alternative<TrialFinish>(message.content))
+        return;
     uncommitted_ = {};
     // What is written goes on into a file that has no name any more, or another one; inode numbers would tell
     // more, but not on every file system.
@@ -145,10 +141,9 @@ void SessionStore::Writer::fail(const SQLite::Exception& reason) {
 }
 
 void SessionStore::Writer::count_lost(const Row& row) noexcept {
-    if (std::holds_alternative<FlipRecord>(row) || std::holds_alternative<MissedRefresh>(row))
-        ++lost_flips_;
-    else if (std::holds_alternative<SampleRow>(row))
-        ++lost_samples_;
+    const LostRows lost = flips_and_samples(row);
+    lost_flips_ += lost.flips;
+    lost_samples_ += lost.samples;
 }
 
 void SessionStore::Writer::stop() noexcept {

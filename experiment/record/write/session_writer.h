@@ -4,12 +4,8 @@
 #include <atomic>
 #include <exception>
 #include <filesystem>
-#include <future>
 #include <mutex>
-#include <string>
 #include <thread>
-#include <variant>
-#include <vector>
 
 #include "experiment/base/bell.h"
 #include "experiment/base/spsc_ring.h"
@@ -22,41 +18,13 @@ namespace overt {
 /// thread's, the session's.
 class SessionStore::Writer {
   public:
-    struct SampleRow {
-        int trial = -1;
-        GazeSample sample;
-    };
-    struct Event {
-        SessionTime at;
-        int trial;
-        std::string kind, detail;
-    };
-    struct TrialStart {
-        Trial trial;
-        SessionTime at;
-    };
-    struct TrialFinish {
-        Trial trial;
-        TrialOutcome outcome;
-        LostRows lost;
-    };
-    /// What is too large or too rare for the ring itself: it carries the pointer, so that the order holds.
-    using Content =
-        std::variant<Event, TrialStart, TrialFinish, RecordedMap, RecordedBox, std::vector<BoxClockPair>,
-                     std::vector<RecordedObserverField>, RecordedConsent, RecordedAnswer>;
-    struct Message {
-        Content content;
-        std::promise<void> written;
-    };
-    using Row = std::variant<FlipRecord, MissedRefresh, SampleRow, ClockPair, Message*>;
-
     /// Opens the file and begins a sitting. Throws RecordError.
     Writer(const std::filesystem::path& file, const Options& options);
     ~Writer() { stop(); }
 
     void push(const Row& row) noexcept;
     /// Throws the failure, if there is one. Gives a future that is ready when the message is written.
-    std::future<void> send(Content content);
+    std::future<void> send(decltype(RowMessage::content) content);
     void throw_failure();
     void wake() noexcept { bell_.ring(); }
     /// Ends the thread when it has written all that was pushed.
@@ -72,15 +40,7 @@ class SessionStore::Writer {
     void drain();
     void handle(const Row& row);
     void write(const Row& row);
-    void write_message(const Event& event);
-    void write_message(const TrialStart& start);
-    void write_message(const TrialFinish& finish);
-    void write_message(const RecordedMap& map) { rows_.map(map); }
-    void write_message(const RecordedBox& box) { rows_.display_box(box); }
-    void write_message(const std::vector<BoxClockPair>& readings) { rows_.box_clock(readings); }
-    void write_message(const std::vector<RecordedObserverField>& fields) { rows_.observer_fields(fields); }
-    void write_message(const RecordedConsent& consent) { rows_.consent(consent); }
-    void write_message(const RecordedAnswer& answer) { rows_.answer(answer); }
+    void write_message(const RowMessage& message);
     void fail(const SQLite::Exception& reason);
     void count_lost(const Row& row) noexcept;
 

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <map>
 #include <regex>
+#include <sstream>
 
 #include <catch2/catch.hpp>
 
@@ -19,7 +20,8 @@ std::string text_of(const fs::path& file) {
 
 } // namespace
 
-TEST_CASE("the words of kinds of events differ, and stand in no source but their list", "[unit]") {
+TEST_CASE("the words of kinds of events differ, and are typed nowhere else where events are written or read",
+          "[unit]") {
     const fs::path root = OVERT_SOURCE_DIR;
     const std::string list = text_of(root / "experiment/ports/event_kinds.h");
     std::map<std::string, int> words;
@@ -30,13 +32,18 @@ TEST_CASE("the words of kinds of events differ, and stand in no source but their
     for (const char* folder : {"app", "devices", "experiment", "render"}) {
         for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
             const fs::path& file = entry.path();
-            if ((file.extension() != ".cpp" && file.extension() != ".h") || file.filename() == "event_kinds.h")
+            if ((file.extension() != ".cpp" && file.extension() != ".h") ||
+                file.filename() == "event_kinds.h")
                 continue;
-            const std::string text = text_of(file);
-            // A single word may be the name of other things, too.
-            for (const auto& [word, count] : words)
-                if (word.find(' ') != std::string::npos && text.find('"' + word + '"') != std::string::npos)
-                    FAIL_CHECK(file.string() << " retypes \"" << word << "\"");
+            std::istringstream text(text_of(file));
+            for (std::string line; std::getline(text, line);) {
+                if (line.find("event({") == std::string::npos && line.find("note(") == std::string::npos &&
+                    line.find("kind ==") == std::string::npos)
+                    continue;
+                for (const auto& [word, count] : words)
+                    if (line.find('"' + word + '"') != std::string::npos)
+                        FAIL_CHECK(file.string() << " retypes \"" << word << "\"");
+            }
         }
     }
 }

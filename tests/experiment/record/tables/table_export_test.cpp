@@ -345,7 +345,6 @@ TEST_CASE("texts with commas, quotes, line breaks and blanks at their ends stand
     CHECK(text_cell(" a", TableFormat::csv) == "\" a\"");
     CHECK(text_cell("", TableFormat::csv) == "n/a");
     CHECK(text_cell("Wie alt? 何歳？ كم عمره؟", TableFormat::csv) == "Wie alt? 何歳？ كم عمره؟");
-    CHECK(prepare_cells({"a,b", "c"}, TableFormat::csv).text == "\"a,b\",c");
 }
 
 TEST_CASE("samples come in pieces of any size, the same as all at once", "[unit]") {

@@ -36,7 +36,10 @@ std::vector<std::string> written(const TemporaryFolder& folder, TableFormat form
     for (int i = 0; i < 40; ++i) {
         const std::string &text = texts[static_cast<std::size_t>(i) % texts.size()],
                           &other = texts[static_cast<std::size_t>(i / 8) % texts.size()];
-        row.text(text).prepared(prepare_cells({other, text}, format)).word(i % 2 ? "yes" : "no");
+        row.text(text)
+            .ready(text_cell(other, format))
+            .ready(text_cell(text, format))
+            .word(i % 2 ? "yes" : "no");
         row.integer(1 - i * 1'000'003LL);
         row.fixed(i % 5 == 4 ? std::numeric_limits<double>::quiet_NaN() : 0.1 * i - 1.0, 3);
         row.seconds(SessionDuration{i * 123'456'789LL - 7}).missing().end_row();

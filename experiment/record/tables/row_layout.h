@@ -1,0 +1,49 @@
+/// A table by its columns: each stands in one place with its name, its meaning, its unit and what writes its
+/// cell, so that the names, the dictionary and the cells cannot come apart.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiment/record/tables/table_writer.h"
+
+namespace overt {
+
+template <class Row> class RowLayout {
+  public:
+    struct Column {
+        TableColumn what;
+        std::function<void(TableWriter&, const Row&)> cell; ///< writes one cell
+    };
+
+    RowLayout(std::string name, std::string description, std::vector<Column> columns)
+        : table_{std::move(name), std::move(description), {}} {
+        add<Row>(std::move(columns));
+    }
+
+    /// More columns to the right, of rows of this kind or of one that it is made from.
+    template <class Base> void add(std::vector<typename RowLayout<Base>::Column> columns) {
+        for (auto& column : columns) {
+            table_.columns.push_back(std::move(column.what));
+            cells_.push_back(std::move(column.cell));
+        }
+    }
+
+    /// For the line of names and the dictionary.
+    const Table& table() const { return table_; }
+
+    /// Throws RecordError.
+    void write(TableWriter& to, const Row& row) const {
+        for (const auto& cell : cells_)
+            cell(to, row);
+        to.end_row();
+    }
+
+  private:
+    Table table_;
+    std::vector<std::function<void(TableWriter&, const Row&)>> cells_;
+};
+
+} // namespace overt

@@ -1,0 +1,23 @@
+/// What belongs to no trial as tables: events, stimuli, and the display box of each sitting.
+#pragma once
+
+#include <optional>
+
+#include "experiment/record/read/session_record.h"
+#include "experiment/record/tables/shared_columns.h"
+
+namespace overt {
+
+RowLayout<RecordedEvent> events_layout();
+
+/// `header` must outlive it.
+RowLayout<RecordedStimulus> stimuli_layout(const SharedColumns& shared, const SessionHeader& header);
+
+struct DisplayBoxRow {
+    int sitting;
+    const RecordedBox& box;
+    std::optional<BoxClockFit> clock; ///< nothing if its clock was never read
+};
+RowLayout<DisplayBoxRow> display_box_layout();
+
+} // namespace overt

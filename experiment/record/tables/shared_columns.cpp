@@ -1,0 +1,30 @@
+#include "experiment/record/tables/shared_columns.h"
+
+#include <utility>
+
+namespace overt {
+
+SharedColumns::SharedColumns(const SessionHeader& header)
+    : trial{"trial", "Position of the trial in the observer's order, from 1", "", {}},
+      task{"task", "Which question was asked", "", {}},
+      sculpture{"sculpture", "Which sculpture was shown", "", {}}, material{"material",
+                                                                            "In which material it was shown",
+                                                                            "",
+                                                                            {}},
+      angle{"angle_deg",
+            "Turn of the sculpture in the frame shown, counter-clockwise seen from above",
+            "deg",
+            {}} {
+    for (const RecordedTask& entry : header.tasks)
+        task.levels.emplace_back(entry.id, entry.question);
+    for (const RecordedSculpture& entry : header.sculptures)
+        sculpture.levels.emplace_back(entry.id, entry.title);
+    for (const RecordedMaterial& entry : header.materials)
+        material.levels.emplace_back(entry.id, entry.title);
+}
+
+TableColumn session_seconds(std::string name, const std::string& meaning) {
+    return {std::move(name), meaning + "; session clock, nine decimals keep each nanosecond", "s", {}};
+}
+
+} // namespace overt

@@ -1,0 +1,156 @@
+#include "experiment/record/tables/trial_tables.h"
+
+#include "experiment/record/read/trial_rows.h"
+#include "experiment/record/tables/joined_cells.h"
+
+namespace overt {
+namespace {
+
+const auto& item(const auto& list, int index) { return list[static_cast<std::size_t>(index)]; }
+
+/// An attempt that something ended has no times of what it did not get to.
+void write_reached(TableWriter& to, const TrialRecord& trial, SessionTime at) {
+    trial.has_outcome() && at >= trial.started ? to.seconds(at) : to.missing();
+}
+
+} // namespace
+
+RowLayout<TrialRow> trials_layout(const SharedColumns& shared, const SessionHeader& header) {
+    return {
+        "trials",
+        "One row for each attempt at a trial, in the order in which they were made.",
+        {
+            {shared.trial, [](auto& to, auto& row) { to.integer(row.trial.trial.index + 1); }},
+            {{"attempt", "Which attempt at this trial, from 1: a trial that was cut off is repeated", "", {}},
+             [](auto& to, auto& row) { to.integer(row.trial.attempt); }},
+            {{"sitting", "Counts how often the session was begun or resumed, from 1", "", {}},
+             [](auto& to, auto& row) { to.integer(row.trial.sitting); }},
+            {{"block", "The block that the trial is of, where the protocol has blocks", "", {}},
+             [&header](auto& to, auto& row) {
+                 const std::string* const block = item_of(header.blocks, row.trial.trial.block);
+                 block ? to.text(*block) : to.missing();
+             }},
+            {shared.task,
+             [&header](auto& to, auto& row) { to.text(item(header.tasks, row.trial.trial.task).id); }},
+            {shared.sculpture,
+             [&header](auto& to, auto& row) {
+                 to.text(item(header.sculptures, row.trial.trial.condition.sculpture).id);
+             }},
+            {shared.material,
+             [&header](auto& to, auto& row) {
+                 to.text(item(header.materials, row.trial.trial.condition.material).id);
+             }},
+            {{"status",
+              "How the attempt ended",
+              "",
+              {{"completed", "all of it was done"},
+               {"aborted",
+                "broken off by the operator, or because a device went away; or failed, and to come again"},
+               {"interrupted", "cut off when the program was killed, as was found when the session went on"},
+               {"open", "running when the session was exported, or cut off when the program was killed"}}},
+             [](auto& to, auto& row) { to.word(name_of(row.trial.status)); }},
+            {{"counts",
+              "Whether this is the attempt that counts; only such ones appear in the other tables",
+              "",
+              {{"yes", "completed"},
+               {"no", "not completed, or its block was begun again later: the attempt there counts"}}},
+             [](auto& to, auto& row) { to.word(row.trial.counts ? "yes" : "no"); }},
+            {{"failure",
+              "What spoke against the attempt: missed refreshes, gaze lost, rejected, repeated or skipped; "
+              "n/a: nothing",
+              "",
+              {}},
+             [](auto& to, auto& row) {
+                 row.trial.has_outcome() ? to.text(row.trial.outcome.failure) : to.missing();
+             }},
+            {{"comes_again",
+              "Whether the trial was to be attempted again because of that; n/a: the session ended in it",
+              "",
+              {{"never", "it was not"},
+               {"now", "right afterwards"},
+               {"end-of-block", "after the other trials of its block"}}},
+             [](auto& to, auto& row) {
+                 const std::string_view afterwards =
+                     row.trial.has_outcome() ? name_of(row.trial.outcome.afterwards) : "";
+                 afterwards.empty() ? to.missing() : to.word(afterwards);
+             }},
+            {session_seconds("started_s", "Begin of the trial"),
+             [](auto& to, auto& row) { to.seconds(row.trial.started); }},
+            {session_seconds("task_screen_onset_s", "Onset of the question"),
+             [](auto& to, auto& row) { write_reached(to, row.trial, row.trial.outcome.task_screen_onset); }},
+            {session_seconds("presentation_onset_s", "Vertical blank of the presentation's first refresh"),
+             [](auto& to, auto& row) { write_reached(to, row.trial, row.trial.outcome.presentation_onset); }},
+            {session_seconds("presentation_end_s", "Vertical blank at which the presentation gave way"),
+             [](auto& to, auto& row) { write_reached(to, row.trial, row.trial.outcome.presentation_end); }},
+            {session_seconds("response_screen_onset_s", "Onset of the response screen"),
+             [](auto& to, auto& row) {
+                 write_reached(to, row.trial, row.trial.outcome.response_screen_onset);
+             }},
+            {session_seconds("responded_s", "End of the answer"),
+             [](auto& to, auto& row) { write_reached(to, row.trial, row.trial.outcome.responded_at); }},
+            {{"shown_refreshes", "Refreshes in the flip ledger", "", {}},
+             [](auto& to, auto& row) {
+                 row.trial.has_outcome() ? to.integer(row.trial.outcome.shown_refreshes) : to.missing();
+             }},
+            {{"missed_refreshes", "Refreshes that went by with an old picture", "", {}},
+             [](auto& to, auto& row) {
+                 row.trial.has_outcome() ? to.integer(row.trial.outcome.missed_refreshes) : to.missing();
+             }},
+            {{"drift_deg", "Gaze error at the drift check", "deg", {}},
+             [](auto& to, auto& row) {
+                 const auto& drift = row.trial.outcome.drift;
+                 row.trial.has_outcome() && drift ? to.fixed(drift->value, angle_decimals) : to.missing();
+             }},
+            {{"lost_flips", "Flips that could not be recorded", "", {}},
+             [](auto& to, auto& row) {
+                 row.trial.has_outcome() ? to.integer(row.trial.lost_flips) : to.missing();
+             }},
+            {{"lost_samples", "Gaze samples that could not be recorded", "", {}},
+             [](auto& to, auto& row) {
+                 row.trial.has_outcome() ? to.integer(row.trial.lost_samples) : to.missing();
+             }},
+            {{"samples", "Gaze samples recorded", "", {}},
+             [](auto& to, auto& row) { row.samples ? to.integer(row.samples->samples) : to.missing(); }},
+            {{"samples_without_gaze", "Samples in which the tracker found no eye", "", {}},
+             [](auto& to, auto& row) { row.samples ? to.integer(row.samples->without_gaze) : to.missing(); }},
+            {{"samples_on_object", "Samples that met the sculpture's surface", "", {}},
+             [](auto& to, auto& row) { row.samples ? to.integer(row.samples->on_object) : to.missing(); }},
+            {{"samples_off_plan",
+              "Samples that the planned frame times would have put on a frame that was not lit",
+              "",
+              {}},
+             [](auto& to, auto& row) { row.samples ? to.integer(row.samples->off_plan) : to.missing(); }},
+        }};
+}
+
+RowLayout<TrialRecord> responses_layout(const SharedColumns& shared, const SessionHeader& header) {
+    return {
+        "responses",
+        "One row for the answer in each completed trial.",
+        {
+            {shared.trial, [](auto& to, auto& row) { to.integer(row.trial.index + 1); }},
+            {shared.task, [&header](auto& to, auto& row) { to.text(item(header.tasks, row.trial.task).id); }},
+            {shared.sculpture,
+             [&header](auto& to, auto& row) {
+                 to.text(item(header.sculptures, row.trial.condition.sculpture).id);
+             }},
+            {shared.material,
+             [&header](auto& to, auto& row) {
+                 to.text(item(header.materials, row.trial.condition.material).id);
+             }},
+            {{"question", "The question as it was shown", "", {}},
+             [&header](auto& to, auto& row) { to.text(item(header.tasks, row.trial.task).question); }},
+            {session_seconds("response_screen_onset_s", "Onset of the response screen"),
+             [](auto& to, auto& row) { to.seconds(row.outcome.response_screen_onset); }},
+            {session_seconds("responded_s", "End of the answer"),
+             [](auto& to, auto& row) { to.seconds(row.outcome.responded_at); }},
+            {{"response_time_s", "From the onset of the response screen to the end of the answer", "s", {}},
+             [](auto& to, auto& row) {
+                 to.seconds(row.outcome.responded_at - row.outcome.response_screen_onset);
+             }},
+            {{"answer", "The answer, where the response panel took it down", "", {}},
+             [](auto& to, auto& row) { to.text(row.outcome.answer); }},
+        }};
+}
+
+} // namespace overt
