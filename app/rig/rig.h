@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-#include "app/cli/context_choice.h"
+#include "app/rig/open_display.h"
 #include "devices/simulated/simulated_eye_tracker.h"
 #include "devices/simulated/simulated_observer.h"
 #include "devices/simulated/simulated_response_panel.h"
@@ -13,7 +13,6 @@
 #include "render/presenter/page_presenter.h"
 #include "render/stimulus/live_maps.h"
 #include "render/stimulus/stimulus_library.h"
-#include "render/vblank/display_surface.h"
 #include "render/window/screen_check.h"
 #include "render/window/window_response_panel.h"
 
@@ -33,9 +32,6 @@ struct RigRequest {
     std::vector<ScriptedOperatorKey> operator_keys = {}; ///< of a simulated observer's session
 };
 
-/// Whether a session with these options opens a window on this machine.
-bool wants_window(ContextChoice context);
-
 class Rig {
   public:
     /// `protocol` and `sculptures` must outlive the rig. Opens the display and starts the clock. Throws
@@ -44,15 +40,15 @@ class Rig {
     Rig(const Protocol& protocol, std::span<const Sculpture> sculptures, const RigRequest& request,
         const std::filesystem::path& cache);
 
-    const GlContext& context() const { return *context_; }
+    const GlContext& context() const { return display_.context(); }
     StimulusLibrary& library() { return library_; }
-    Clock& clock() { return *clock_; }
+    Clock& clock() { return display_.clock(); }
     ClockKind clock_kind() const {
         return request_.virtual_time ? ClockKind::virtual_time : ClockKind::steady;
     }
 
     /// A screen lights what is shown, for as long as it should be.
-    bool is_on_a_real_screen() const { return window_ != nullptr && !request_.virtual_time; }
+    bool is_on_a_real_screen() const { return display_.is_real(); }
 
     /// What may spoil the signal on its way to the light; nothing unless is_on_a_real_screen().
     const std::vector<ScreenFinding>& screen_findings() const { return screen_findings_; }
@@ -81,7 +77,7 @@ class Rig {
         return simulated_panel_ ? simulated_panel_->not_pressed() : std::vector<std::string>();
     }
     /// What keeps the time of a display that is not there, or null.
-    const VirtualRefresh* virtual_refresh() const { return virtual_refresh_; }
+    const VirtualRefresh* virtual_refresh() const { return display_.virtual_refresh(); }
     /// Those who see what is shown: the simulated observer, the hidden pass if it is live, and the display's
     /// faults.
     std::vector<DisplayWitness*> witnesses();
@@ -91,15 +87,9 @@ class Rig {
     const Protocol* protocol_;
     std::span<const Sculpture> sculptures_;
     RigRequest request_;
-    // Objects of OpenGL go before the context they live in.
-    std::unique_ptr<GlContext> context_;
-    WindowContext* window_ = nullptr; ///< the context, if it is a window
+    OpenDisplay display_; // objects of OpenGL go before the context they live in
     std::vector<ScreenFinding> screen_findings_;
     StimulusLibrary library_;
-    std::unique_ptr<Clock> clock_;
-    std::unique_ptr<DisplaySurface> surface_;
-    WindowDisplay* window_display_ = nullptr;   ///< the surface, if it is a window
-    VirtualRefresh* virtual_refresh_ = nullptr; ///< the surface's
     std::unique_ptr<PagePresenter> presenter_;
     std::unique_ptr<LiveMaps> live_maps_;
     std::unique_ptr<SimulatedObserver> observer_;

@@ -21,7 +21,6 @@ const ProtocolSections& protocol_sections() {
     return sections;
 }
 
-std::string_view name_of(OutputMode mode) { return key_rows::output_modes[static_cast<int>(mode)]; }
 std::string_view name_of(Dithering dithering) { return key_rows::ditherings[static_cast<int>(dithering)]; }
 std::string_view name_of(PairFilter filter) { return key_rows::pair_filters[static_cast<int>(filter)]; }
 std::string_view name_of(PatchCorner corner) { return key_rows::patch_corners[static_cast<int>(corner)]; }

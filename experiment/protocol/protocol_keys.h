@@ -79,8 +79,7 @@ template <class Visitor> void for_each_section(Visitor&& visit) {
     std::apply([&](const auto&... section) { (visit(section), ...); }, protocol_sections());
 }
 
-/// Names as the file has them.
-std::string_view name_of(OutputMode mode);
+/// Names as the file has them; those of output modes are in their table.
 std::string_view name_of(Dithering dithering);
 std::string_view name_of(PairFilter filter);
 std::string_view name_of(PatchCorner corner);
