@@ -73,8 +73,6 @@ inline constexpr std::string_view repeat_whens[] = {"never", "now", "end-of-bloc
 inline constexpr std::string_view answer_uses[] = {"none", "optional", "required"};
 inline constexpr std::string_view field_kinds[] = {"text", "number", "choice"};
 inline constexpr std::string_view repetition_orders[] = {"in-turn", "mixed"};
-inline constexpr std::string_view material_kinds[] = {"smooth-conductor", "rough-conductor",
-                                                      "coated-conductor", "diffuse"};
 inline constexpr std::string_view frame_encodings[] = {"linear", "srgb"};
 inline constexpr std::string_view frame_colours[] = {"display", "rec709", "xyz"};
 inline constexpr std::string_view bake_qualities[] = {"live", "preview", "draft", "standard", "reference"};

@@ -17,6 +17,7 @@
 #include "experiment/ports/observer_field.h"
 #include "experiment/protocol/design_settings.h"
 #include "experiment/protocol/key_places.h"
+#include "experiment/protocol/material_kind.h"
 #include "experiment/protocol/output_mode.h"
 #include "experiment/protocol/protocol_sources.h"
 #include "experiment/protocol/sitting_settings.h"
@@ -137,8 +138,6 @@ struct SculptureSettings {
     std::vector<std::array<double, 4>> head_spheres; ///< x, y, z, radius
     std::vector<std::array<double, 6>> head_planes;  ///< point and normal
 };
-
-enum class MaterialKind : std::uint8_t { smooth_conductor, rough_conductor, coated_conductor, diffuse };
 
 /// [[material]]
 struct MaterialSettings {

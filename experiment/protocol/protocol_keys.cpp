@@ -33,7 +33,6 @@ std::string_view name_of(TaskCoverage coverage) {
 std::string_view name_of(OrderMethod method) { return key_rows::order_methods[static_cast<int>(method)]; }
 std::string_view name_of(TrialFactor factor) { return key_rows::trial_factors[static_cast<int>(factor)]; }
 std::string_view name_of(LevelOrder order) { return key_rows::level_orders[static_cast<int>(order)]; }
-std::string_view name_of(MaterialKind kind) { return key_rows::material_kinds[static_cast<int>(kind)]; }
 std::string_view name_of(FrameEncoding encoding) {
     return key_rows::frame_encodings[static_cast<int>(encoding)];
 }

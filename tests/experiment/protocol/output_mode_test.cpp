@@ -1,4 +1,4 @@
-/// The table of output modes.
+/// The tables of output modes and of kinds of material.
 #include <fstream>
 #include <set>
 
@@ -30,4 +30,19 @@ TEST_CASE("names are listed as a sentence has them", "[unit]") {
     CHECK(listed({"mono++"}) == "mono++");
     CHECK(listed({"mono++", "color++"}) == "mono++ or color++");
     CHECK(listed({"mono++", "color++", "bits++"}) == "mono++, color++ or bits++");
+}
+
+TEST_CASE("every key of a material is some kind's, and every kind's keys are keys of a material", "[unit]") {
+    std::set<std::string_view> of_kinds, of_section;
+    for (const MaterialKindRow& row : material_kinds) {
+        for (const std::string_view key : row.keys) {
+            if (!key.empty())
+                of_kinds.insert(key);
+        }
+    }
+    for (const auto& key : std::get<Section<MaterialSettings>>(protocol_sections()).keys)
+        of_section.insert(key.rule.name);
+    for (const std::string_view everybodys : {"id", "title", "kind"})
+        CHECK(of_section.erase(everybodys) == 1);
+    CHECK(of_kinds == of_section);
 }
