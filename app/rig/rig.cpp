@@ -61,7 +61,7 @@ void Rig::open(DisplayFaults faults, SessionTime start) {
     presenter_ = std::make_unique<PagePresenter>(display_.context(), display_.surface(), library_, geometry,
                                                  protocol_->display, protocol_->screens);
     if (maps_are_live())
-        live_maps_ = std::make_unique<LiveMaps>(display_.context(), sculptures_, library_.poses(),
+        live_maps_ = std::make_unique<LiveMaps>(display_.context(), sculptures_, library_.cache().poses(),
                                                 geometry.image_px);
     observer_ = std::make_unique<SimulatedObserver>(make_observed_scene(*protocol_, sculptures_, geometry),
                                                     request_.seed);

@@ -82,7 +82,7 @@ double PathProbe::seconds_of_frame(const Condition& condition, const FrameQualit
 BakeOutlook bake_outlook(const Experiment& experiment, const StimulusLibrary& library) {
     BakeOutlook outlook;
     outlook.wanted = experiment.protocol.bake.quality;
-    const std::vector<Condition> stimuli = library.rendered_stimuli();
+    const std::vector<Condition> stimuli = library.cache().rendered_stimuli();
     if (stimuli.empty() || outlook.wanted == BakeQuality::live)
         return outlook;
     outlook.for_session = library.quality_of_session();
@@ -91,8 +91,9 @@ BakeOutlook bake_outlook(const Experiment& experiment, const StimulusLibrary& li
          {BakeQuality::preview, BakeQuality::draft, BakeQuality::standard, BakeQuality::reference}) {
         QualityOutlook one{quality_of(quality, experiment.protocol.bake)};
         for (const Condition& stimulus : stimuli) {
-            const auto missing = static_cast<int>(library.missing_frames(stimulus, one.quality).size());
-            const int all = static_cast<int>(library.poses().angles.size());
+            const auto missing =
+                static_cast<int>(library.cache().missing_frames(stimulus, one.quality).size());
+            const int all = static_cast<int>(library.cache().poses().angles.size());
             one.there += all - missing;
             one.frames += all;
             if (missing == 0)
