@@ -8,9 +8,8 @@
 #include "app/bench/bench_command.h"
 #include "app/bench/bench_timing.h"
 #include "app/cli/resident_memory.h"
-#include "devices/host/clocks.h"
+#include "app/rig/open_display.h"
 #include "experiment/base/random.h"
-#include "render/gl/headless_context.h"
 #include "render/presenter/page_presenter.h"
 #include "render/window/window_system.h"
 
@@ -92,15 +91,10 @@ void measure_packing(const RandomPages& pages, const ScreenGeometry& geometry, B
     }
 }
 
-void measure_flips(GlContext& context, const RandomPages& pages, const ScreenGeometry& geometry,
+void measure_flips(const OpenDisplay& display, const RandomPages& pages, const ScreenGeometry& geometry,
                    BenchFigures& figures) {
-    VirtualClock clock;
-    std::unique_ptr<DisplaySurface> surface;
-    if (auto* window = dynamic_cast<WindowContext*>(&context))
-        surface = std::make_unique<WindowDisplay>(*window, clock, 120.0, true);
-    else
-        surface = std::make_unique<VirtualDisplay>(context, clock, 120.0);
-    PagePresenter presenter(context, *surface, pages, geometry, color_plus_plus(), {});
+    const GlContext& context = display.context();
+    PagePresenter presenter(context, display.surface(), pages, geometry, color_plus_plus(), {});
     presenter.show({});
     const double before_mb = resident_memory_mb();
     const auto begin = std::chrono::steady_clock::now();
@@ -149,12 +143,13 @@ BenchFigures bench_present(const BenchOptions& options) {
         if (options.context ? *options.context != kind
                             : kind == ContextKind::window && !display_is_available())
             continue;
-        std::unique_ptr<GlContext> context;
-        if (kind == ContextKind::window)
-            context = std::make_unique<WindowContext>(WindowRequest{geometry.screen_px, "overt bench"});
-        else
-            context = make_headless_context(kind);
-        measure_flips(*context, pages, geometry, figures);
+        OpenDisplay display({.context = kind,
+                             .size_px = geometry.screen_px,
+                             .title = "overt bench",
+                             .refresh_hz = 120.0,
+                             .virtual_time = true});
+        display.start();
+        measure_flips(display, pages, geometry, figures);
     }
     measure_timing(figures);
     return figures;

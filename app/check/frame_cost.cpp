@@ -49,7 +49,7 @@ FrameCost measure_frame_cost(const GlContext& context, const Protocol& protocol,
     const NoisePages noise(geometry.image_px);
     VirtualClock clock;
     VirtualDisplay display(context, clock, protocol.display.refresh_hz,
-                           protocol.display.output == OutputMode::native_10bit ? 10 : 8);
+                           row_of(protocol.display.output).framebuffer_bits);
     PagePresenter presenter(context, display, noise, geometry, protocol.display, protocol.screens);
     cost.page_ms = milliseconds_of([&] { presenter.load_frames({0, 0}); }) / pages;
     for (int page = 0; page < pages; ++page) // the first time sets things up

@@ -34,7 +34,7 @@ void add_screen(const DisplaySettings& display, std::vector<ForecastLine>& forec
                             true});
         return;
     }
-    const ScreenFacts facts = facts_at(*monitor, display.output == OutputMode::native_10bit ? 10 : 8);
+    const ScreenFacts facts = facts_at(*monitor, row_of(display.output).framebuffer_bits);
     forecast.push_back({"screen", "the whole of " + describe(*monitor)});
     for (const ScreenFinding& finding : judge_screen(facts, display))
         if (finding.weight != ScreenFinding::Weight::good)

@@ -33,11 +33,12 @@ struct Area {
 Silhouette silhouette_of_map(const StimulusLibrary& library, int sculpture, bool has_mesh, PoseIndex pose) {
     Silhouette silhouette;
     if (has_mesh) {
-        for (const std::uint32_t code : read_triangle_map(library.map_file(sculpture, pose)).codes)
+        for (const std::uint32_t code : read_triangle_map(library.cache().map_file(sculpture, pose)).codes)
             silhouette.push_back(code != 0);
         return silhouette;
     }
-    for (const glm::vec4& pixel : read_coordinate_image(library.map_file(sculpture, pose)).image.pixels)
+    for (const glm::vec4& pixel :
+         read_coordinate_image(library.cache().map_file(sculpture, pose)).image.pixels)
         silhouette.push_back(pixel.w != 0.0f);
     return silhouette;
 }
@@ -97,7 +98,8 @@ MatchedFrames match_sequence(const Experiment& experiment, const FrameSequenceSe
             return;
         }
         matches[static_cast<std::size_t>(frame)] = match_silhouettes(
-            *pixels, silhouette_of_map(library, sculpture, has_mesh, library.poses().pose_of({frame})),
+            *pixels,
+            silhouette_of_map(library, sculpture, has_mesh, library.cache().poses().pose_of({frame})),
             protocol.view.width_px);
     });
     std::size_t both = 0, either = 0;
@@ -167,12 +169,12 @@ std::vector<SequenceSilhouette> check_silhouettes(const Experiment& experiment, 
         const FrameSequenceSettings& sequence = protocol.frames[static_cast<std::size_t>(i)];
         const int sculpture = index_of_sculpture(protocol, sequence.sculpture);
         const bool has_mesh = experiment.sculptures[static_cast<std::size_t>(sculpture)].has_mesh();
-        if (!has_mesh && !library.has_given_maps(sculpture))
+        if (!has_mesh && !library.cache().has_given_maps(sculpture))
             continue;
         if (has_mesh)
-            library.prepare_maps(sculpture, show);
+            library.maps().prepare_maps(sculpture, show);
         else
-            library.prepare_given_maps(show);
+            library.maps().prepare_given_maps(show);
         bar.update("comparing silhouettes", i, count);
         const MatchedFrames matched = match_sequence(experiment, sequence, sculpture, library);
         const std::string key = fmt::format("frames[{}].files", i);

@@ -96,12 +96,6 @@ void print_status(const std::vector<AskedPort>& ports, const Recovery& recovery,
     fmt::print("mode: {}\n", mode_in_words(note));
 }
 
-BoxMode mode_named(const std::string& name) {
-    return name == "mono++"    ? BoxMode::mono_plus_plus
-           : name == "color++" ? BoxMode::color_plus_plus
-                               : BoxMode::bits_plus_plus;
-}
-
 } // namespace
 
 int run_display_status(const DisplayStatusOptions& options) {
@@ -126,7 +120,7 @@ int run_display_mode(const DisplayModeOptions& options) {
     settings.record_folder = state_folder();
     const auto box = find_display_plus_plus(serial_ports(), port_from(options.port),
                                             serial_port_opener(clock), clock, settings);
-    const BoxMode mode = mode_named(options.mode);
+    const BoxMode mode = box_mode_called(options.mode).value(); // the command line has only these
     const ModeSwitch done = box->set_mode(mode);
     if (mode == BoxMode::bits_plus_plus)
         box->restore_desktop(); // a note of this box has no more to say

@@ -10,9 +10,10 @@
 #include "app/cli/progress_bar.h"
 #include "app/cli/this_program.h"
 #include "app/display/display_commands.h"
+#include "app/display/patch_display.h"
 #include "app/display/patch_photometers.h"
-#include "app/display/patch_stage.h"
 #include "app/inputs/protocol_file.h"
+#include "devices/host/clocks.h"
 #include "experiment/base/error.h"
 #include "experiment/colour/characterisation_text.h"
 #include "experiment/colour/number_table.h"
@@ -31,22 +32,13 @@ std::filesystem::path beside(const std::filesystem::path& out, const std::string
     return out.parent_path() / (out.stem().string() + ending);
 }
 
-OutputMode mode_called(const std::string& name) {
-    OutputMode found = OutputMode::native_8bit;
-    for (int i = 0; i <= static_cast<int>(OutputMode::vpixx_c48); ++i) {
-        if (name_of(static_cast<OutputMode>(i)) == name)
-            found = static_cast<OutputMode>(i);
-    }
-    return found;
-}
-
 DisplaySettings display_of(const DisplayCharacteriseOptions& options) {
     DisplaySettings display;
     display.output = OutputMode::native_8bit;
     if (!options.protocol.empty())
         display = read_protocol_or_report(options.protocol).display;
     if (!options.mode.empty())
-        display.output = mode_called(options.mode);
+        display.output = output_mode_called(options.mode).value(); // the command line has only these
     return display;
 }
 
@@ -136,8 +128,8 @@ Measured measure(const DisplayCharacteriseOptions& options, const DisplaySetting
     SteadyClock clock;
     const auto photometer = make_photometer(options, clock);
     const auto plan = plan_patches({options.levels, options.mixed, options.repeats, options.seed});
-    PatchStage stage({display, options.context, is_simulated, options.windowed, options.monitor,
-                      options.size_deg, options.surround});
+    PatchDisplay patches({display, options.context, is_simulated, options.windowed, options.monitor,
+                          options.size_deg, options.surround});
     ReadingsJournal journal(beside(options.out, "_readings_partial.csv"), options.force);
     const auto stop = [&] {
         throw DeviceError(journal.is_empty() ? "ended before any patch was measured"
@@ -149,8 +141,8 @@ Measured measure(const DisplayCharacteriseOptions& options, const DisplaySetting
     const int warm_up_s = is_simulated ? 0 : static_cast<int>(std::lround(60.0 * options.warm_up_min));
     for (int second = 0; second < warm_up_s; ++second) {
         bar.update("warming up", second, warm_up_s);
-        stage.show(glm::dvec3(1.0), 1.0);
-        if (stage.is_cancelled())
+        patches.show(glm::dvec3(1.0), 1.0);
+        if (patches.is_cancelled())
             stop();
     }
     Measured measured{{}, photometer->description()};
@@ -159,8 +151,9 @@ Measured measure(const DisplayCharacteriseOptions& options, const DisplaySetting
         if (!options.typed)
             bar.update("measuring patches", i, count);
         const glm::dvec3 received =
-            stage.show(plan[static_cast<std::size_t>(i)], is_simulated ? 0.0 : options.settle_s);
-        const auto xyz = stage.is_cancelled() ? std::nullopt : photometer->measure({i + 1, count, received});
+            patches.show(plan[static_cast<std::size_t>(i)], is_simulated ? 0.0 : options.settle_s);
+        const auto xyz =
+            patches.is_cancelled() ? std::nullopt : photometer->measure({i + 1, count, received});
         if (!xyz)
             stop();
         measured.readings.push_back({received, *xyz});

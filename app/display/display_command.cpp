@@ -9,14 +9,12 @@
 #include "app/display/display_commands.h"
 #include "app/inputs/protocol_file.h"
 #include "app/inputs/protocol_inputs.h"
+#include "app/rig/open_display.h"
 #include "app/rig/output_verification.h"
-#include "devices/host/clocks.h"
 #include "experiment/base/error.h"
 #include "experiment/base/random.h"
 #include "experiment/protocol/protocol_keys.h"
-#include "render/gl/headless_context.h"
 #include "render/stimulus/stimulus_library.h"
-#include "render/window/window_context.h"
 #include "render/window/window_system.h"
 
 namespace overt {
@@ -33,15 +31,18 @@ struct Output {
     }
 };
 
-constexpr Output outputs[] = {{OutputMode::native_8bit},
-                              {OutputMode::native_8bit, Dithering::ordered},
-                              {OutputMode::native_8bit, Dithering::blue_noise},
-                              {OutputMode::native_10bit},
-                              {OutputMode::mono_plus_plus},
-                              {OutputMode::color_plus_plus},
-                              {OutputMode::bits_plus_plus},
-                              {OutputMode::vpixx_m16},
-                              {OutputMode::vpixx_c48}};
+/// All modes, and those of 8 bits that can be dithered with each dithering.
+std::vector<Output> all_outputs() {
+    std::vector<Output> outputs;
+    for (const OutputModeRow& row : output_modes) {
+        outputs.push_back({row.mode});
+        if (!row.is_packed && row.framebuffer_bits == 8) {
+            outputs.push_back({row.mode, Dithering::ordered});
+            outputs.push_back({row.mode, Dithering::blue_noise});
+        }
+    }
+    return outputs;
+}
 
 /// What is drawn to prove a mode.
 struct TestPicture {
@@ -101,30 +102,17 @@ class TestPages final : public FrameSource {
     bool is_grey_;
 };
 
-bool is_grey(OutputMode mode) {
-    return mode == OutputMode::mono_plus_plus || mode == OutputMode::bits_plus_plus ||
-           mode == OutputMode::vpixx_m16;
+/// A display in virtual time.
+OpenDisplay open_display(ContextKind kind, glm::ivec2 screen_px, OutputMode mode) {
+    OpenDisplay display({.context = kind,
+                         .size_px = screen_px,
+                         .title = "overt display verify",
+                         .refresh_hz = 120.0,
+                         .bits_per_channel = row_of(mode).framebuffer_bits,
+                         .virtual_time = true});
+    display.start();
+    return display;
 }
-
-/// A context with somewhere to show.
-struct Stage {
-    std::unique_ptr<GlContext> context;
-    VirtualClock clock;
-    std::unique_ptr<DisplaySurface> surface;
-
-    Stage(ContextKind kind, glm::ivec2 screen_px, OutputMode mode) {
-        const int bits = mode == OutputMode::native_10bit ? 10 : 8;
-        if (kind == ContextKind::window) {
-            auto window = std::make_unique<WindowContext>(
-                WindowRequest{screen_px, "overt display verify", false, true, bits});
-            surface = std::make_unique<WindowDisplay>(*window, clock, 120.0, true);
-            context = std::move(window);
-        } else {
-            context = make_headless_context(kind);
-            surface = std::make_unique<VirtualDisplay>(*context, clock, 120.0, bits);
-        }
-    }
-};
 
 void add_findings(const std::string& what, const SignalFindings& found, bool dithered,
                   BenchFigures& figures) {
@@ -181,9 +169,9 @@ void verify_output(ContextKind kind, const Output& output, DisplaySettings displ
     const glm::ivec2 screen{display.width_px, display.height_px};
     display.output = output.mode;
     display.dither = output.dither;
-    if (output.mode == OutputMode::vpixx_m16 || output.mode == OutputMode::vpixx_c48)
+    if (has_psync(output.mode))
         display.onset_trigger = pixel_mode_trigger;
-    Stage stage(kind, screen, output.mode);
+    const OpenDisplay opened = open_display(kind, screen, output.mode);
     const std::string where = fmt::format("{}, {}", name_of(kind), output.name());
     SignalFindings all;
     std::optional<int> wrong_in_rows;
@@ -193,7 +181,7 @@ void verify_output(ContextKind kind, const Output& output, DisplaySettings displ
         geometry.image_px = picture.size_px;
         geometry.image_origin_px = picture.origin_px;
         const TestPages pages(picture, is_grey(output.mode));
-        PagePresenter presenter(*stage.context, *stage.surface, pages, geometry, display, {});
+        PagePresenter presenter(opened.context(), opened.surface(), pages, geometry, display, {});
         presenter.load_frames({0, 0});
         presenter.flip({0});
         const std::vector<std::byte> bytes = presenter.read_canvas();
@@ -218,8 +206,8 @@ void verify_stimuli(ContextKind kind, const Experiment& experiment, const Displa
                     BenchFigures& figures) {
     const Protocol& protocol = experiment.protocol;
     const ScreenGeometry geometry = screen_geometry_of(protocol);
-    Stage stage(kind, geometry.screen_px, protocol.display.output);
-    StimulusLibrary library(*stage.context, protocol, experiment.sculptures, cache_folder());
+    const OpenDisplay opened = open_display(kind, geometry.screen_px, protocol.display.output);
+    StimulusLibrary library(opened.context(), protocol, experiment.sculptures, cache_folder());
     ProgressBar bar;
     const Progress show = [&](std::string_view what, int done, int total, double share) {
         bar.update(what, done, total, share);
@@ -232,7 +220,7 @@ void verify_stimuli(ContextKind kind, const Experiment& experiment, const Displa
             stimuli.push_back({i / static_cast<int>(protocol.materials.size()),
                                i % static_cast<int>(protocol.materials.size())});
     }
-    PagePresenter presenter(*stage.context, *stage.surface, library, geometry, protocol.display,
+    PagePresenter presenter(opened.context(), opened.surface(), library, geometry, protocol.display,
                             protocol.screens);
     int done = 0;
     for (const Condition& stimulus : stimuli) {
@@ -268,14 +256,14 @@ int run_display_verify(const DisplayVerifyOptions& options) {
     if (!options.protocol.empty())
         experiment = read_experiment_or_report(options.protocol, cache_folder(), InputDepth::sculptures);
     const DisplaySettings display = experiment ? experiment->protocol.display : DisplaySettings{};
+    const std::vector<Output> outputs = all_outputs();
     constexpr ContextKind kinds[] = {ContextKind::osmesa, ContextKind::egl, ContextKind::window};
     for (const ContextKind kind : kinds) {
         if (options.context && *options.context != kind)
             continue;
         int done = 0;
         for (const Output& output : outputs) {
-            bar.update(fmt::format("verifying {}", name_of(kind)), done++,
-                       static_cast<int>(std::size(outputs)));
+            bar.update(fmt::format("verifying {}", name_of(kind)), done++, static_cast<int>(outputs.size()));
             if (!is_wanted(output, options.modes))
                 continue;
             try {

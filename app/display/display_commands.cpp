@@ -40,7 +40,8 @@ void add_characterise(CLI::App& display, ChosenCommand& chosen) {
     command.add_option("--name", options.name, "Which display it is, for the file")->capture_default_str();
     command.add_option("--instrument", options.instrument, "What the readings were taken with, in words");
     command.add_option("--mode", options.mode, "Output mode (default: the protocol's, else native-8bit)")
-        ->check(CLI::IsMember({"native-8bit", "native-10bit", "color++", "vpixx-c48"}))
+        ->check(CLI::IsMember(
+            names_of_modes([](const OutputModeRow& row) { return row.shows == ShownLight::colours; })))
         ->type_name("MODE");
     command
         .add_option("--model", options.model,
@@ -169,8 +170,7 @@ void add_verify(CLI::App& display, ChosenCommand& chosen) {
         .add_option("--stimulus", given->on_screen.stimulus, "SCULPTURE/MATERIAL by their ids (default: all)")
         ->type_name("ID");
     command.add_option("--mode", given->on_screen.modes, "Output mode, as in a protocol (default: all)")
-        ->check(CLI::IsMember(
-            {"native-8bit", "native-10bit", "mono++", "color++", "bits++", "vpixx-m16", "vpixx-c48"}))
+        ->check(CLI::IsMember(names_of_modes([](const OutputModeRow&) { return true; })))
         ->type_name("MODE");
     add_context_option(command, given->on_screen.context);
     command.add_flag("--json", given->on_screen.json, "Print JSON");

@@ -4,12 +4,12 @@
 #include "app/cli/figures.h"
 #include "app/cli/state_folder.h"
 #include "app/display/display_commands.h"
+#include "app/rig/open_display.h"
 #include "devices/display_box/display_plus_plus_search.h"
 #include "devices/host/clocks.h"
 #include "devices/link/serial_port.h"
 #include "experiment/base/error.h"
 #include "experiment/base/random.h"
-#include "render/vblank/display_surface.h"
 #include "render/window/screen_check.h"
 #include "render/window/window_system.h"
 
@@ -41,7 +41,7 @@ std::vector<RgbBytes> noise(int width, int line) {
 
 /// Over the height of the screen, but not in the rows that speak to the box.
 std::vector<DrawnLine> lines_for(glm::ivec2 size_px) {
-    const int first = 4; // counted from 1; three rows are for messages
+    const int first = 1 + rows_of(TopRows::t_lock); // counted from 1
     const int last = size_px.y;
     std::vector<DrawnLine> lines;
     for (const int line : {first, first + (last - first) / 3, first + 2 * (last - first) / 3, last}) {
@@ -70,16 +70,14 @@ std::vector<std::byte> picture_of(const std::vector<DrawnLine>& lines, glm::ivec
 
 /// Shows a still picture and returns when it has stood for a while: how soon the box has a new picture's
 /// lines ready is not known.
-void show_still(WindowContext& window, Clock& clock, const std::vector<std::byte>& bytes,
-                glm::ivec2 size_px) {
-    WindowDisplay display(window, clock, 60.0, false);
-    Texture2D picture(window, size_px, PixelFormat::rgba8);
+void show_still(const OpenDisplay& display, const std::vector<std::byte>& bytes, glm::ivec2 size_px) {
+    Texture2D picture(display.context(), size_px, PixelFormat::rgba8);
     picture.upload(bytes);
-    const Framebuffer canvas(window, {&picture}, false);
-    window.gl().Disable(GL_DITHER);
+    const Framebuffer canvas(display.context(), {&picture}, false);
+    display.context().gl().Disable(GL_DITHER);
     for (int buffer = 0; buffer < 3; ++buffer)
-        display.present(canvas);
-    clock.wait_until(clock.now() + std::chrono::milliseconds(200));
+        display.surface().present(canvas);
+    display.clock().wait_until(display.clock().now() + std::chrono::milliseconds(200));
 }
 
 MonitorInfo monitor_chosen(const std::optional<int>& number) {
@@ -114,18 +112,22 @@ int run_display_hardware_check(const DisplayHardwareOptions& options) {
                                             options.port.empty() ? std::nullopt : std::optional(options.port),
                                             serial_port_opener(clock), clock, settings);
     const MonitorInfo monitor = monitor_chosen(options.monitor);
-    WindowContext window({monitor.size_px, "overt display verify", true, true, 8, monitor.number});
+    OpenDisplay display({.context = ContextKind::window,
+                         .size_px = monitor.size_px,
+                         .title = "overt display verify",
+                         .monitor = monitor.number});
+    display.start();
     const std::vector<DrawnLine> lines = lines_for(monitor.size_px);
 
     DisplaySettings whole_screen;
     whole_screen.width_px = monitor.size_px.x;
     whole_screen.height_px = monitor.size_px.y;
     whole_screen.refresh_hz = monitor.refresh_hz;
-    const std::vector<ScreenFinding> findings = judge_screen(facts_of(window), whole_screen);
+    const std::vector<ScreenFinding> findings = judge_screen(facts_of(*display.window()), whole_screen);
     const double rate_hz = box->video_rate_hz();
     const VideoLineReport report = box->check_video(
         [&] {
-            show_still(window, clock, picture_of(lines, monitor.size_px), monitor.size_px);
+            show_still(display, picture_of(lines, monitor.size_px), monitor.size_px);
             return lines;
         },
         readings_per_line);

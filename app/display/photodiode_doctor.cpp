@@ -7,12 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/progress_bar.h"
-#include "devices/host/clocks.h"
+#include "app/display/screen_doctor.h"
+#include "app/rig/open_display.h"
 #include "devices/light/light_sensor.h"
 #include "devices/link/serial_port.h"
 #include "experiment/base/error.h"
-#include "render/gl/headless_context.h"
-#include "render/vblank/display_surface.h"
 
 namespace overt {
 namespace {
@@ -45,36 +44,26 @@ void draw_square(const GlContext& context, const Framebuffer& canvas, glm::ivec2
     gl.Disable(GL_SCISSOR_TEST);
 }
 
-struct Stage {
-    std::unique_ptr<GlContext> context;
-    std::unique_ptr<Clock> clock;
-    std::unique_ptr<DisplaySurface> surface;
-    glm::ivec2 size_px{320, 180};
+struct Screen {
+    OpenDisplay display;
+    glm::ivec2 size_px;
 };
 
-Stage open_screen(const DoctorOptions& options) {
-    Stage screen;
-    if (!options.windowed && options.context && *options.context != ContextKind::window) {
-        screen.context = make_headless_context(options.context);
-        screen.clock = std::make_unique<VirtualClock>();
-        screen.surface = std::make_unique<VirtualDisplay>(*screen.context, *screen.clock, simulated_hz);
-        return screen;
-    }
-    const std::vector<MonitorInfo> monitors = list_monitors();
-    const auto number = static_cast<std::size_t>(options.monitor.value_or(1));
-    if (number > monitors.size())
-        throw InputError(fmt::format("there is no monitor {}: there are {}", number, monitors.size()));
-    const MonitorInfo monitor = monitors[number - 1];
-    if (!options.windowed)
-        screen.size_px = monitor.size_px;
-    auto window = std::make_unique<WindowContext>(
-        WindowRequest{screen.size_px, "overt doctor", !options.windowed, true, 8, monitor.number});
-    screen.clock = std::make_unique<SteadyClock>();
-    screen.surface = std::make_unique<WindowDisplay>(
-        *window, *screen.clock, monitor.refresh_hz > 0 ? monitor.refresh_hz : 60.0, false, DisplayFaults{},
-        choose_vblank_clock(vblank_candidates(*window, *screen.clock), *screen.clock));
-    screen.context = std::move(window);
-    return screen;
+Screen open_screen(const DoctorOptions& options) {
+    constexpr glm::ivec2 window_px{320, 180};
+    if (!options.windowed && options.context && *options.context != ContextKind::window)
+        return {OpenDisplay({.context = options.context, .refresh_hz = simulated_hz, .virtual_time = true}),
+                window_px};
+    const MonitorInfo monitor = chosen_monitor(options);
+    const glm::ivec2 size_px = options.windowed ? window_px : monitor.size_px;
+    return {OpenDisplay({.context = ContextKind::window,
+                         .size_px = size_px,
+                         .title = "overt doctor",
+                         .refresh_hz = monitor.refresh_hz > 0 ? monitor.refresh_hz : 60.0,
+                         .windowed = options.windowed,
+                         .monitor = monitor.number,
+                         .finds_blanks = true}),
+            size_px};
 }
 
 std::unique_ptr<LightSensor> open_sensor(const DoctorOptions& options, const Clock& clock) {
@@ -88,26 +77,28 @@ std::unique_ptr<LightSensor> open_sensor(const DoctorOptions& options, const Clo
 } // namespace
 
 int run_photodiode_doctor(const DoctorOptions& options) {
-    Stage screen = open_screen(options);
-    if (options.sensor.starts_with('/') && dynamic_cast<VirtualClock*>(screen.clock.get()))
+    auto [display, size_px] = open_screen(options);
+    display.start();
+    Clock& clock = display.clock();
+    if (options.sensor.starts_with('/') && !display.is_real())
         throw InputError("a sensor has nothing to see of a display that is not there: give no --context");
-    const std::unique_ptr<LightSensor> sensor = open_sensor(options, *screen.clock);
-    const Texture2D picture(*screen.context, screen.size_px, PixelFormat::rgba8);
-    const Framebuffer canvas(*screen.context, {&picture}, false);
+    const std::unique_ptr<LightSensor> sensor = open_sensor(options, clock);
+    const Texture2D picture(display.context(), size_px, PixelFormat::rgba8);
+    const Framebuffer canvas(display.context(), {&picture}, false);
 
     std::vector<LightEdge> changes;
     ProgressBar bar;
     FlipReport flip;
     bool is_light = false;
-    const SessionTime start = screen.clock->now();
-    const auto passed_s = [&] { return to_seconds(screen.clock->now() - start); };
+    const SessionTime start = clock.now();
+    const auto passed_s = [&] { return to_seconds(clock.now() - start); };
     const int total = static_cast<int>(std::ceil(options.seconds));
-    for (int i = 0; passed_s() < options.seconds && !screen.surface->closed(); ++i) {
+    for (int i = 0; passed_s() < options.seconds && !display.surface().closed(); ++i) {
         // The first are dark: the screen was something else before.
         const bool change = i > 0 && i % refreshes_of_light == 0;
         is_light = change ? !is_light : is_light;
-        draw_square(*screen.context, canvas, screen.size_px, is_light);
-        flip = screen.surface->present(canvas);
+        draw_square(display.context(), canvas, size_px, is_light);
+        flip = display.surface().present(canvas);
         if (!change)
             continue;
         changes.push_back({flip.vertical_blank, is_light});
@@ -116,7 +107,7 @@ int run_photodiode_doctor(const DoctorOptions& options) {
         bar.update("showing the square, s", std::min(total, static_cast<int>(passed_s())), total);
     }
     bar.finish();
-    screen.clock->wait_until(screen.clock->now() + std::chrono::milliseconds(200));
+    clock.wait_until(clock.now() + std::chrono::milliseconds(200));
     const std::string source(name_of(flip.source));
     if (!sensor) {
         fmt::print("{} changes shown, times by {}; give --sensor PORT to compare them\n", changes.size(),

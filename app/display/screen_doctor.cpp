@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/progress_bar.h"
-#include "devices/host/clocks.h"
+#include "app/rig/open_display.h"
 #include "experiment/base/error.h"
 #include "render/vblank/timing_check.h"
 
@@ -29,14 +29,6 @@ std::string_view name_of(ScreenFinding::Weight weight) {
         break;
     }
     return "refused";
-}
-
-MonitorInfo chosen_monitor(const DoctorOptions& options) {
-    const std::vector<MonitorInfo> monitors = list_monitors();
-    const auto number = static_cast<std::size_t>(options.monitor.value_or(1));
-    if (number > monitors.size())
-        throw InputError(fmt::format("there is no monitor {}: there are {}", number, monitors.size()));
-    return monitors[number - 1];
 }
 
 nlohmann::ordered_json json_of(const TimingFacts& facts, const std::vector<ScreenFinding>& findings) {
@@ -62,19 +54,29 @@ nlohmann::ordered_json json_of(const TimingFacts& facts, const std::vector<Scree
 
 } // namespace
 
+MonitorInfo chosen_monitor(const DoctorOptions& options) {
+    const std::vector<MonitorInfo> monitors = list_monitors();
+    const auto number = static_cast<std::size_t>(options.monitor.value_or(1));
+    if (number > monitors.size())
+        throw InputError(fmt::format("there is no monitor {}: there are {}", number, monitors.size()));
+    return monitors[number - 1];
+}
+
 int run_screen_doctor(const DoctorOptions& options) {
     const MonitorInfo monitor = chosen_monitor(options);
-    WindowContext window({options.windowed ? glm::min(window_px, monitor.size_px) : monitor.size_px,
-                          "overt doctor", !options.windowed, true, 8, monitor.number});
-    SteadyClock clock;
     const double nominal_hz = monitor.refresh_hz > 0 ? monitor.refresh_hz : assumed_hz;
-    WindowDisplay display(window, clock, nominal_hz, false, {},
-                          choose_vblank_clock(vblank_candidates(window, clock), clock));
+    OpenDisplay display({.context = ContextKind::window,
+                         .size_px = options.windowed ? glm::min(window_px, monitor.size_px) : monitor.size_px,
+                         .title = "overt doctor",
+                         .refresh_hz = nominal_hz,
+                         .windowed = options.windowed,
+                         .monitor = monitor.number,
+                         .finds_blanks = true});
+    display.start();
     ProgressBar bar;
-    const TimingFacts facts =
-        measure_timing(window, display, clock, options.seconds, [&](int done, int total) {
-            bar.update("measuring the screen's refresh, s", done, total);
-        });
+    const TimingFacts facts = measure_timing(
+        *display.window(), *display.window_display(), display.clock(), options.seconds,
+        [&](int done, int total) { bar.update("measuring the screen's refresh, s", done, total); });
     bar.finish();
     // What the desktop calls 59 or 60 Hz may be 59.94: the mode's own rate is the better word.
     const double own_hz = facts.output.refresh_hz        ? *facts.output.refresh_hz
@@ -85,7 +87,7 @@ int run_screen_doctor(const DoctorOptions& options) {
     if (options.json) {
         fmt::print("{}\n", json_of(facts, findings).dump(2));
     } else {
-        fmt::print("{}\n{}\n", describe(monitor), window.description().renderer);
+        fmt::print("{}\n{}\n", describe(monitor), display.context().description().renderer);
         for (const ScreenFinding& finding : findings)
             fmt::print("{:<8} {:<18} {}\n", name_of(finding.weight), finding.what, finding.finding);
     }

@@ -2,11 +2,15 @@
 #pragma once
 
 #include "app/display/display_commands.h"
+#include "render/window/window_context.h"
 
 namespace overt {
 
 /// Shows a dark screen for a while and prints what was found; 1 if something would refuse a session. Throws
 /// GraphicsError if no window can be opened.
 int run_screen_doctor(const DoctorOptions& options);
+
+/// The monitor that was asked for, or the first. Throws InputError if there is none of that number.
+MonitorInfo chosen_monitor(const DoctorOptions& options);
 
 } // namespace overt

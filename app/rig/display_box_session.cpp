@@ -65,10 +65,9 @@ BoxPlan plan_box(const DisplaySettings& display, bool in_window, bool virtual_ti
 }
 
 BoxMode box_mode_of(OutputMode output) {
-    OVERT_EXPECTS(has_t_lock(output));
-    return output == OutputMode::mono_plus_plus    ? BoxMode::mono_plus_plus
-           : output == OutputMode::color_plus_plus ? BoxMode::color_plus_plus
-                                                   : BoxMode::bits_plus_plus;
+    const std::optional<BoxMode> mode = box_mode_called(name_of(output));
+    OVERT_EXPECTS(mode);
+    return *mode;
 }
 
 BoxIdentity require_box(const BoxPlan& plan) {

@@ -2,19 +2,12 @@
 
 #include "app/rig/response_devices.h"
 #include "app/rig/tracker_devices.h"
-#include "devices/host/clocks.h"
 #include "devices/simulated/operator_script.h"
 #include "devices/simulated/simulated_observer.h"
 #include "experiment/base/error.h"
-#include "render/gl/headless_context.h"
 #include "render/vblank/timing_check.h"
-#include "render/window/window_system.h"
 
 namespace overt {
-
-bool wants_window(ContextChoice context) {
-    return context ? *context == ContextKind::window : display_is_available();
-}
 
 namespace {
 
@@ -28,22 +21,19 @@ std::vector<ScriptedOperatorKey> read_operator_keys(const RigRequest& request,
     return keys;
 }
 
-std::unique_ptr<GlContext> make_context(const Protocol& protocol, const RigRequest& request) {
-    const bool window = wants_window(request.context);
-    if (!window && !request.simulate_observer) {
+DisplayRequest display_of(const Protocol& protocol, const RigRequest& request) {
+    if (!wants_window(request.context) && !request.simulate_observer)
         throw InputError("without a window nobody can answer: give --simulate-observer SEED, or a display");
-    }
-    if (!window)
-        return make_headless_context(request.context);
     const DisplaySettings& display = protocol.display;
-    // In virtual time pictures do not stand for their true durations: no screen is taken over for that.
-    const bool fullscreen = !request.windowed && !request.virtual_time;
-    return std::make_unique<WindowContext>(WindowRequest{{display.width_px, display.height_px},
-                                                         "overt: " + protocol.name,
-                                                         fullscreen,
-                                                         true,
-                                                         display.output == OutputMode::native_10bit ? 10 : 8,
-                                                         request.monitor});
+    return {.context = request.context,
+            .size_px = {display.width_px, display.height_px},
+            .title = "overt: " + protocol.name,
+            .refresh_hz = display.refresh_hz,
+            .bits_per_channel = row_of(display.output).framebuffer_bits,
+            .virtual_time = request.virtual_time,
+            .windowed = request.windowed,
+            .monitor = request.monitor,
+            .finds_blanks = true};
 }
 
 std::vector<ScreenFinding> examine_screen(const WindowContext& window, const Protocol& protocol) {
@@ -58,70 +48,50 @@ Rig::Rig(const Protocol& protocol, std::span<const Sculpture> sculptures, const 
          const std::filesystem::path& cache)
     : protocol_(&protocol), sculptures_(sculptures), request_(request),
       operator_keys_(read_operator_keys(request, protocol.operators)),
-      context_(make_context(protocol, request)), window_(dynamic_cast<WindowContext*>(context_.get())),
-      screen_findings_(is_on_a_real_screen() ? examine_screen(*window_, protocol)
-                                             : std::vector<ScreenFinding>()),
-      library_(*context_, protocol, sculptures, cache) {}
+      display_(display_of(protocol, request)),
+      screen_findings_(display_.is_real() ? examine_screen(*display_.window(), protocol)
+                                           : std::vector<ScreenFinding>()),
+      library_(display_.context(), protocol, sculptures, cache) {}
 
 Rig::~Rig() = default;
 
 bool Rig::maps_are_live() const {
     // Software takes a tenth of a second for a map: far longer than a refresh.
     return request_.maps == MapTime::live ||
-           (request_.maps == MapTime::automatic && !context_->description().is_software);
+           (request_.maps == MapTime::automatic && !context().description().is_software);
 }
 
 std::vector<PresentationListener*> Rig::listeners() {
     std::vector<PresentationListener*> all{observer_.get()};
     if (live_maps_)
         all.push_back(live_maps_.get());
-    if (virtual_refresh_)
-        all.push_back(virtual_refresh_);
+    if (VirtualRefresh* refresh = display_.virtual_refresh())
+        all.push_back(refresh);
     return all;
 }
 
 void Rig::open(DisplayFaults faults, SessionTime start) {
-    if (window_ && !request_.virtual_time && !faults.is_clean())
+    if (display_.is_real() && !faults.is_clean())
         throw InputError("faults are simulated where time is: give --virtual-time, or --context osmesa");
-    if (request_.virtual_time) {
-        clock_ = std::make_unique<VirtualClock>(start);
-    } else {
-        clock_ = std::make_unique<SteadyClock>(start);
-    }
+    display_.start(std::move(faults), start);
     const ScreenGeometry geometry = screen_geometry_of(*protocol_);
-    const double refresh_hz = protocol_->display.refresh_hz;
-    if (window_) {
-        VblankChoice vblanks;
-        if (is_on_a_real_screen())
-            vblanks = choose_vblank_clock(vblank_candidates(*window_, *clock_), *clock_);
-        auto display = std::make_unique<WindowDisplay>(*window_, *clock_, refresh_hz, request_.virtual_time,
-                                                       std::move(faults), std::move(vblanks));
-        window_display_ = display.get();
-        virtual_refresh_ = request_.virtual_time ? &display->refresh() : nullptr;
-        surface_ = std::move(display);
-    } else {
-        auto display = std::make_unique<VirtualDisplay>(
-            *context_, *clock_, refresh_hz, protocol_->display.output == OutputMode::native_10bit ? 10 : 8,
-            std::move(faults));
-        virtual_refresh_ = &display->refresh();
-        surface_ = std::move(display);
-    }
-    presenter_ = std::make_unique<PagePresenter>(*context_, *surface_, library_, geometry, protocol_->display,
-                                                 protocol_->screens);
+    presenter_ = std::make_unique<PagePresenter>(display_.context(), display_.surface(), library_, geometry,
+                                                 protocol_->display, protocol_->screens);
     if (maps_are_live())
-        live_maps_ = std::make_unique<LiveMaps>(*context_, sculptures_, library_.poses(), geometry.image_px);
+        live_maps_ = std::make_unique<LiveMaps>(display_.context(), sculptures_, library_.cache().poses(),
+                                                geometry.image_px);
     observer_ = std::make_unique<SimulatedObserver>(make_observed_scene(*protocol_, sculptures_, geometry),
                                                     request_.seed);
     tracker_ = tracker_device(protocol_->tracker.kind, request_.virtual_time)
-                   .make({protocol_->tracker, *clock_, *observer_, request_.seed});
-    panels_ = make_response_devices(
-        {*protocol_, *clock_, *observer_, window_, request_.simulate_observer, operator_keys_});
+                   .make({protocol_->tracker, clock(), *observer_, request_.seed});
+    panels_ = make_response_devices({*protocol_, clock(), *observer_, display_.window(),
+                                     request_.simulate_observer, operator_keys_});
     if (is_on_a_real_screen())
-        window_->hold_still();
+        display_.window()->hold_still();
 }
 
 AnswerEquipment Rig::answer_equipment() const {
-    return {protocol_->answers, *clock_, request_.simulate_observer ? observer_.get() : nullptr,
+    return {protocol_->answers, display_.clock(), request_.simulate_observer ? observer_.get() : nullptr,
             request_.seed};
 }
 
@@ -135,8 +105,9 @@ std::vector<std::string> Rig::closing_warnings() const {
 
 std::vector<ScreenFinding> Rig::check_timing(double seconds,
                                              const std::function<void(int done, int total)>& progress) {
-    OVERT_EXPECTS(is_on_a_real_screen() && window_display_);
-    const TimingFacts facts = measure_timing(*window_, *window_display_, *clock_, seconds, progress);
+    OVERT_EXPECTS(is_on_a_real_screen() && display_.window_display());
+    const TimingFacts facts =
+        measure_timing(*display_.window(), *display_.window_display(), clock(), seconds, progress);
     std::vector<ScreenFinding> findings = judge_timing(facts, protocol_->display.refresh_hz, "the protocol");
     refuse_spoilt_screen(findings);
     screen_findings_.insert(screen_findings_.end(), findings.begin(), findings.end());

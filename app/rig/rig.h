@@ -5,8 +5,8 @@
 #include <functional>
 #include <memory>
 
-#include "app/cli/context_choice.h"
 #include "app/rig/answer_equipment.h"
+#include "app/rig/open_display.h"
 #include "experiment/ports/eye_tracker.h"
 #include "experiment/ports/presentation_listener.h"
 #include "experiment/ports/response_panel.h"
@@ -14,7 +14,6 @@
 #include "render/presenter/page_presenter.h"
 #include "render/stimulus/live_maps.h"
 #include "render/stimulus/stimulus_library.h"
-#include "render/vblank/display_surface.h"
 #include "render/window/screen_check.h"
 #include "render/window/window_context.h"
 
@@ -37,9 +36,6 @@ struct RigRequest {
     std::vector<std::string> operator_keys = {}; ///< of a simulated operator, see read_operator_key()
 };
 
-/// Whether a session with these options opens a window on this machine.
-bool wants_window(ContextChoice context);
-
 class Rig {
   public:
     /// `protocol` and `sculptures` must outlive the rig. Opens the display. Throws GraphicsError, also for a
@@ -49,15 +45,15 @@ class Rig {
         const std::filesystem::path& cache);
     ~Rig();
 
-    const GlContext& context() const { return *context_; }
+    const GlContext& context() const { return display_.context(); }
     StimulusLibrary& library() { return library_; }
-    Clock& clock() { return *clock_; }
+    Clock& clock() { return display_.clock(); }
     ClockKind clock_kind() const {
         return request_.virtual_time ? ClockKind::virtual_time : ClockKind::steady;
     }
 
     /// Stimuli are shown on a real screen in real time.
-    bool is_on_a_real_screen() const { return window_ != nullptr && !request_.virtual_time; }
+    bool is_on_a_real_screen() const { return display_.is_real(); }
 
     /// What may change the signal on its way to the screen; nothing unless is_on_a_real_screen().
     const std::vector<ScreenFinding>& screen_findings() const { return screen_findings_; }
@@ -84,7 +80,7 @@ class Rig {
     /// What the operator should know once the session has ended, a line each.
     std::vector<std::string> closing_warnings() const;
     /// The refresh of a display that only keeps time; null for a real screen in real time.
-    const VirtualRefresh* virtual_refresh() const { return virtual_refresh_; }
+    const VirtualRefresh* virtual_refresh() const { return display_.virtual_refresh(); }
     /// The simulated observer, the hidden pass if it is live, and a display that only keeps time.
     std::vector<PresentationListener*> listeners();
     LiveMaps* live_maps() { return live_maps_.get(); } ///< null unless maps_are_live()
@@ -94,15 +90,9 @@ class Rig {
     std::span<const Sculpture> sculptures_;
     RigRequest request_;
     std::vector<ScriptedOperatorKey> operator_keys_;
-    // Objects of OpenGL go before the context they live in.
-    std::unique_ptr<GlContext> context_;
-    WindowContext* window_ = nullptr; ///< the context, if it is a window
+    OpenDisplay display_; // objects of OpenGL go before the context they live in
     std::vector<ScreenFinding> screen_findings_;
     StimulusLibrary library_;
-    std::unique_ptr<Clock> clock_;
-    std::unique_ptr<DisplaySurface> surface_;
-    WindowDisplay* window_display_ = nullptr;   ///< the surface, if it is a window
-    VirtualRefresh* virtual_refresh_ = nullptr; ///< the surface's
     std::unique_ptr<PagePresenter> presenter_;
     std::unique_ptr<LiveMaps> live_maps_;
     std::unique_ptr<SimulatedObserver> observer_;

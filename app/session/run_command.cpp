@@ -40,8 +40,8 @@ void prepare_stimuli(Rig& rig, const RunOptions& options) {
                 "is kept, and the same command goes on from there.");
     };
     if (!rig.maps_are_live())
-        rig.library().prepare_maps(show);
-    rig.library().prepare_given_maps(show);
+        rig.library().maps().prepare_maps(show);
+    rig.library().maps().prepare_given_maps(show);
     rig.library().prepare_frames(show, options.quality);
 }
 

@@ -25,7 +25,7 @@ void say_before(const Protocol& protocol, const Schedule& schedule, const GlDesc
 }
 
 void say_frames(const StimulusLibrary& library) {
-    const std::vector<Condition> rendered = library.rendered_stimuli();
+    const std::vector<Condition> rendered = library.cache().rendered_stimuli();
     if (!rendered.empty())
         fmt::print("frames: {}\n", library.source_of(rendered.front()));
 }

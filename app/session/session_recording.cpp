@@ -29,13 +29,13 @@ std::string map_name(const std::string& sculpture, PoseIndex pose) {
 
 void add_prepared_maps(SessionHeader& header, const std::string& id, int sculpture,
                        const StimulusLibrary& library) {
-    const auto kind =
-        library.has_given_maps(sculpture) ? RecordedMap::Kind::coordinates : RecordedMap::Kind::triangles;
-    for (int pose = 0; pose < static_cast<int>(library.poses().angles.size()); ++pose) {
+    const auto kind = library.cache().has_given_maps(sculpture) ? RecordedMap::Kind::coordinates
+                                                                : RecordedMap::Kind::triangles;
+    for (int pose = 0; pose < static_cast<int>(library.cache().poses().angles.size()); ++pose) {
         header.maps.push_back({sculpture,
                                {pose},
                                map_name(id, {pose}),
-                               hash_of_file(library.map_file(sculpture, {pose})),
+                               hash_of_file(library.cache().map_file(sculpture, {pose})),
                                RecordedMap::Made::prepared,
                                kind});
     }
@@ -58,8 +58,8 @@ void describe_sculptures(SessionHeader& header, const Protocol& protocol,
             recorded.axis_point = sculpture.scene.bounds.centre();
             if (with_prepared_maps)
                 add_prepared_maps(header, recorded.id, static_cast<int>(i), library);
-        } else if (library.has_given_maps(static_cast<int>(i))) {
-            const SceneView scene = library.scene_of_given_maps(static_cast<int>(i));
+        } else if (library.cache().has_given_maps(static_cast<int>(i))) {
+            const SceneView scene = library.cache().scene_of_given_maps(static_cast<int>(i));
             recorded.camera = scene.view.camera;
             recorded.bounds = scene.bounds;
             recorded.axis_point = scene.bounds.centre();
@@ -126,7 +126,7 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
                       std::string(name_of(protocol.display.output)), protocol.display.background};
     header.characterisation = recorded(protocol.display.characterisation);
     header.animation = protocol.animation;
-    header.poses = library.poses();
+    header.poses = library.cache().poses();
     for (const Task& task : protocol.tasks)
         header.tasks.push_back({task.id, task.question});
     for (const MaterialSettings& material : protocol.materials)
@@ -154,7 +154,7 @@ void put_all_files(const SessionDirectory& directory, const SessionHeader& heade
         write_ply(file, sculptures[i].mesh);
     }
     for (const RecordedMap& map : header.maps)
-        copy_into(library.map_file(map.sculpture, map.pose), directory.path() / map.file);
+        copy_into(library.cache().map_file(map.sculpture, map.pose), directory.path() / map.file);
     for (const RecordedStimulus& stimulus : header.stimuli) {
         const std::filesystem::path file = directory.path() / preview_file(header, stimulus.condition);
         std::filesystem::create_directories(file.parent_path());

@@ -52,19 +52,19 @@ std::vector<Condition> stimuli_asked_for(const BakeOptions& options, const Proto
     std::vector<Condition> stimuli;
     for (const std::string& name : options.only) {
         const Condition condition = stimulus_called(protocol, name);
-        if (library.is_ready_made(condition))
+        if (library.cache().is_ready_made(condition))
             throw InputError(
                 fmt::format("--only {}: the protocol gives its [[frames]]; there is nothing to bake", name));
         if (std::find(stimuli.begin(), stimuli.end(), condition) == stimuli.end())
             stimuli.push_back(condition);
     }
     if (stimuli.empty())
-        stimuli = library.rendered_stimuli();
+        stimuli = library.cache().rendered_stimuli();
     if (stimuli.empty())
         throw InputError(fmt::format("{}: all stimuli are ready-made [[frames]]; there is nothing to bake",
                                      protocol.file.string()));
     for (const Condition& stimulus : stimuli)
-        library.require_mesh(stimulus);
+        library.cache().require_mesh(stimulus);
     return stimuli;
 }
 
@@ -90,7 +90,7 @@ BakeJob job_of(const BakeOptions& options, const Protocol& protocol, const Stimu
                                               : ExportedLight::display;
     job.output.png16 = options.png16;
     job.output.force = options.force;
-    job.units = bake_units(job.stimuli, job.output.frames, library.poses(), job.quality, protocol);
+    job.units = bake_units(job.stimuli, job.output.frames, library.cache().poses(), job.quality, protocol);
     if (!options.shard.empty())
         job.units = dealt_to(shard_called(options.shard), job.units);
     return job;
@@ -105,7 +105,7 @@ struct BakeOutcome {
 };
 
 bool is_cached(const StimulusLibrary& library, const BakeJob& job, const BakeUnit& unit) {
-    return std::filesystem::exists(library.frame_file_of(unit.condition, job.quality, unit.pose));
+    return std::filesystem::exists(library.cache().frame_file_of(unit.condition, job.quality, unit.pose));
 }
 
 /// Renders what is missing. While one frame is written, the next is traced; each is on the disk, whole, or
@@ -127,7 +127,7 @@ void render(const std::vector<BakeUnit>& missing, const BakeJob& job, StimulusLi
         };
         SpectralFrame frame;
         if (go_on(0.0))
-            frame = library.trace(unit.condition, unit.pose, job.quality, go_on);
+            frame = library.frames().trace(unit.condition, unit.pose, job.quality, go_on);
         if (writing.valid())
             writing.get();
         if (!frame.is_complete) {
@@ -139,7 +139,7 @@ void render(const std::vector<BakeUnit>& missing, const BakeJob& job, StimulusLi
         ++outcome.rendered;
         writing = std::async(std::launch::async, [&, unit, frame = std::move(frame)] {
             if (!is_cached(library, job, unit))
-                library.store(unit.condition, unit.pose, job.quality, frame);
+                library.cache().store(unit.condition, unit.pose, job.quality, frame);
             if (job.output.as == ExportedLight::spectra)
                 output.write(unit, &frame);
         });
@@ -173,8 +173,8 @@ void export_cached(const BakeJob& job, const FrameExport& output, BakeOutcome& o
 void remove_remnants(const BakeJob& job, const StimulusLibrary& library, const FrameExport& output) {
     std::set<std::filesystem::path> folders;
     for (const BakeUnit& unit : job.units) {
-        folders.insert(library.frame_file_of(unit.condition, job.quality, unit.pose).parent_path());
-        folders.insert(library.map_file(unit.condition.sculpture, unit.pose).parent_path());
+        folders.insert(library.cache().frame_file_of(unit.condition, job.quality, unit.pose).parent_path());
+        folders.insert(library.cache().map_file(unit.condition.sculpture, unit.pose).parent_path());
         if (job.exports())
             folders.insert(output.folder_of(unit.condition));
     }
@@ -273,7 +273,7 @@ int run_bake(const BakeOptions& options) {
     const BakeJob job = job_of(options, protocol, library);
     if (!options.strip.empty())
         stimulus_of_strip(job);
-    if (!options.sheet.empty() && job.stimuli.size() != library.rendered_stimuli().size())
+    if (!options.sheet.empty() && job.stimuli.size() != library.cache().rendered_stimuli().size())
         throw InputError("--sheet shows all stimuli: leave out --only");
     const FrameExport output(job.output, protocol, experiment.sculptures, library, job.quality);
     if (job.exports())

@@ -82,7 +82,7 @@ double PathProbe::seconds_of_frame(const Condition& condition, const FrameQualit
 BakeEstimate bake_estimate(const Experiment& experiment, const StimulusLibrary& library) {
     BakeEstimate estimate;
     estimate.wanted = experiment.protocol.bake.quality;
-    const std::vector<Condition> stimuli = library.rendered_stimuli();
+    const std::vector<Condition> stimuli = library.cache().rendered_stimuli();
     if (stimuli.empty() || estimate.wanted == BakeQuality::live)
         return estimate;
     estimate.for_session = library.quality_of_session();
@@ -91,8 +91,9 @@ BakeEstimate bake_estimate(const Experiment& experiment, const StimulusLibrary& 
          {BakeQuality::preview, BakeQuality::draft, BakeQuality::standard, BakeQuality::reference}) {
         QualityEstimate one{quality_of(quality, experiment.protocol.bake)};
         for (const Condition& stimulus : stimuli) {
-            const auto missing = static_cast<int>(library.missing_frames(stimulus, one.quality).size());
-            const int all = static_cast<int>(library.poses().angles.size());
+            const auto missing =
+                static_cast<int>(library.cache().missing_frames(stimulus, one.quality).size());
+            const int all = static_cast<int>(library.cache().poses().angles.size());
             one.there += all - missing;
             one.frames += all;
             if (missing == 0)

@@ -9,6 +9,7 @@
 #include "experiment/base/error.h"
 #include "experiment/base/whole_file.h"
 #include "render/bake/light_colour.h"
+#include "render/signal/display_light.h"
 #include "render/stimulus/frame_description.h"
 #include "render/stimulus/frame_files.h"
 
@@ -90,7 +91,7 @@ std::vector<std::filesystem::path> FrameExport::files_of(const BakeUnit& unit) c
     const std::filesystem::path folder = folder_of(unit.condition);
     std::vector<std::filesystem::path> files;
     for (int frame = options_->frames.first; frame <= options_->frames.last; ++frame) {
-        if (library_->poses().pose_of({frame}) == unit.pose)
+        if (library_->cache().poses().pose_of({frame}) == unit.pose)
             files.push_back(folder / fmt::format("frame_{:04}.{}", frame, options_->png16 ? "png" : "exr"));
     }
     return files;
@@ -98,8 +99,8 @@ std::vector<std::filesystem::path> FrameExport::files_of(const BakeUnit& unit) c
 
 ContentHash FrameExport::key_of(const BakeUnit& unit) const {
     ContentHasher hasher;
-    hasher.add(export_version).add(std::string_view(library_->frame_key(unit.condition, *quality_)));
-    hasher.add(library_->poses().angles[static_cast<std::size_t>(unit.pose.value)].value);
+    hasher.add(export_version).add(std::string_view(library_->cache().frame_key(unit.condition, *quality_)));
+    hasher.add(library_->cache().poses().angles[static_cast<std::size_t>(unit.pose.value)].value);
     hasher.add(static_cast<int>(options_->as)).add(options_->png16 ? 1 : 0);
     hasher.add(protocol_->light.exposure);
     if (options_->png16)
@@ -160,9 +161,10 @@ ChannelPicture FrameExport::picture_of(const BakeUnit& unit, const SpectralFrame
         }
         return picture;
     }
-    LinearImage image = read_linear_image(library_->frame_file_of(unit.condition, *quality_, unit.pose));
+    LinearImage image =
+        read_linear_image(library_->cache().frame_file_of(unit.condition, *quality_, unit.pose));
     transform(image, options_->as == ExportedLight::display
-                         ? library_->display_from_frame(*quality_)
+                         ? library_->cache().display_from_frame(*quality_)
                          : protocol_->light.exposure * xyz_from(rendered_colours(protocol_->bake.observer)));
     picture.size_px = image.size_px;
     for (const glm::vec4& pixel : image.pixels)
@@ -173,7 +175,7 @@ ChannelPicture FrameExport::picture_of(const BakeUnit& unit, const SpectralFrame
 ImageAttributes FrameExport::attributes_of(const BakeUnit& unit) const {
     const MaterialSettings& material =
         protocol_->materials[static_cast<std::size_t>(unit.condition.material)];
-    const Degrees angle = library_->poses().angles[static_cast<std::size_t>(unit.pose.value)];
+    const Degrees angle = library_->cache().poses().angles[static_cast<std::size_t>(unit.pose.value)];
     ImageAttributes attributes = describe_stimulus(
         *protocol_, sculptures_[static_cast<std::size_t>(unit.condition.sculpture)], material, angle);
     for (auto& attribute : describe_tracing(*quality_, *protocol_, material.kind))

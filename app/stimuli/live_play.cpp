@@ -5,12 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "devices/host/clocks.h"
+#include "app/rig/open_display.h"
 #include "experiment/base/error.h"
 #include "render/gl/headless_context.h"
 #include "render/signal/display_encoder.h"
 #include "render/stimulus/live_view.h"
-#include "render/vblank/display_surface.h"
 #include "render/window/window_system.h"
 
 namespace overt {
@@ -23,30 +22,30 @@ constexpr auto idle = std::chrono::milliseconds(10);
 /// Pictures of linear light in a window that is as large as they are, on an ordinary screen.
 class PictureWindow {
   public:
-    PictureWindow(WindowContext& window, Clock& clock, double refresh_hz)
-        : encoder_([&] {
+    explicit PictureWindow(const OpenDisplay& opened)
+        : opened_(&opened), encoder_([&] {
               DisplaySettings display;
               display.output = OutputMode::native_8bit;
               display.gamma = 2.2;
-              display.width_px = window.framebuffer_px().x;
-              display.height_px = window.framebuffer_px().y;
+              display.width_px = opened.window()->framebuffer_px().x;
+              display.height_px = opened.window()->framebuffer_px().y;
               return display;
           }()),
-          texture_(window, window.framebuffer_px(), encoder_.format()), canvas_(window, {&texture_}, false),
-          surface_(window, clock, refresh_hz, false) {}
+          texture_(opened.context(), opened.window()->framebuffer_px(), encoder_.format()),
+          canvas_(opened.context(), {&texture_}, false) {}
 
     void show(const LinearImage& picture) {
         bytes_.resize(bytes_per_pixel(encoder_.format()) * picture.pixels.size());
         encoder_.encode(picture, {0, 0}, bytes_);
         texture_.upload(bytes_);
-        surface_.present(canvas_);
+        opened_->surface().present(canvas_);
     }
 
   private:
+    const OpenDisplay* opened_;
     DisplayEncoder encoder_;
     Texture2D texture_;
     Framebuffer canvas_;
-    WindowDisplay surface_;
     std::vector<std::byte> bytes_;
 };
 
@@ -111,11 +110,12 @@ void take_keys(WindowContext& window, const Protocol& protocol, std::span<const 
     }
 }
 
-void play_until_closed(WindowContext& window, LiveView& view, const Protocol& protocol,
+void play_until_closed(OpenDisplay& opened, LiveView& view, const Protocol& protocol,
                        std::span<const Sculpture> sculptures, const Condition& first) {
-    SteadyClock clock;
-    PictureWindow picture(window, clock, protocol.display.refresh_hz);
-    const SessionTime begin = clock.now();
+    opened.start();
+    WindowContext& window = *opened.window();
+    PictureWindow picture(opened);
+    const SessionTime begin = opened.clock().now();
     Wishes wishes;
     wishes.stimulus = first;
     while (!window.close_requested()) {
@@ -132,7 +132,7 @@ void play_until_closed(WindowContext& window, LiveView& view, const Protocol& pr
         Orbit orbit = wishes.orbit;
         if (wishes.is_turning) {
             const int step =
-                static_cast<int>(to_seconds(clock.now() - begin) * protocol.animation.frame_rate_hz);
+                static_cast<int>(to_seconds(opened.clock().now() - begin) * protocol.animation.frame_rate_hz);
             orbit.turn_deg += protocol.animation.angle_of(protocol.animation.frame_at_step(step)).value;
         }
         picture.show(view.draw(orbit));
@@ -147,8 +147,12 @@ int play_live(const Protocol& protocol, std::span<const Sculpture> sculptures, c
         const glm::ivec2 image_px = window_size_of(protocol.view);
         if (!display_is_available())
             throw InputError("there is no display to play on: write a frame with --picture FILE instead");
-        WindowContext window(WindowRequest{image_px, "overt play --live"});
-        LiveView view(window, protocol, sculptures, image_px);
+        OpenDisplay window({.context = ContextKind::window,
+                            .size_px = image_px,
+                            .title = "overt play --live",
+                            .refresh_hz = protocol.display.refresh_hz,
+                            .windowed = true});
+        LiveView view(window.context(), protocol, sculptures, image_px);
         play_until_closed(window, view, protocol, sculptures, stimulus);
         return 0;
     }

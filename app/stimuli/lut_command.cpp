@@ -108,8 +108,8 @@ CoordinateMaps draw_maps(StimulusLibrary& library, const Sculpture& sculpture, i
     std::vector<TriangleMap> maps;
     for (const auto& [pose, numbers] : frames) {
         bar.update("mapping " + sculpture.id, static_cast<int>(maps.size()), static_cast<int>(frames.size()));
-        angles.push_back(library.poses().angles[static_cast<std::size_t>(pose.value)]);
-        maps.push_back(library.draw_map(index, pose));
+        angles.push_back(library.cache().poses().angles[static_cast<std::size_t>(pose.value)]);
+        maps.push_back(library.maps().draw_map(index, pose));
         if (maps.back().covered_pixels() == 0) {
             throw InputError(
                 fmt::format("sculpture «{}» is nowhere in the picture at {:.3g} degrees: correct the camera "
@@ -149,7 +149,7 @@ int run_lut(const LutOptions& options) {
 
     const auto context = make_headless_context(options.context);
     StimulusLibrary library(*context, protocol, sculptures, cache_folder());
-    const auto frames = frames_by_pose(protocol.animation, library.poses(), options.frame);
+    const auto frames = frames_by_pose(protocol.animation, library.cache().poses(), options.frame);
     const MapFiles files(options, sculpture.id);
     // A check alone leaves nothing behind.
     const bool writes = !options.check || !options.out.empty();
@@ -169,7 +169,7 @@ int run_lut(const LutOptions& options) {
     for (const auto& [pose, numbers] : frames) {
         bar.update(fmt::format("{} {}", writes ? "writing maps of" : "checking", sculpture.id), drawn,
                    static_cast<int>(frames.size()));
-        description.angle = library.poses().angles[static_cast<std::size_t>(pose.value)];
+        description.angle = library.cache().poses().angles[static_cast<std::size_t>(pose.value)];
         CoordinateImage image = coordinate_image(maps, {drawn++}, sculpture.scene.view.image_px);
         if (rays) {
             const MapCheck one = check_map(image, *rays, sculpture.scene, *description.angle, options.scale);

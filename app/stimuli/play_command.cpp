@@ -6,10 +6,9 @@
 #include "app/cli/progress_bar.h"
 #include "app/inputs/protocol_file.h"
 #include "app/inputs/protocol_inputs.h"
+#include "app/rig/open_display.h"
 #include "app/stimuli/live_play.h"
 #include "app/stimuli/stimulus_commands.h"
-#include "devices/host/clocks.h"
-#include "render/gl/headless_context.h"
 #include "render/presenter/page_presenter.h"
 #include "render/stimulus/stimulus_library.h"
 #include "render/window/window_system.h"
@@ -26,22 +25,21 @@ void write_frame(const StimulusLibrary& library, const Condition& stimulus, cons
 }
 
 /// Plays in a window until the time is up, it is closed, or a key is pressed.
-void play_in_window(WindowContext& window, StimulusLibrary& library, const Condition& stimulus,
+void play_in_window(OpenDisplay& window, StimulusLibrary& library, const Condition& stimulus,
                     const Protocol& protocol, double duration_s) {
-    SteadyClock clock;
+    window.start();
     DisplaySettings display = protocol.display;
     // For a look on an ordinary screen: the packed signal of a Display++ would be unreadable there.
     display.output = OutputMode::native_8bit;
     display.gamma = 2.2;
-    WindowDisplay surface(window, clock, display.refresh_hz, false);
-    PagePresenter presenter(window, surface, library, screen_geometry_of(protocol), display,
-                            protocol.screens);
+    PagePresenter presenter(window.context(), window.surface(), library, screen_geometry_of(protocol),
+                            display, protocol.screens);
     presenter.load_frames(stimulus);
     const double frame_s = 1.0 / protocol.animation.frame_rate_hz;
-    const SessionTime begin = clock.now();
+    const SessionTime begin = window.clock().now();
     WindowKeyPress press{};
-    while (!presenter.closed() && !window.next_key_press(press)) {
-        const double elapsed_s = to_seconds(clock.now() - begin);
+    while (!presenter.closed() && !window.window()->next_key_press(press)) {
+        const double elapsed_s = to_seconds(window.clock().now() - begin);
         if (elapsed_s >= duration_s)
             break;
         presenter.flip(protocol.animation.frame_at_step(static_cast<int>(elapsed_s / frame_s)));
@@ -66,24 +64,24 @@ int run_play(const PlayOptions& options) {
     if (in_window && !display_is_available())
         throw InputError("there is no display to play on: write a frame with --picture FILE instead");
 
-    std::unique_ptr<GlContext> headless;
-    std::unique_ptr<WindowContext> window;
-    if (in_window) {
-        window = std::make_unique<WindowContext>(
-            WindowRequest{{protocol.display.width_px, protocol.display.height_px}, "overt play"});
-    } else {
-        headless =
-            make_headless_context(options.context == ContextKind::window ? std::nullopt : options.context);
-    }
-    const GlContext& context = window ? static_cast<const GlContext&>(*window) : *headless;
-    StimulusLibrary library(context, protocol, sculptures, cache_folder());
+    DisplayRequest request{.context = options.context, .headless = true};
+    if (in_window)
+        request = {.context = ContextKind::window,
+                   .size_px = {protocol.display.width_px, protocol.display.height_px},
+                   .title = "overt play",
+                   .refresh_hz = protocol.display.refresh_hz,
+                   .windowed = true};
+    else if (options.context == ContextKind::window)
+        request.context = {};
+    OpenDisplay display(request);
+    StimulusLibrary library(display.context(), protocol, sculptures, cache_folder());
     ProgressBar bar;
     library.prepare_frames(stimulus, [&](std::string_view what, int done, int total, double share) {
         bar.update(what, done, total, share);
     });
     bar.finish();
     if (in_window) {
-        play_in_window(*window, library, stimulus, protocol, options.repeat_s);
+        play_in_window(display, library, stimulus, protocol, options.repeat_s);
     } else {
         write_frame(library, stimulus, options);
     }

@@ -45,10 +45,10 @@ class StimulusMaps {
         if (sculpture.has_mesh()) {
             const auto headless = make_headless_context(context);
             StimulusLibrary library(*headless, protocol, sculptures_, cache_folder());
-            library.prepare_maps(index, [&](std::string_view what, int done, int total, double share) {
+            library.maps().prepare_maps(index, [&](std::string_view what, int done, int total, double share) {
                 bar.update(what, done, total, share);
             });
-            maps_.emplace(library.maps_of(index));
+            maps_.emplace(library.cache().maps_of(index));
             return;
         }
         if (settings.lut.empty())

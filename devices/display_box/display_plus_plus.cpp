@@ -26,20 +26,34 @@ std::optional<double> rate_in(const std::string& reply) {
 /// Two measurements of one rate, each good to a few hundredths of a hertz.
 bool same_rate(double a_hz, double b_hz) { return a_hz > 0.0 && std::abs(a_hz - b_hz) <= 0.005 * a_hz; }
 
+struct BoxModeRow {
+    BoxMode mode;
+    std::string_view name, output; ///< as people write it, and as a protocol has the output that it reads
+    std::array<std::string_view, 2> commands;
+};
+
+/// In the order of BoxMode. Both spellings of colour are in use with boxes in the field and neither is
+/// answered, so both are said.
+constexpr BoxModeRow box_modes[] = {
+    {BoxMode::bits_plus_plus, "Bits++", "bits++", {"BitsPlusPlus"}},
+    {BoxMode::mono_plus_plus, "Mono++", "mono++", {"monoPlusPlus"}},
+    {BoxMode::color_plus_plus, "Color++", "color++", {"colorPlusPlus", "colourPlusPlus"}},
+};
+
+const BoxModeRow& row_of(BoxMode mode) { return box_modes[static_cast<std::size_t>(mode)]; }
+
 constexpr SessionDuration between_questions = std::chrono::milliseconds(100);
 
 } // namespace
 
-std::string_view name_of(BoxMode mode) {
-    switch (mode) {
-    case BoxMode::bits_plus_plus:
-        return "Bits++";
-    case BoxMode::mono_plus_plus:
-        return "Mono++";
-    case BoxMode::color_plus_plus:
-        break;
+std::string_view name_of(BoxMode mode) { return row_of(mode).name; }
+
+std::optional<BoxMode> box_mode_called(std::string_view output) {
+    for (const BoxModeRow& row : box_modes) {
+        if (row.output == output)
+            return row.mode;
     }
-    return "Color++";
+    return std::nullopt;
 }
 
 DisplayPlusPlus::DisplayPlusPlus(std::unique_ptr<ByteTransport> transport, Clock& clock,
@@ -84,18 +98,9 @@ double DisplayPlusPlus::video_rate_hz() {
 }
 
 void DisplayPlusPlus::tell_mode(BoxMode mode) {
-    switch (mode) {
-    case BoxMode::bits_plus_plus:
-        link_.tell("BitsPlusPlus");
-        break;
-    case BoxMode::mono_plus_plus:
-        link_.tell("monoPlusPlus");
-        break;
-    case BoxMode::color_plus_plus:
-        // Both spellings are in use with boxes in the field and neither is answered, so both are said.
-        link_.tell("colorPlusPlus");
-        link_.tell("colourPlusPlus");
-        break;
+    for (const std::string_view command : row_of(mode).commands) {
+        if (!command.empty())
+            link_.tell(command);
     }
 }
 

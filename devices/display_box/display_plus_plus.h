@@ -27,6 +27,9 @@ enum class BoxMode : std::uint8_t {
 };
 std::string_view name_of(BoxMode mode);
 
+/// The mode that reads an output, by the protocol's word for it: "mono++", "color++" or "bits++".
+std::optional<BoxMode> box_mode_called(std::string_view output);
+
 /// What the box says of itself.
 struct BoxIdentity {
     std::string port, product, serial_number, firmware_date;

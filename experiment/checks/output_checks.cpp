@@ -15,13 +15,10 @@ namespace {
 /// is shorter.
 constexpr int t_lock_row_px = 524;
 
-bool is_native(OutputMode mode) {
-    return mode == OutputMode::native_8bit || mode == OutputMode::native_10bit;
-}
-
 void check_keys_of_mode(ProtocolExamination& examination) {
     const DisplaySettings& display = examination.protocol.display;
-    const std::string_view mode = name_of(display.output);
+    const OutputModeRow& row = row_of(display.output);
+    const std::string_view mode = row.name;
     if (joins_pixels_in_pairs(display.output)) {
         if (display.width_px % 2 != 0)
             examination.error({"display.width_px", "display.output"},
@@ -30,7 +27,7 @@ void check_keys_of_mode(ProtocolExamination& examination) {
         examination.error({"display.pair_filter"},
                           fmt::format("{} joins no pixels in pairs: pair_filter has no meaning", mode));
     }
-    if (is_native(display.output)) {
+    if (!row.is_packed) {
         if (display.gamma == 1.0 && !examination.is_written("display.gamma") &&
             !examination.is_written("display.characterisation")) {
             examination.warning(
@@ -56,15 +53,18 @@ void check_keys_of_mode(ProtocolExamination& examination) {
                               fmt::format("{} carries messages in rows of {} px: the screen is narrower",
                                           mode, t_lock_row_px));
     } else {
-        if (display.onset_trigger != 0 && is_native(display.output))
+        if (display.onset_trigger != 0 && row.top_rows == TopRows::none)
             examination.error({"display.onset_trigger"},
-                              fmt::format("{} has no digital outputs: onset_trigger needs mono++, color++, "
-                                          "bits++, vpixx-m16 or vpixx-c48",
-                                          mode));
+                              fmt::format("{} has no digital outputs: onset_trigger needs {}", mode,
+                                          listed(names_of_modes([](const OutputModeRow& other) {
+                                              return other.top_rows != TopRows::none;
+                                          }))));
         if (display.box.starts_with('/'))
-            examination.error(
-                {"display.box"},
-                fmt::format("{} is sent through no box: box needs mono++, color++ or bits++", mode));
+            examination.error({"display.box"},
+                              fmt::format("{} is sent through no box: box needs {}", mode,
+                                          listed(names_of_modes([](const OutputModeRow& other) {
+                                              return other.top_rows == TopRows::t_lock;
+                                          }))));
     }
     if (display.box != "auto" && display.box != "none" && !display.box.starts_with('/'))
         examination.error({"display.box"}, fmt::format("\"{}\" is no serial port", display.box),

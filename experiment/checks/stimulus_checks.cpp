@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -173,17 +174,10 @@ void check_sculptures(ProtocolExamination& examination,
 }
 
 void check_materials(ProtocolExamination& examination) {
-    const std::map<std::string_view, std::vector<MaterialKind>> kinds_of_key{
-        {"metal",
-         {MaterialKind::smooth_conductor, MaterialKind::rough_conductor, MaterialKind::coated_conductor}},
-        {"roughness", {MaterialKind::rough_conductor}},
-        {"coat_ior", {MaterialKind::coated_conductor}},
-        {"coat_absorbance", {MaterialKind::coated_conductor}},
-        {"coat_thickness", {MaterialKind::coated_conductor}},
-        {"coat_bump", {MaterialKind::coated_conductor}},
-        {"coat_bump_width", {MaterialKind::coated_conductor}},
-        {"coat_seed", {MaterialKind::coated_conductor}},
-        {"reflectance", {MaterialKind::diffuse}}};
+    std::set<std::string_view> keys;
+    for (const MaterialKindRow& row : material_kinds)
+        keys.insert(row.keys.begin(), row.keys.end());
+    keys.erase(std::string_view()); // behind the last of each
     const std::vector<MaterialSettings>& materials = examination.protocol.materials;
     constexpr std::string_view metals[] = {"Au", "Ag"};
     for (std::size_t i = 0; i < materials.size(); ++i) {
@@ -194,10 +188,9 @@ void check_materials(ProtocolExamination& examination) {
                 {entry_path("material", i, "metal")}, fmt::format("there is no metal \"{}\"", metal),
                 "known are \"Au\" and \"Ag\"; for another give a table, a file that ends in .csv");
         }
-        for (const auto& [key, kinds] : kinds_of_key) {
+        for (const std::string_view key : keys) {
             const std::string path = entry_path("material", i, key), kind = entry_path("material", i, "kind");
-            const bool matters = std::find(kinds.begin(), kinds.end(), materials[i].kind) != kinds.end();
-            if (!matters && examination.is_written(path)) {
+            if (!row_of(materials[i].kind).has_key(key) && examination.is_written(path)) {
                 examination.warning({path, kind},
                                     fmt::format("\"{}\" has no effect on a material of kind \"{}\"", key,
                                                 name_of(materials[i].kind)));

@@ -46,9 +46,16 @@ Section<AnswerSettings> answers();
 Section<WordSettings> words();
 Section<DatasetSettings> dataset();
 
+/// The names of a table's rows, in their order.
+template <const auto& table>
+inline constexpr auto names_in = [] {
+    std::array<std::string_view, table.size()> names;
+    for (std::size_t i = 0; i < table.size(); ++i)
+        names[i] = table[i].name;
+    return names;
+}();
+
 // Names of enumerations, in the order of their values.
-inline constexpr std::string_view output_modes[] = {"native-8bit", "native-10bit", "mono++",   "color++",
-                                                    "bits++",      "vpixx-m16",    "vpixx-c48"};
 inline constexpr std::string_view ditherings[] = {"none", "ordered", "blue-noise"};
 inline constexpr std::string_view pair_filters[] = {"box", "lanczos"};
 inline constexpr std::string_view patch_corners[] = {"none", "top-left", "top-right", "bottom-left",
@@ -65,8 +72,6 @@ inline constexpr std::string_view repeat_whens[] = {"never", "now", "end-of-bloc
 inline constexpr std::string_view answer_uses[] = {"none", "optional", "required"};
 inline constexpr std::string_view field_kinds[] = {"text", "number", "choice"};
 inline constexpr std::string_view repetition_orders[] = {"in-turn", "mixed"};
-inline constexpr std::string_view material_kinds[] = {"smooth-conductor", "rough-conductor",
-                                                      "coated-conductor", "diffuse"};
 inline constexpr std::string_view frame_encodings[] = {"linear", "srgb"};
 inline constexpr std::string_view frame_colours[] = {"display", "rec709", "xyz"};
 inline constexpr std::string_view bake_qualities[] = {"live", "preview", "draft", "standard", "reference"};

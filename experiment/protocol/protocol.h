@@ -17,51 +17,14 @@
 #include "experiment/ports/observer_field.h"
 #include "experiment/protocol/design_settings.h"
 #include "experiment/protocol/key_places.h"
+#include "experiment/protocol/material_kind.h"
+#include "experiment/protocol/output_mode.h"
 #include "experiment/protocol/protocol_sources.h"
 #include "experiment/protocol/sitting_settings.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/units.h"
 
 namespace overt {
-
-/// How light is packed into the video signal.
-enum class OutputMode : std::uint8_t {
-    native_8bit,
-    native_10bit,
-    mono_plus_plus,
-    color_plus_plus,
-    bits_plus_plus,
-    vpixx_m16,
-    vpixx_c48
-};
-
-/// Whether each pixel pair of the video signal carries one colour.
-constexpr bool joins_pixels_in_pairs(OutputMode mode) {
-    return mode == OutputMode::color_plus_plus || mode == OutputMode::vpixx_c48;
-}
-
-/// Whether the top rows of the screen carry messages to a Display++ or Bits#, which has to be in the mode.
-constexpr bool has_t_lock(OutputMode mode) {
-    return mode == OutputMode::mono_plus_plus || mode == OutputMode::color_plus_plus ||
-           mode == OutputMode::bits_plus_plus;
-}
-
-/// Rows at the top of the screen that carry messages to the display and never light.
-constexpr int reserved_rows(OutputMode mode) {
-    switch (mode) {
-    case OutputMode::native_8bit:
-    case OutputMode::native_10bit:
-        return 0;
-    case OutputMode::mono_plus_plus:
-    case OutputMode::color_plus_plus:
-    case OutputMode::bits_plus_plus:
-        return 3; // T-Lock: table of colours, clock reset, digital outputs
-    case OutputMode::vpixx_m16:
-    case OutputMode::vpixx_c48:
-        return 1; // PSYNC
-    }
-    return 0;
-}
 
 /// How the native modes spread what lies between two of their levels over neighbours and refreshes.
 enum class Dithering : std::uint8_t { none, ordered, blue_noise };
@@ -176,8 +139,6 @@ struct SculptureSettings {
     std::vector<std::array<double, 4>> head_spheres; ///< x, y, z, radius
     std::vector<std::array<double, 6>> head_planes;  ///< point and normal
 };
-
-enum class MaterialKind : std::uint8_t { smooth_conductor, rough_conductor, coated_conductor, diffuse };
 
 /// [[material]]
 struct MaterialSettings {

@@ -22,7 +22,6 @@ const ProtocolSections& protocol_sections() {
     return sections;
 }
 
-std::string_view name_of(OutputMode mode) { return key_rows::output_modes[static_cast<int>(mode)]; }
 std::string_view name_of(Dithering dithering) { return key_rows::ditherings[static_cast<int>(dithering)]; }
 std::string_view name_of(PairFilter filter) { return key_rows::pair_filters[static_cast<int>(filter)]; }
 std::string_view name_of(PatchCorner corner) { return key_rows::patch_corners[static_cast<int>(corner)]; }
@@ -35,7 +34,6 @@ std::string_view name_of(TaskCoverage coverage) {
 std::string_view name_of(OrderMethod method) { return key_rows::order_methods[static_cast<int>(method)]; }
 std::string_view name_of(TrialFactor factor) { return key_rows::trial_factors[static_cast<int>(factor)]; }
 std::string_view name_of(LevelOrder order) { return key_rows::level_orders[static_cast<int>(order)]; }
-std::string_view name_of(MaterialKind kind) { return key_rows::material_kinds[static_cast<int>(kind)]; }
 std::string_view name_of(FrameEncoding encoding) {
     return key_rows::frame_encodings[static_cast<int>(encoding)];
 }

@@ -79,8 +79,7 @@ template <class Visitor> void for_each_section(Visitor&& visit) {
     std::apply([&](const auto&... section) { (visit(section), ...); }, protocol_sections());
 }
 
-/// Names as the file has them.
-std::string_view name_of(OutputMode mode);
+/// Names as the file has them; those of output modes and kinds of material are in their tables.
 std::string_view name_of(Dithering dithering);
 std::string_view name_of(PairFilter filter);
 std::string_view name_of(PatchCorner corner);
@@ -91,7 +90,6 @@ std::string_view name_of(TaskCoverage coverage);
 std::string_view name_of(OrderMethod method);
 std::string_view name_of(TrialFactor factor);
 std::string_view name_of(LevelOrder order);
-std::string_view name_of(MaterialKind kind);
 std::string_view name_of(FrameEncoding encoding);
 std::string_view name_of(FrameColours colours);
 std::string_view name_of(BakeQuality quality);

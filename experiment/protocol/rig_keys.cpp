@@ -68,7 +68,7 @@ Section<DisplaySettings> display() {
                   .explanation = "From the observer's eye to the middle of the screen."},
                  &D::viewing_distance_mm},
                 {{.name = "output",
-                  .choices = output_modes,
+                  .choices = names_in<output_modes>,
                   .explanation =
                       "How light is packed into the video signal: 8 or 10 bits per channel for any "
                       "display, the 16-bit modes of a Display++, or those of VPixx devices. "

@@ -264,7 +264,7 @@ Section<MaterialSettings> material() {
                 {{.name = "title", .if_left_out = "the id", .explanation = "Name for figures and reports."},
                  &M::title},
                 {{.name = "kind",
-                  .choices = material_kinds,
+                  .choices = names_in<material_kinds>,
                   .is_required = true,
                   .explanation = "Polished metal, brushed metal, polished metal under a bumpy coloured "
                                  "coat, or a matt surface."},

@@ -8,8 +8,8 @@
 namespace overt {
 
 bool keeps_16_bits(const DisplaySettings& display) {
-    return display.output == OutputMode::native_10bit ||
-           (display.output == OutputMode::native_8bit && display.dither != Dithering::none);
+    const OutputModeRow& mode = row_of(display.output);
+    return !mode.is_packed && (mode.framebuffer_bits > 8 || display.dither != Dithering::none);
 }
 
 int pair_reach_px(const DisplaySettings& display) {

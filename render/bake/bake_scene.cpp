@@ -9,6 +9,7 @@
 #include "experiment/scene/metal_table.h"
 #include "render/bake/coat_surface.h"
 #include "render/bake/light_colour.h"
+#include "render/bake/material_model.h"
 
 namespace overt {
 
@@ -43,7 +44,7 @@ CoatShape coat_shape(const MaterialSettings& material, double half_height) {
 } // namespace
 
 BakeScene::BakeScene(const Mesh& mesh, const MaterialSettings& material, double crease_deg)
-    : material_(material), centre_(mesh.bounds().centre()) {
+    : material_(material), model_(&model_of(material.kind)), centre_(mesh.bounds().centre()) {
     if (mesh.triangles.empty())
         throw InputError("a mesh without triangles cannot be baked");
     const double half_height = 0.5 * mesh.bounds().extent().z;
@@ -55,11 +56,14 @@ BakeScene::BakeScene(const Mesh& mesh, const MaterialSettings& material, double 
                             open_share * static_cast<double>(edges.edges);
     body_surface_ = std::make_unique<TracedSurface>(mesh, centre_, crease_deg);
     std::vector<const TracedSurface*> surfaces{body_surface_.get()};
-    if (material.kind == MaterialKind::diffuse) {
+    const MaterialKindRow& row = row_of(material.kind);
+    if (row.has_key("reflectance"))
         reflectance_ = Bins::of(reflectance_of(material.reflectance));
-    } else if (material.kind == MaterialKind::coated_conductor) {
+    if (model_->has_coat())
         check_coatable(edges, volume);
-        metal_ = ConductorTable(load_metal(material.metal), material.coat_ior);
+    if (row.has_key("metal"))
+        metal_ = ConductorTable(load_metal(material.metal), model_->has_coat() ? material.coat_ior : 1.0);
+    if (model_->has_coat()) {
         const CoatShape shape = coat_shape(material, half_height);
         coat_absorbance_ = Bins::of(absorbance_of(material.coat_absorbance));
         scale(coat_absorbance_, static_cast<float>(1.0 / shape.thickness));
@@ -69,8 +73,6 @@ BakeScene::BakeScene(const Mesh& mesh, const MaterialSettings& material, double 
             radius_ = std::max(radius_, glm::length(position));
         coat_body_ = std::make_unique<SurfaceTree>(surfaces);
         surfaces.push_back(coat_surface_.get());
-    } else {
-        metal_ = ConductorTable(load_metal(material.metal), 1.0);
     }
     tree_ = std::make_unique<SurfaceTree>(std::move(surfaces));
 }

@@ -11,6 +11,8 @@
 
 namespace overt {
 
+struct MaterialModel;
+
 /// Normals of faces that meet at no more than this angle run into one another.
 constexpr double default_crease_deg = 50.0;
 
@@ -27,7 +29,7 @@ class BakeScene {
     /// Numbers of the surfaces in tree().
     static constexpr int body = 0, coat = 1;
 
-    MaterialKind kind() const { return material_.kind; }
+    const MaterialModel& model() const { return *model_; }
     const MaterialSettings& material() const { return material_; }
     glm::dvec3 centre() const { return centre_; } ///< of the mesh; paths have their coordinates about it
     float radius() const { return radius_; }      ///< of a sphere about the centre that holds all surfaces
@@ -45,6 +47,7 @@ class BakeScene {
 
   private:
     MaterialSettings material_;
+    const MaterialModel* model_;
     glm::dvec3 centre_{0.0};
     float radius_ = 1.0f;
     bool is_closed_ = false;

@@ -1,11 +1,11 @@
 #include "render/bake/bake_settings.h"
 
 #include "experiment/base/error.h"
+#include "render/bake/material_model.h"
 
 namespace overt {
 
 BakeSettings settings_of(BakeQuality quality, MaterialKind material) {
-    const bool scatters = material == MaterialKind::rough_conductor || material == MaterialKind::diffuse;
     BakeSettings settings;
     switch (quality) {
     case BakeQuality::live:
@@ -19,7 +19,7 @@ BakeSettings settings_of(BakeQuality quality, MaterialKind material) {
         settings.samples = 16;
         break;
     case BakeQuality::standard:
-        settings.samples = scatters ? 256 : 64;
+        settings.samples = model_of(material).scatters ? 256 : 64;
         break;
     case BakeQuality::reference:
         settings.samples = 256;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/bake/microfacets.h"
+#include "render/bake/material_model.h"
 
 namespace overt {
 
@@ -50,7 +50,7 @@ bool goes_on(Bins& carried, float set_out, SampleSequence& sequence) {
 
 bool PathTracer::add_sample(const PathRay& from_eye, SampleSequence& sequence, Bins& sum) {
     ++rays_;
-    if (scene_->kind() == MaterialKind::coated_conductor) {
+    if (scene_->model().has_coat()) {
         if (scene_->body_tree().first_distance(from_eye, true) < 0.0f)
             return false;
         CoatedPath path{from_eye, Bins::filled(1.0f)};
@@ -66,7 +66,6 @@ bool PathTracer::add_sample(const PathRay& from_eye, SampleSequence& sequence, B
 
 void PathTracer::follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, Bins& sum) {
     Bins carried = Bins::filled(1.0f);
-    const float alpha = static_cast<float>(scene_->material().roughness);
     for (int event = 0; event < most_events; ++event) {
         glm::vec3 surface_normal = hit.triangle_normal, normal = hit.shading_normal;
         const bool from_behind = glm::dot(surface_normal, ray.direction) > 0.0f;
@@ -79,35 +78,11 @@ void PathTracer::follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, B
             ray.origin = hit.position - scene_->step_off() * surface_normal;
         } else {
             const glm::vec3 to_eye = -ray.direction;
-            normal = facing(normal, to_eye);
-            switch (scene_->kind()) {
-            case MaterialKind::rough_conductor: {
-                const NormalFrame frame(normal);
-                const glm::vec3 micro =
-                    frame.to_world(ggx_visible_normal(frame.to_local(to_eye), alpha, sequence.next_two()));
-                const float cosine = glm::dot(to_eye, micro);
-                const glm::vec3 out = 2.0f * cosine * micro - to_eye;
-                const float visible = ggx_visible_share(frame.to_local(out), alpha);
-                if (visible <= 0.0f)
-                    return; // met another of the small mirrors: light of two of them is not followed
-                scene_->metal().multiply_into(carried, cosine);
-                scale(carried, visible);
-                ray.direction = above(out, surface_normal);
-                break;
-            }
-            case MaterialKind::diffuse:
-                multiply(carried, scene_->reflectance());
-                ray.direction = above(NormalFrame(normal).to_world(cosine_direction(sequence.next_two())),
-                                      surface_normal);
-                break;
-            case MaterialKind::coated_conductor: // goes another way
-            case MaterialKind::smooth_conductor: {
-                const float cosine = glm::dot(to_eye, normal);
-                scene_->metal().multiply_into(carried, cosine);
-                ray.direction = above(glm::normalize(2.0f * cosine * normal - to_eye), surface_normal);
-                break;
-            }
-            }
+            const glm::vec3 onward =
+                scene_->model().scatter(*scene_, {to_eye, facing(normal, to_eye)}, sequence, carried);
+            if (onward == glm::vec3(0.0f))
+                return;
+            ray.direction = above(onward, surface_normal);
             ray.origin = hit.position + scene_->step_off() * surface_normal;
             if (!goes_on(carried, 1.0f, sequence))
                 return;

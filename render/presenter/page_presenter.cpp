@@ -33,7 +33,7 @@ std::size_t bytes_in(glm::ivec2 size_px, PixelFormat format) {
            bytes_per_pixel(format);
 }
 
-bool has_psync(OutputMode mode) { return mode == OutputMode::vpixx_m16 || mode == OutputMode::vpixx_c48; }
+bool has_colour_table(OutputMode mode) { return row_of(mode).shows == ShownLight::greys_by_table; }
 
 } // namespace
 
@@ -70,7 +70,7 @@ PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, 
         signal_.emplace(context, geometry.screen_px, last_step_->format());
         signal_target_.emplace(context, std::initializer_list<const Texture2D*>{&*signal_}, false);
     }
-    if (display.output == OutputMode::bits_plus_plus)
+    if (has_colour_table(display.output))
         colour_table_row_ = t_lock::row_of(encoder_.colour_table());
     onset_packet_ = t_lock::pulse(static_cast<std::uint16_t>(display.onset_trigger), 0.0, onset_pulse_ms);
     make_patch();
@@ -83,7 +83,7 @@ std::string PagePresenter::why_closed() const {
 
 void PagePresenter::check_depth() const {
     const int has = surface_->bits_per_channel();
-    const int needs = display_.output == OutputMode::native_10bit ? 10 : 8;
+    const int needs = row_of(display_.output).framebuffer_bits;
     if (has != needs) {
         throw GraphicsError(
             fmt::format("{} sends {} bits per channel, but the framebuffer of {} has {}: {}",
@@ -268,7 +268,7 @@ void PagePresenter::put_messages() noexcept {
              {geometry_.screen_px.x, rows});
         rows_are_dirty_ = false;
     }
-    if (display_.output == OutputMode::bits_plus_plus)
+    if (has_colour_table(display_.output))
         put_row(t_lock::colour_table_row, 0, colour_table_row_);
     if (has_psync(display_.output)) {
         const std::array<SignalPixel, 1> outputs{psync::outputs_pixel(outputs_)};

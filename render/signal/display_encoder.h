@@ -9,10 +9,12 @@
 
 #include "render/gl/gl_objects.h"
 #include "render/image/linear_image.h"
-#include "render/signal/level_table.h"
+#include "render/signal/row_levels.h"
 #include "render/signal/t_lock.h"
 
 namespace overt {
+
+struct ModeCoding;
 
 /// A rectangle of the screen.
 struct ScreenPatch {
@@ -47,19 +49,13 @@ class DisplayEncoder {
 
   private:
     using Row = std::vector<glm::dvec3>;
-    glm::dvec3 pair_at(const glm::dvec3* left) const;
-    const LevelTable& table_of(int channel) const {
-        return tables_[tables_.size() == 1 ? 0 : static_cast<std::size_t>(channel)];
-    }
-    int grey_level(const glm::dvec3& light) const;
     void encode_row(const Row& row, int width, std::byte* into) const;
 
     DisplaySettings display_;
+    const ModeCoding* coding_;
     bool leaves_last_step_;
-    int reach_px_;                     ///< of the filter, to each side of a pair
-    glm::dvec3 luminance_;             ///< share of each channel in the light of a grey mode
-    std::vector<LevelTable> tables_;   ///< of each channel, or one for all
-    std::array<double, 12> lanczos_{}; ///< weights of a pair's neighbourhood
+    int reach_px_; ///< of the filter, to each side of a pair
+    LevelTables tables_;
 };
 
 } // namespace overt

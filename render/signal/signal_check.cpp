@@ -24,7 +24,7 @@ SignalFindings check_row(const ReceivedLight& received, const SignalPrediction& 
         for (std::size_t channel = 0; channel < channels; ++channel) {
             if (light[channel] != last_light[channel]) {
                 last_light[channel] = light[channel];
-                last_signal[channel] = prediction.signal_of(channel, light[channel], received.highest);
+                last_signal[channel] = prediction.signal_of(channel, light[channel], received);
             }
             const double signal = last_signal[channel];
             const int level = levels[channel];
@@ -71,14 +71,13 @@ double worst_mean(const ReceivedLight& received, const SignalPrediction& predict
             for (std::size_t channel = 0; plain && channel < 3; ++channel) {
                 // What the eye takes in is light: the share of the higher level is that of the light's way
                 // between the light of both.
-                const double signal = prediction.signal_of(channel, light[channel], received.highest);
+                const double signal = prediction.signal_of(channel, light[channel], received);
                 const double low = std::min(std::floor(signal), received.highest - 1.0);
                 const auto light_of = [&](double level) {
                     double below = 0.0, above = 1.0; // inverted by halving: the signal is monotone
                     for (int i = 0; i < 60; ++i) {
                         const double middle = 0.5 * (below + above);
-                        (prediction.signal_of(channel, middle, received.highest) < level ? below : above) =
-                            middle;
+                        (prediction.signal_of(channel, middle, received) < level ? below : above) = middle;
                     }
                     return 0.5 * (below + above);
                 };

@@ -9,8 +9,7 @@ namespace overt {
 SignalPass::SignalPass(const GlContext& context, const DisplaySettings& display)
     : context_(&context), program_(context, "last step", embedded::encode_vert, embedded::signal_frag),
       no_attributes_(context), ranks_(context, glm::ivec2(dither_tile_px), PixelFormat::r32ui),
-      levels_(display.output == OutputMode::native_10bit ? 1023 : 255),
-      dithered_(display.dither != Dithering::none) {
+      mode_(row_of(display.output)), dithered_(display.dither != Dithering::none) {
     if (dithered_) {
         const std::vector<std::uint32_t> tile = make_dither_tile(display.dither);
         ranks_.upload(std::as_bytes(std::span(tile)));
@@ -28,7 +27,7 @@ void SignalPass::draw(const Texture2D& codes, const Framebuffer& target,
     program_.use();
     program_.set("codes", 0);
     program_.set("ranks", 1);
-    program_.set("levels", levels_);
+    program_.set("levels", mode_.levels);
     program_.set("dithered", dithered_ ? 1 : 0);
     program_.set("refresh", static_cast<int>(refresh & 4095));
     codes.bind(0);

@@ -12,11 +12,13 @@ namespace overt {
 
 class SignalPass {
   public:
-    /// For native_8bit or native_10bit.
+    /// For a mode that is not packed.
     SignalPass(const GlContext& context, const DisplaySettings& display);
 
     /// What it draws into.
-    PixelFormat format() const { return levels_ == 1023 ? PixelFormat::rgb10_a2 : PixelFormat::rgba8; }
+    PixelFormat format() const {
+        return mode_.framebuffer_bits == 10 ? PixelFormat::rgb10_a2 : PixelFormat::rgba8;
+    }
 
     /// Draws `codes` (RGBA16) into `target` of the same size. Every refresh has a dithering of its own; over
     /// 4096 in a row each pixel has the mean of its code. Allocates and throws nothing.
@@ -27,7 +29,7 @@ class SignalPass {
     ShaderProgram program_;
     VertexArray no_attributes_;
     Texture2D ranks_;
-    int levels_;
+    const OutputModeRow& mode_;
     bool dithered_;
 };
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/signal/mode_coding.h"
+#include "render/signal/signal_decoder.h"
+
 namespace overt {
 
 namespace {
@@ -20,7 +23,7 @@ double lanczos3(double t) {
 } // namespace
 
 SignalPrediction::SignalPrediction(const DisplaySettings& display, const ShownPicture& shown)
-    : display_(&display), shown_(shown) {
+    : display_(&display), coding_(&coding_of(display.output)), shown_(shown) {
     if (!display.characterisation)
         return;
     const auto& primaries = display.characterisation->primaries_xyz;
@@ -66,29 +69,14 @@ std::array<double, 3> SignalPrediction::pair_light_at(int pair, int y) const {
     return colour;
 }
 
+double SignalPrediction::luminance_at(int x, int y) const {
+    const auto [r, g, b] = light_at(x, y);
+    const auto [red, green, blue] = luminance_shares_;
+    return std::clamp(r * red + g * green + b * blue, 0.0, 1.0);
+}
+
 std::array<double, 3> SignalPrediction::shown_light_at(int x, int y) const {
-    std::array<double, 3> light{};
-    switch (display_->output) {
-    case OutputMode::native_8bit:
-    case OutputMode::native_10bit:
-        light = light_at(x, y);
-        break;
-    case OutputMode::color_plus_plus:
-    case OutputMode::vpixx_c48:
-        light = pair_light_at(x, y);
-        break;
-    case OutputMode::mono_plus_plus:
-    case OutputMode::vpixx_m16:
-    case OutputMode::bits_plus_plus: {
-        const auto [r, g, b] = light_at(x, y);
-        const auto [red, green, blue] = luminance_shares_;
-        double grey = std::clamp(r * red + g * green + b * blue, 0.0, 1.0);
-        if (display_->output == OutputMode::bits_plus_plus)
-            grey = std::floor(grey * 255.0 + 0.5) / 255.0;
-        light = {grey, grey, grey};
-        break;
-    }
-    }
+    std::array<double, 3> light = coding_->predict(*this, x, y);
     for (double& value : light)
         value = std::clamp(value, 0.0, 1.0);
     return light;
@@ -113,12 +101,10 @@ double SignalPrediction::grey_signal_of(double light) const {
     return high;
 }
 
-double SignalPrediction::signal_of(std::size_t channel, double light, int highest) const {
+double SignalPrediction::signal_of(std::size_t channel, double light, const ReceivedLight& received) const {
     if (!display_->characterisation)
-        return highest * (display_->gamma == 1.0 ? light : std::pow(light, 1.0 / display_->gamma));
-    const bool is_grey =
-        display_->output == OutputMode::mono_plus_plus || display_->output == OutputMode::vpixx_m16;
-    return highest * (is_grey ? grey_signal_of(light) : curves_[channel].signal_of(light));
+        return received.highest * (display_->gamma == 1.0 ? light : std::pow(light, 1.0 / display_->gamma));
+    return received.highest * (received.is_grey ? grey_signal_of(light) : curves_[channel].signal_of(light));
 }
 
 } // namespace overt

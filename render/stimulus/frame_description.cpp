@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiment/base/error.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "render/bake/frame_baker.h"
 
@@ -12,19 +13,30 @@ namespace {
 
 std::string text_of(glm::dvec3 vector) { return fmt::format("{} {} {}", vector.x, vector.y, vector.z); }
 
+std::string text_of(const std::string& text) { return text; }
+std::string text_of(const std::array<double, 3>& numbers) {
+    return fmt::format("[{}]", fmt::join(numbers, ", "));
+}
+template <class Number> std::string text_of(const Number& number) {
+    OVERT_EXPECTS(std::is_arithmetic_v<Number>); // no key of a material has another type
+    if constexpr (std::is_arithmetic_v<Number>)
+        return fmt::format("{}", number);
+    return {};
+}
+
+/// Its kind, and the keys that make a difference to it.
 std::string text_of(const MaterialSettings& material) {
-    std::string text = fmt::format("kind = {}", name_of(material.kind));
-    if (material.kind == MaterialKind::diffuse)
-        return text + fmt::format(", reflectance = [{}]", fmt::join(material.reflectance, ", "));
-    text += fmt::format(", metal = {}", material.metal);
-    if (material.kind == MaterialKind::rough_conductor)
-        text += fmt::format(", roughness = {}", material.roughness);
-    if (material.kind == MaterialKind::coated_conductor)
-        text +=
-            fmt::format(", coat_ior = {}, coat_absorbance = [{}], coat_thickness = {}, coat_bump = {}, "
-                        "coat_bump_width = {}, coat_seed = {}",
-                        material.coat_ior, fmt::join(material.coat_absorbance, ", "), material.coat_thickness,
-                        material.coat_bump, material.coat_bump_width, material.coat_seed);
+    const MaterialKindRow& row = row_of(material.kind);
+    std::string text = fmt::format("kind = {}", row.name);
+    const auto& keys = std::get<Section<MaterialSettings>>(protocol_sections()).keys;
+    for (const std::string_view name : row.keys) {
+        for (const Key<MaterialSettings>& key : keys) {
+            if (key.rule.name == name)
+                text += fmt::format(
+                    ", {} = {}", name,
+                    std::visit([&](auto member) { return text_of(material.*member); }, key.member));
+        }
+    }
     return text;
 }
 

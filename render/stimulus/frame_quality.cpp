@@ -3,25 +3,11 @@
 #include <fmt/format.h>
 
 #include "experiment/protocol/protocol_keys.h"
+#include "render/bake/material_model.h"
 
 namespace overt {
 
 namespace {
-
-/// Time of a path, that of a smooth metal being 1.
-double path_cost(MaterialKind material) {
-    switch (material) {
-    case MaterialKind::smooth_conductor:
-        return 1.0;
-    case MaterialKind::rough_conductor:
-        return 1.5;
-    case MaterialKind::coated_conductor:
-        return 7.8;
-    case MaterialKind::diffuse:
-        return 1.6;
-    }
-    return 1.0;
-}
 
 /// Compressing and writing a pixel, by the same measure.
 constexpr double writing_cost = 0.8;
@@ -57,7 +43,7 @@ double expected_cost(const FrameQuality& quality, const Protocol& protocol, Mate
     const BakeSettings settings = bake_settings(quality, protocol.bake, material);
     const double pixels = static_cast<double>(protocol.view.width_px) * protocol.view.height_px;
     const double paths = settings.samples / static_cast<double>(settings.pixel_step * settings.pixel_step);
-    return pixels * (paths * path_cost(material) + writing_cost);
+    return pixels * (paths * model_of(material).path_cost + writing_cost);
 }
 
 } // namespace overt

@@ -30,21 +30,13 @@ StimulusRenderer::StimulusRenderer(const GlContext& context, const LightSettings
 
 void StimulusRenderer::set_material(const MaterialSettings& material) {
     material_ = material;
-    switch (material.kind) {
-    case MaterialKind::rough_conductor:
-        mirrored_ = texture_of(*context_, blurred_by_ggx(probe_, material.roughness, {256, 128}));
-        break;
-    case MaterialKind::diffuse:
-        mirrored_ = texture_of(*context_, irradiance_over_pi(probe_, {64, 32}));
-        break;
-    case MaterialKind::coated_conductor:
-        // The bumps spread what the silver mirrors.
-        mirrored_ = texture_of(*context_, blurred_by_ggx(probe_, 0.05, {512, 256}));
-        break;
-    case MaterialKind::smooth_conductor:
-        mirrored_ = texture_of(*context_, probe_);
-        break;
-    }
+    live_ = &model_of(material.kind).live;
+    mirrored_ = texture_of(*context_, live_->mirrored(probe_, material));
+    const bool coated = live_->shading == LiveApproximation::Shading::coated_metal;
+    reflectance_ = live_->shading == LiveApproximation::Shading::matt
+                       ? glm::dvec3(material.reflectance[0], material.reflectance[1], material.reflectance[2])
+                       : linear_rec709_of(normal_reflectance(load_metal(material.metal),
+                                                             coated ? material.coat_ior : 1.0));
 }
 
 LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& scene, Degrees angle) {
@@ -56,8 +48,7 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     gl.ClearBufferfv(GL_COLOR, 0, nothing);
     gl.ClearBufferfv(GL_DEPTH, 0, &far);
 
-    const bool coated = material_.kind == MaterialKind::coated_conductor;
-    const bool diffuse = material_.kind == MaterialKind::diffuse;
+    using Shading = LiveApproximation::Shading;
     const double half_height = 0.5 * scene.bounds.extent().z;
     TurntablePose about_centre{glm::dvec3(0.0), angle};
     program_.use();
@@ -67,18 +58,11 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     program_.set("mirrored", 0);
     program_.set("sharp", 1);
     program_.set("soft", 2);
-    program_.set("reflectance", diffuse
-                                    ? glm::vec3(glm::dvec3(material_.reflectance[0], material_.reflectance[1],
-                                                           material_.reflectance[2]))
-                                    : glm::vec3(linear_rec709_of(normal_reflectance(
-                                          load_metal(material_.metal), coated ? material_.coat_ior : 1.0))));
-    program_.set("lobe_radius", diffuse ? 1.0f
-                                : material_.kind == MaterialKind::rough_conductor
-                                    ? static_cast<float>(2.0 * material_.roughness)
-                                    : 0.0f);
+    program_.set("reflectance", glm::vec3(reflectance_));
+    program_.set("lobe_radius", live_->lobe_radius(material_));
     program_.set("exposure", static_cast<float>(light_.exposure));
-    program_.set("is_diffuse", diffuse ? 1 : 0);
-    program_.set("is_coated", coated ? 1 : 0);
+    program_.set("is_diffuse", live_->shading == Shading::matt ? 1 : 0);
+    program_.set("is_coated", live_->shading == Shading::coated_metal ? 1 : 0);
     program_.set("coat_ior", static_cast<float>(material_.coat_ior));
     program_.set("coat_absorbance",
                  glm::vec3(glm::dvec3(material_.coat_absorbance[0], material_.coat_absorbance[1],

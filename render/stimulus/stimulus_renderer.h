@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "experiment/protocol/protocol.h"
+#include "render/bake/material_model.h"
 #include "render/gl/shader_program.h"
 #include "render/image/light_probe.h"
 #include "render/image/linear_image.h"
@@ -23,8 +24,8 @@ class StimulusRenderer {
     /// Throws InputError for the light probe, GraphicsError for the context.
     StimulusRenderer(const GlContext& context, const LightSettings& light, glm::ivec2 image_px);
 
-    /// Prepares the probe as this material mirrors it, for the draws that follow. Throws InputError for an
-    /// unknown metal.
+    /// Prepares the probe as this material mirrors it and reads its metal, for the draws that follow. Throws
+    /// InputError for an unknown metal.
     void set_material(const MaterialSettings& material);
 
     /// Linear display RGB, alpha = share of each pixel that the object covers. 2 x 2 samples a pixel, box
@@ -42,6 +43,8 @@ class StimulusRenderer {
     Texture2D soft_;
     std::optional<Texture2D> mirrored_;
     MaterialSettings material_;
+    const LiveApproximation* live_ = nullptr; ///< of the material
+    glm::dvec3 reflectance_{0.0};             ///< of a metal at normal incidence, or albedo
     Texture2D samples_;
     Framebuffer target_;
     ShaderProgram resolve_;

@@ -15,9 +15,6 @@ using Weight = ScreenFinding::Weight;
 /// GLFW rounds rates to whole hertz: 59.94 Hz may be 59 or 60.
 constexpr double rate_tolerance_hz = 1.0;
 
-/// Where each bit of the signal is read as it is.
-bool is_code(OutputMode mode) { return mode != OutputMode::native_8bit && mode != OutputMode::native_10bit; }
-
 /// The value an entry of 16 bits stands for in a table of so many entries.
 std::size_t level_of(std::uint16_t entry, std::size_t entries) {
     return static_cast<std::size_t>(entry) * entries / 65536;
@@ -30,13 +27,13 @@ ScreenFinding gamma_finding(const ScreenFacts& facts, const DisplaySettings& dis
         return {Weight::risk, "gamma table", found};
     if (is_identity(ramp.red) && is_identity(ramp.green) && is_identity(ramp.blue))
         return {Weight::good, "gamma table", found};
-    return {is_code(display.output) ? Weight::refusal : Weight::risk, "gamma table",
+    return {row_of(display.output).is_packed ? Weight::refusal : Weight::risk, "gamma table",
             found + ": take the colour profile and the night light off this screen "
                     "(xrandr --output NAME --gamma 1:1:1)"};
 }
 
 ScreenFinding depth_finding(const ScreenFacts& facts, const DisplaySettings& display) {
-    const int needed = display.output == OutputMode::native_10bit ? 10 : 8;
+    const int needed = row_of(display.output).framebuffer_bits;
     const std::string found = fmt::format("{} bits per channel", facts.bits_per_channel);
     if (facts.bits_per_channel == needed)
         return {Weight::good, "depth", found};

@@ -41,9 +41,10 @@ class PaintedExperiment {
         REQUIRE(experiment);
         const auto context = make_headless_context(ContextKind::osmesa);
         StimulusLibrary library(*context, experiment->protocol, experiment->sculptures, plain.cache());
-        library.prepare_maps(0, {});
+        library.maps().prepare_maps(0, {});
         for (int frame = 0; frame < experiment->protocol.animation.frame_count; ++frame) {
-            const TriangleMap map = read_triangle_map(library.map_file(0, library.poses().pose_of({frame})));
+            const TriangleMap map =
+                read_triangle_map(library.cache().map_file(0, library.cache().poses().pose_of({frame})));
             const int channels = alpha ? 4 : 3;
             std::vector<std::uint8_t> bytes;
             for (int y = 0; y < map.size_px.y; ++y) {

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "devices/display_box/display_plus_plus.h"
 #include "experiment/record/read/session_record.h"
 #include "tests/app/display/screen_box.h"
 #include "tests/app/small_experiment.h"
@@ -95,6 +96,13 @@ bool holds(const std::vector<std::string>& words, const std::string& word) {
 }
 
 } // namespace
+
+TEST_CASE("every output mode with T-Lock has a mode of the box, and no other has", "[unit]") {
+    for (const OutputModeRow& row : output_modes) {
+        CAPTURE(row.name);
+        CHECK(box_mode_called(row.name).has_value() == (row.top_rows == TopRows::t_lock));
+    }
+}
 
 TEST_CASE("a session on a screen switches the display box, relates its clock and switches it back",
           "[session]") {

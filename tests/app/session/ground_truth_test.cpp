@@ -9,10 +9,10 @@
 #include "devices/host/clocks.h"
 #include "devices/simulated/simulated_eye_tracker.h"
 #include "devices/simulated/simulated_response_panel.h"
-#include "render/gl/headless_context.h"
 #include "experiment/design/schedule.h"
 #include "experiment/record/tables/table_export.h"
 #include "experiment/session/session.h"
+#include "render/gl/headless_context.h"
 #include "render/vblank/display_surface.h"
 #include "tests/app/small_experiment.h"
 #include "tests/support/tsv_file.h"
@@ -56,7 +56,7 @@ class ExactSitting {
 
     /// Runs all trials and exports them; gives the export's folder.
     std::filesystem::path run() {
-        library.prepare_maps({});
+        library.maps().prepare_maps({});
         library.prepare_frames({});
         const SessionHeader header =
             make_session_header(protocol, schedule, experiment.sculptures, library, context->description(),

@@ -56,6 +56,19 @@ double single_scatter_share(double alpha) {
 
 } // namespace
 
+TEST_CASE("no kind of material gives more light than it gets, and none loses much of it", "[unit]") {
+    const test::WhiteMetal white;
+    for (const MaterialKindRow& row : material_kinds) {
+        CAPTURE(row.name);
+        MaterialSettings material = test::material_of(row.kind, white.file());
+        material.reflectance = {1.0, 1.0, 1.0};
+        material.coat_absorbance = {0.0, 0.0, 0.0};
+        const FurnaceResult lit = furnace(test::bust(), material, 8);
+        CHECK(lit.mean <= 1.001);
+        CHECK(lit.mean >= 0.95);
+    }
+}
+
 TEST_CASE("a metal that reflects all light is as bright as its surroundings everywhere", "[unit]") {
     const test::WhiteMetal white;
     const FurnaceResult smooth =

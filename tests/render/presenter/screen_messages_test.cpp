@@ -11,9 +11,10 @@ using namespace overt::test;
 TEST_CASE("a message stands in its row for the flip it belongs to, and is gone at the next", "[gl]") {
     for (const ContextKind kind : test::headless_kinds) {
         const auto context = make_headless_context(kind);
-        for (const OutputMode mode :
-             {OutputMode::mono_plus_plus, OutputMode::color_plus_plus, OutputMode::bits_plus_plus}) {
-            SignalBench bench(*context, mode, {{32, 32}, {100, 100}});
+        for (const OutputModeRow& row : output_modes) {
+            if (row.top_rows != TopRows::t_lock)
+                continue;
+            SignalBench bench(*context, row.mode, {{32, 32}, {100, 100}});
             PagePresenter& presenter = *bench.presenter;
             presenter.flip({1});
             CHECK(bench.messages().packets.empty());
@@ -33,7 +34,7 @@ TEST_CASE("a message stands in its row for the flip it belongs to, and is gone a
             CHECK(pulses[1].end_ms == Approx(3.0));
             // The picture is untouched by it, and the table of Bits++ is there each time.
             CHECK(bench.check(1, presenter.read_canvas()).different == 0);
-            CHECK(sent.tables.size() == (mode == OutputMode::bits_plus_plus ? 1 : 0));
+            CHECK(sent.tables.size() == (row.shows == ShownLight::greys_by_table ? 1 : 0));
             presenter.flip({1});
             const ReceivedMessages next = bench.messages();
             CHECK(next.packets.empty());
@@ -68,8 +69,11 @@ TEST_CASE("the onset trigger goes with the first refresh of each presentation, a
 TEST_CASE("the top left pixel raises a VPixx device's outputs for the first refresh of a presentation",
           "[gl]") {
     const auto context = make_headless_context(ContextKind::osmesa);
-    for (const OutputMode mode : {OutputMode::vpixx_m16, OutputMode::vpixx_c48}) {
-        SignalBench bench(*context, mode, {{32, 32}, {100, 100}}, {640, 300}, Dithering::none, 1.0, 0x8142a5);
+    for (const OutputModeRow& row : output_modes) {
+        if (row.top_rows != TopRows::psync)
+            continue;
+        SignalBench bench(*context, row.mode, {{32, 32}, {100, 100}}, {640, 300}, Dithering::none, 1.0,
+                          0x8142a5);
         for (int presentation = 0; presentation < 2; ++presentation) {
             bench.presenter->show({});
             CHECK(bench.messages().pixel_mode_outputs == 0);
@@ -89,8 +93,10 @@ TEST_CASE("the top left pixel raises a VPixx device's outputs for the first refr
 
 TEST_CASE("PSYNC counts the refreshes on a black row", "[gl]") {
     const auto context = make_headless_context(ContextKind::osmesa);
-    for (const OutputMode mode : {OutputMode::vpixx_m16, OutputMode::vpixx_c48}) {
-        SignalBench bench(*context, mode, {{32, 32}, {100, 100}});
+    for (const OutputModeRow& row : output_modes) {
+        if (row.top_rows != TopRows::psync)
+            continue;
+        SignalBench bench(*context, row.mode, {{32, 32}, {100, 100}});
         for (int refresh = 0; refresh < 300; ++refresh) {
             bench.presenter->flip({refresh % 3});
             if (refresh % 37 == 0)

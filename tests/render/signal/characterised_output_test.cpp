@@ -58,7 +58,7 @@ std::vector<std::byte> drawn(ContextKind kind, const DisplaySettings& display, c
                              glm::ivec2 image_px, glm::ivec2 origin_px) {
     const auto context = make_headless_context(kind);
     VirtualClock clock;
-    VirtualDisplay surface(*context, clock, 120.0, display.output == OutputMode::native_10bit ? 10 : 8);
+    VirtualDisplay surface(*context, clock, 120.0, row_of(display.output).framebuffer_bits);
     ScreenGeometry geometry;
     geometry.screen_px = {display.width_px, display.height_px};
     geometry.image_px = image_px;
@@ -124,10 +124,8 @@ TEST_CASE("light between levels keeps its mean where a curve begins flat", "[uni
 }
 
 TEST_CASE("in every mode a characterised display receives what is predicted", "[gl]") {
-    for (const OutputMode mode : {OutputMode::native_8bit, OutputMode::native_10bit,
-                                  OutputMode::mono_plus_plus, OutputMode::color_plus_plus,
-                                  OutputMode::bits_plus_plus, OutputMode::vpixx_m16, OutputMode::vpixx_c48}) {
-        DisplaySettings display = characterised(mode, {600, 200});
+    for (const OutputModeRow& row : output_modes) {
+        DisplaySettings display = characterised(row.mode, {600, 200});
         display.background = 0.2;
         class Pages final : public FrameSource {
           public:
@@ -139,7 +137,7 @@ TEST_CASE("in every mode a characterised display receives what is predicted", "[
         const LinearImage picture = random_picture({301, 160});
         const SignalScreen screen{{600, 200}, bytes};
         const SignalFindings found = check_signal(screen, display, {&picture, origin});
-        CAPTURE(static_cast<int>(mode), found.first);
+        CAPTURE(row.name, found.first);
         CHECK(found.different == 0);
         CHECK(found.compared >= 59100);
         // And not what another display would receive.

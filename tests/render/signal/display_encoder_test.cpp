@@ -263,13 +263,11 @@ TEST_CASE("whole pairs are sent as pairs that begin in the middle of a picture a
 }
 
 TEST_CASE("what a page takes is reckoned before any is drawn as the encoder has it", "[unit]") {
-    for (const OutputMode mode :
-         {OutputMode::native_8bit, OutputMode::native_10bit, OutputMode::mono_plus_plus,
-          OutputMode::color_plus_plus, OutputMode::vpixx_c48}) {
+    for (const OutputModeRow& row : output_modes) {
         for (const Dithering dither : {Dithering::none, Dithering::blue_noise}) {
             for (const int left : {0, 1, 37, 1920 - 201, 1920 - 200}) {
                 Protocol protocol;
-                protocol.display.output = mode;
+                protocol.display.output = row.mode;
                 protocol.display.dither = dither;
                 protocol.display.pair_filter = left % 2 == 0 ? PairFilter::lanczos : PairFilter::box;
                 protocol.view.width_px = 200;

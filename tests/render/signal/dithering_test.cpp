@@ -50,10 +50,12 @@ TEST_CASE("dithering keeps the mean of every 64 x 64 patch to half a code of 16 
     PlainLight pages(screen, light);
     for (const ContextKind kind : test::headless_kinds) {
         const auto context = make_headless_context(kind);
-        for (const OutputMode mode : {OutputMode::native_8bit, OutputMode::native_10bit}) {
+        for (const OutputModeRow& row : output_modes) {
+            if (row.is_packed)
+                continue;
             for (const Dithering dither : {Dithering::ordered, Dithering::blue_noise}) {
                 DisplaySettings settings;
-                settings.output = mode;
+                settings.output = row.mode;
                 settings.dither = dither;
                 settings.width_px = screen.x;
                 settings.height_px = screen.y;
@@ -61,7 +63,7 @@ TEST_CASE("dithering keeps the mean of every 64 x 64 patch to half a code of 16 
                 geometry.screen_px = geometry.image_px = screen;
                 geometry.image_origin_px = {0, 0};
                 VirtualClock clock;
-                VirtualDisplay display(*context, clock, 120.0, mode == OutputMode::native_10bit ? 10 : 8);
+                VirtualDisplay display(*context, clock, 120.0, row.framebuffer_bits);
                 PagePresenter presenter(*context, display, pages, geometry, settings, {});
                 presenter.load_frames({0, 0});
                 double worst = 0.0;
@@ -76,7 +78,7 @@ TEST_CASE("dithering keeps the mean of every 64 x 64 patch to half a code of 16 
                         worst = std::max(worst, found.largest_mean_error);
                     }
                 }
-                CAPTURE(static_cast<int>(mode), static_cast<int>(dither));
+                CAPTURE(row.name, static_cast<int>(dither));
                 CHECK(worst <= 0.5);
                 CHECK(worst > 0.0);
             }

@@ -12,11 +12,6 @@ using namespace overt::test;
 
 namespace {
 
-constexpr OutputMode every_mode[] = {OutputMode::native_8bit,    OutputMode::native_10bit,
-                                     OutputMode::mono_plus_plus, OutputMode::color_plus_plus,
-                                     OutputMode::bits_plus_plus, OutputMode::vpixx_m16,
-                                     OutputMode::vpixx_c48};
-
 void check_all_levels(GlContext& context, OutputMode mode, glm::ivec2 screen) {
     // 512 x 256 hold each level twice; the others stand at odd places, have odd sizes and touch the borders.
     const Spot places[] = {{{512, 256}, {64, 10}},
@@ -28,7 +23,7 @@ void check_all_levels(GlContext& context, OutputMode mode, glm::ivec2 screen) {
         for (int page = 0; page < 3; ++page) {
             bench.presenter->flip({page});
             const SignalFindings found = bench.check(page, bench.presenter->read_canvas());
-            CAPTURE(static_cast<int>(mode), place.image.x, page, found.first);
+            CAPTURE(name_of(mode), place.image.x, page, found.first);
             CHECK(found.compared > 0);
             CHECK(found.different == 0);
         }
@@ -41,19 +36,19 @@ TEST_CASE("all levels, random light and edges arrive as predicted, in every mode
           "[gl]") {
     for (const ContextKind kind : test::headless_kinds) {
         const auto context = make_headless_context(kind);
-        for (const OutputMode mode : every_mode)
-            check_all_levels(*context, mode, {640, 300});
+        for (const OutputModeRow& row : output_modes)
+            check_all_levels(*context, row.mode, {640, 300});
     }
 }
 
 TEST_CASE("all levels arrive in a window's back buffer, and a window of 8 bits is refused for 10", "[gl]") {
     const auto screen = test::VirtualScreen::start(640, 300, 24);
     WindowContext window({{640, 300}, "test"});
-    for (const OutputMode mode : every_mode) {
-        if (mode == OutputMode::native_10bit)
-            CHECK_THROWS_AS((SignalBench{window, mode, Spot{{8, 8}, {0, 8}}}), GraphicsError);
+    for (const OutputModeRow& row : output_modes) {
+        if (row.framebuffer_bits != 8)
+            CHECK_THROWS_AS((SignalBench{window, row.mode, Spot{{8, 8}, {0, 8}}}), GraphicsError);
         else
-            check_all_levels(window, mode, {640, 300});
+            check_all_levels(window, row.mode, {640, 300});
     }
 }
 
@@ -69,12 +64,12 @@ TEST_CASE("all levels arrive in a window of 10 bits, and the packed modes refuse
 
 TEST_CASE("with a display's exponent, too, every value is the predicted one", "[gl]") {
     const auto context = make_headless_context(ContextKind::osmesa);
-    for (const OutputMode mode : every_mode) {
+    for (const OutputModeRow& row : output_modes) {
         for (const double gamma : {0.45, 2.2}) {
-            SignalBench bench(*context, mode, {{512, 256}, {64, 10}}, {640, 300}, Dithering::none, gamma);
+            SignalBench bench(*context, row.mode, {{512, 256}, {64, 10}}, {640, 300}, Dithering::none, gamma);
             for (int page = 0; page < 2; ++page) {
                 const SignalFindings found = bench.check(page, bench.presenter->read_page(page));
-                CAPTURE(static_cast<int>(mode), gamma, found.first);
+                CAPTURE(row.name, gamma, found.first);
                 CHECK(found.different == 0);
             }
         }

@@ -43,11 +43,6 @@ class AllLevels final : public FrameSource {
     bool is_grey_;
 };
 
-inline bool is_grey(OutputMode mode) {
-    return mode == OutputMode::mono_plus_plus || mode == OutputMode::bits_plus_plus ||
-           mode == OutputMode::vpixx_m16;
-}
-
 struct Spot {
     glm::ivec2 image, origin;
 };
@@ -80,8 +75,7 @@ struct SignalBench {
         if (window)
             surface = std::make_unique<WindowDisplay>(*window, clock, 120.0, true);
         else
-            surface = std::make_unique<VirtualDisplay>(context, clock, 120.0,
-                                                       mode == OutputMode::native_10bit ? 10 : 8);
+            surface = std::make_unique<VirtualDisplay>(context, clock, 120.0, row_of(mode).framebuffer_bits);
         presenter = std::make_unique<PagePresenter>(context, *surface, pages, geometry, settings, screens);
         presenter->load_frames({0, 0});
     }

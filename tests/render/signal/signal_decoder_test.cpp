@@ -175,14 +175,15 @@ TEST_CASE("random pictures of any size at any place arrive as predicted, in ever
     const Place places[] = {{{64, 20}, {8, 4}}, {{63, 17}, {9, 5}},  {{1, 1}, {101, 3}},
                             {{3, 9}, {0, 3}},   {{77, 11}, {53, 4}}, {{130, 25}, {0, 3}}};
     std::uint64_t seed = 1;
-    for (const OutputMode mode :
-         {OutputMode::native_8bit, OutputMode::mono_plus_plus, OutputMode::color_plus_plus,
-          OutputMode::vpixx_m16, OutputMode::vpixx_c48}) {
+    for (const OutputModeRow& row : output_modes) {
+        // The others need more than the encoder's bytes: a table of colours, or the last step on the card.
+        if (row.shows == ShownLight::greys_by_table || row.framebuffer_bits > 8)
+            continue;
         for (const PairFilter filter : {PairFilter::box, PairFilter::lanczos}) {
             for (const double gamma : {1.0, 2.2}) {
                 for (const Place& place : places) {
                     DisplaySettings display;
-                    display.output = mode;
+                    display.output = row.mode;
                     display.pair_filter = filter;
                     display.gamma = gamma;
                     display.background = 0.3;
@@ -192,7 +193,7 @@ TEST_CASE("random pictures of any size at any place arrive as predicted, in ever
                     const Bytes bytes = encoded_screen(display, picture, place.origin);
                     const SignalScreen screen{{display.width_px, display.height_px}, bytes};
                     const SignalFindings found = check_signal(screen, display, {&picture, place.origin});
-                    CAPTURE(static_cast<int>(mode), gamma, place.size.x, place.origin.x, found.first);
+                    CAPTURE(row.name, gamma, place.size.x, place.origin.x, found.first);
                     CHECK(found.different == 0);
                     CHECK(found.compared > 0);
                 }

@@ -1,4 +1,4 @@
-#include "app/display/patch_stage.h"
+#include "app/display/patch_display.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,14 +8,12 @@
 
 #include "experiment/base/error.h"
 #include "experiment/protocol/protocol_keys.h"
-#include "render/gl/headless_context.h"
 #include "render/signal/signal_decoder.h"
-#include "render/window/window_system.h"
 
 namespace overt {
 
 /// One picture of one colour at a time.
-class PatchStage::Page final : public FrameSource {
+class PatchDisplay::Page final : public FrameSource {
   public:
     explicit Page(glm::ivec2 size_px) : size_px_(size_px) {}
     void set(const glm::dvec3& signal) { signal_ = glm::vec3(signal); }
@@ -34,7 +32,7 @@ class PatchStage::Page final : public FrameSource {
 namespace {
 
 /// Where the patch stands: all of the screen below the rows that speak to the display, or its middle.
-ScreenGeometry geometry_of(const PatchStageRequest& request) {
+ScreenGeometry geometry_of(const PatchDisplayRequest& request) {
     const DisplaySettings& display = request.display;
     ScreenGeometry geometry;
     geometry.screen_px = {display.width_px, display.height_px};
@@ -60,11 +58,6 @@ ScreenGeometry geometry_of(const PatchStageRequest& request) {
     return geometry;
 }
 
-bool shows_colours(OutputMode mode) {
-    return mode == OutputMode::native_8bit || mode == OutputMode::native_10bit ||
-           mode == OutputMode::color_plus_plus || mode == OutputMode::vpixx_c48;
-}
-
 DisplaySettings without_curves(DisplaySettings display, double surround) {
     display.gamma = 1.0;
     display.characterisation.reset();
@@ -74,57 +67,52 @@ DisplaySettings without_curves(DisplaySettings display, double surround) {
     return display;
 }
 
-} // namespace
-
-PatchStage::PatchStage(const PatchStageRequest& request)
-    : mode_(request.display.output), geometry_(geometry_of(request)) {
-    if (!shows_colours(mode_))
-        throw InputError(fmt::format("{} shows greys only, and the channels are measured one at a time: take "
-                                     "--mode color++ or vpixx-c48, in which the same display has the same "
-                                     "curves.",
-                                     name_of(mode_)));
-    const DisplaySettings display = without_curves(request.display, request.surround);
-    const int bits = mode_ == OutputMode::native_10bit ? 10 : 8;
-    if (request.virtual_time)
-        clock_ = std::make_unique<VirtualClock>();
-    else
-        clock_ = std::make_unique<SteadyClock>();
-    if (request.context ? *request.context == ContextKind::window
-                        : !request.virtual_time && display_is_available()) {
-        WindowRequest window;
-        window.size_px = geometry_.screen_px;
-        window.title = "overt display characterise";
-        window.fullscreen = !request.windowed && !request.virtual_time;
-        window.bits_per_channel = bits;
-        window.monitor = request.monitor;
-        auto context = std::make_unique<WindowContext>(window);
-        window_ = context.get();
-        surface_ =
-            std::make_unique<WindowDisplay>(*context, *clock_, display.refresh_hz, request.virtual_time);
-        context_ = std::move(context);
-    } else {
-        context_ = make_headless_context(request.context);
-        surface_ = std::make_unique<VirtualDisplay>(*context_, *clock_, display.refresh_hz, bits);
-    }
-    page_ = std::make_unique<Page>(geometry_.image_px);
-    presenter_ =
-        std::make_unique<PagePresenter>(*context_, *surface_, *page_, geometry_, display, ScreenSettings{});
+/// Throws InputError for a mode that shows greys only.
+DisplayRequest display_of(const PatchDisplayRequest& request) {
+    const DisplaySettings& display = request.display;
+    if (is_grey(display.output))
+        throw InputError(fmt::format(
+            "{} shows greys only, and the channels are measured one at a time: take --mode {}, in which "
+            "the same display has the same curves.",
+            name_of(display.output), listed(names_of_modes([](const OutputModeRow& row) {
+                return row.is_packed && row.shows == ShownLight::colours;
+            }))));
+    return {.context = request.context,
+            .size_px = {display.width_px, display.height_px},
+            .title = "overt display characterise",
+            .refresh_hz = display.refresh_hz,
+            .bits_per_channel = row_of(display.output).framebuffer_bits,
+            .virtual_time = request.virtual_time,
+            .windowed = request.windowed,
+            .monitor = request.monitor,
+            .headless = request.virtual_time};
 }
 
-PatchStage::~PatchStage() = default;
+} // namespace
 
-glm::dvec3 PatchStage::show(const glm::dvec3& signal, double seconds) {
+PatchDisplay::PatchDisplay(const PatchDisplayRequest& request)
+    : mode_(request.display.output), geometry_(geometry_of(request)), display_(display_of(request)) {
+    display_.start();
+    page_ = std::make_unique<Page>(geometry_.image_px);
+    presenter_ =
+        std::make_unique<PagePresenter>(display_.context(), display_.surface(), *page_, geometry_,
+                                        without_curves(request.display, request.surround), ScreenSettings{});
+}
+
+PatchDisplay::~PatchDisplay() = default;
+
+glm::dvec3 PatchDisplay::show(const glm::dvec3& signal, double seconds) {
     page_->set(signal);
     presenter_->load_frames({shown_++, 0});
-    const SessionTime end = clock_->now() + from_seconds(seconds);
+    const SessionTime end = display_.clock().now() + from_seconds(seconds);
     // In refreshes, so that the window stays alive.
     do {
         presenter_->flip({0});
-    } while (clock_->now() < end && !is_cancelled());
+    } while (display_.clock().now() < end && !is_cancelled());
     return received_signal();
 }
 
-glm::dvec3 PatchStage::received_signal() const {
+glm::dvec3 PatchDisplay::received_signal() const {
     const std::vector<std::byte> bytes = presenter_->read_canvas();
     const glm::ivec2 middle = geometry_.image_origin_px + geometry_.image_px / 2;
     const auto stride = static_cast<std::size_t>(4 * geometry_.screen_px.x);
@@ -135,11 +123,11 @@ glm::dvec3 PatchStage::received_signal() const {
     return glm::dvec3(levels[0], levels[1], levels[2]) / static_cast<double>(light.highest);
 }
 
-bool PatchStage::is_cancelled() {
+bool PatchDisplay::is_cancelled() {
     WindowKeyPress press{};
-    while (window_ && window_->next_key_press(press))
+    while (display_.window() && display_.window()->next_key_press(press))
         is_cancelled_ = is_cancelled_ || press.key == WindowKey::escape;
-    is_cancelled_ = is_cancelled_ || surface_->closed();
+    is_cancelled_ = is_cancelled_ || display_.surface().closed();
     return is_cancelled_;
 }
 

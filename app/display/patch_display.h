@@ -4,15 +4,12 @@
 #include <memory>
 #include <optional>
 
-#include "app/cli/context_choice.h"
-#include "devices/host/clocks.h"
+#include "app/rig/open_display.h"
 #include "render/presenter/page_presenter.h"
-#include "render/vblank/display_surface.h"
-#include "render/window/window_context.h"
 
 namespace overt {
 
-struct PatchStageRequest {
+struct PatchDisplayRequest {
     DisplaySettings display; ///< gamma, characterisation and background have no part in it
     ContextChoice context;
     bool virtual_time = false;
@@ -23,12 +20,12 @@ struct PatchStageRequest {
 };
 
 /// The whole way to the display without its last curve: what is shown is the signal itself.
-class PatchStage {
+class PatchDisplay {
   public:
     /// Opens the display. Throws GraphicsError, and InputError for an output that shows greys only or a patch
     /// that is larger than the screen.
-    explicit PatchStage(const PatchStageRequest& request);
-    ~PatchStage();
+    explicit PatchDisplay(const PatchDisplayRequest& request);
+    ~PatchDisplay();
 
     /// Shows a signal of 0 … 1 in red, green and blue for so long, and gives the signal that the display
     /// received, read back from where it takes it and decoded: a level of the mode's.
@@ -42,11 +39,8 @@ class PatchStage {
     glm::dvec3 received_signal() const;
 
     OutputMode mode_;
-    std::unique_ptr<GlContext> context_;
-    WindowContext* window_ = nullptr; ///< the same, if it is one
-    std::unique_ptr<Clock> clock_;
-    std::unique_ptr<DisplaySurface> surface_;
     ScreenGeometry geometry_;
+    OpenDisplay display_;
     std::unique_ptr<Page> page_;
     std::unique_ptr<PagePresenter> presenter_;
     int shown_ = 0;

@@ -1,0 +1,48 @@
+/// The kinds of material. What the renderers make of each is in render/bake/material_model.h.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace overt {
+
+/// The number of a kind is in the keys of all its frames in the cache: new ones come last.
+enum class MaterialKind : std::uint8_t { smooth_conductor, rough_conductor, coated_conductor, diffuse };
+
+struct MaterialKindRow {
+    MaterialKind kind;
+    std::string_view name; ///< in a protocol
+    /// The keys of [[material]] that make a difference to it, besides id, title and kind; empty behind the
+    /// last.
+    std::array<std::string_view, 8> keys;
+
+    constexpr bool has_key(std::string_view key) const { return std::ranges::find(keys, key) != keys.end(); }
+};
+
+/// All kinds, in the order of MaterialKind.
+inline constexpr auto material_kinds = std::to_array<MaterialKindRow>({
+    {MaterialKind::smooth_conductor, "smooth-conductor", {"metal"}},
+    {MaterialKind::rough_conductor, "rough-conductor", {"metal", "roughness"}},
+    {MaterialKind::coated_conductor,
+     "coated-conductor",
+     {"metal", "coat_ior", "coat_absorbance", "coat_thickness", "coat_bump", "coat_bump_width", "coat_seed"}},
+    {MaterialKind::diffuse, "diffuse", {"reflectance"}},
+});
+
+constexpr const MaterialKindRow& row_of(MaterialKind kind) {
+    return material_kinds[static_cast<std::size_t>(kind)];
+}
+
+static_assert([] {
+    for (std::size_t i = 0; i < material_kinds.size(); ++i) {
+        if (material_kinds[i].kind != static_cast<MaterialKind>(i))
+            return false;
+    }
+    return true;
+}());
+
+constexpr std::string_view name_of(MaterialKind kind) { return row_of(kind).name; }
+
+} // namespace overt

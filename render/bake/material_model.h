@@ -1,0 +1,47 @@
+/// What the renderers make of each kind of material. What else there is to know of a kind is in its row of
+/// experiment/protocol/material_kind.h.
+#pragma once
+
+#include "experiment/protocol/protocol.h"
+#include "render/bake/sample_sequence.h"
+#include "render/bake/spectral_bins.h"
+#include "render/image/light_probe.h"
+
+namespace overt {
+
+class BakeScene;
+
+/// Where a path from the eye meets a surface, seen from its front.
+struct SurfaceEvent {
+    glm::vec3 to_eye{0.0f};
+    glm::vec3 normal{0.0f}; ///< for shading; faces the eye
+};
+
+/// What the shader of live frames is told (stimulus.frag).
+struct LiveApproximation {
+    enum class Shading : std::uint8_t { metal, coated_metal, matt } shading;
+    /// The probe as this material mirrors it.
+    LightProbe (*mirrored)(const LightProbe& probe, const MaterialSettings& material);
+    /// Half-angle in radians over which it gathers light.
+    float (*lobe_radius)(const MaterialSettings& material);
+};
+
+struct MaterialModel {
+    /// Gives the direction in which a path goes on from a surface, and takes from `carried` what the surface
+    /// does not send on; (0, 0, 0) ends the path. Null: the body is a smooth metal under a coat (PathTracer).
+    glm::vec3 (*scatter)(const BakeScene& scene, const SurfaceEvent& event, SampleSequence& sequence,
+                         Bins& carried);
+
+    bool scatters;    ///< no two samples go the same way: a picture needs more of them
+    double path_cost; ///< time of a path, that of a smooth metal being 1
+    LiveApproximation live;
+
+    bool has_coat() const { return scatter == nullptr; }
+};
+
+/// The model of a kind: defined once for each, in material_….cpp. A kind without one does not link.
+template <MaterialKind kind> const MaterialModel& material_model();
+
+const MaterialModel& model_of(MaterialKind kind);
+
+} // namespace overt

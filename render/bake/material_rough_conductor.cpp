@@ -1,0 +1,42 @@
+/// Brushed metal: a crowd of small mirrors.
+#include "render/bake/bake_scene.h"
+#include "render/bake/material_model.h"
+#include "render/bake/microfacets.h"
+
+namespace overt {
+
+namespace {
+
+glm::vec3 scatter(const BakeScene& scene, const SurfaceEvent& event, SampleSequence& sequence,
+                  Bins& carried) {
+    const float alpha = static_cast<float>(scene.material().roughness);
+    const NormalFrame frame(event.normal);
+    const glm::vec3 micro =
+        frame.to_world(ggx_visible_normal(frame.to_local(event.to_eye), alpha, sequence.next_two()));
+    const float cosine = glm::dot(event.to_eye, micro);
+    const glm::vec3 out = 2.0f * cosine * micro - event.to_eye;
+    const float visible = ggx_visible_share(frame.to_local(out), alpha);
+    if (visible <= 0.0f)
+        return glm::vec3(0.0f); // met another of the small mirrors: light of two of them is not followed
+    scene.metal().multiply_into(carried, cosine);
+    scale(carried, visible);
+    return out;
+}
+
+LightProbe mirrored(const LightProbe& probe, const MaterialSettings& material) {
+    return blurred_by_ggx(probe, material.roughness, {256, 128});
+}
+
+float lobe_radius(const MaterialSettings& material) { return static_cast<float>(2.0 * material.roughness); }
+
+} // namespace
+
+template <> const MaterialModel& material_model<MaterialKind::rough_conductor>() {
+    static constexpr MaterialModel model{.scatter = scatter,
+                                         .scatters = true,
+                                         .path_cost = 1.5,
+                                         .live = {LiveApproximation::Shading::metal, mirrored, lobe_radius}};
+    return model;
+}
+
+} // namespace overt

@@ -1,0 +1,98 @@
+#include "render/stimulus/frame_maker.h"
+
+#include <exception>
+
+#include "experiment/base/whole_file.h"
+#include "render/stimulus/frame_description.h"
+
+namespace overt {
+
+void FrameMaker::make_frames(std::span<const Condition> conditions, const FrameQuality& quality,
+                             const Progress& progress) {
+    double all = 0.0, done = 0.0;
+    int count = 0, frames = 0;
+    const auto cost_of = [&](const Condition& condition) {
+        return quality.is_live()
+                   ? 1.0
+                   : expected_cost(quality, cache_->protocol(), cache_->material_of(condition).kind);
+    };
+    for (const Condition& condition : conditions) {
+        remove_abandoned_files(cache_->frame_file_of(condition, quality, {0}).parent_path());
+        const auto missing = static_cast<int>(cache_->missing_frames(condition, quality).size());
+        all += missing * cost_of(condition);
+        count += missing;
+    }
+    const std::string what = quality.is_live() ? "drawing frames" : "rendering previews";
+    // While one frame is compressed and written, the next is made.
+    std::future<void> writing;
+    // The tracer's threads hear from a progress that throws only that they are to stop.
+    std::exception_ptr stopped;
+    for (const Condition& condition : conditions) {
+        for (const PoseIndex pose : cache_->missing_frames(condition, quality)) {
+            const double cost = cost_of(condition);
+            const auto tell = [&](double share_of_frame) {
+                try {
+                    if (progress)
+                        progress(what, frames, count, (done + share_of_frame * cost) / all);
+                } catch (...) {
+                    stopped = std::current_exception();
+                }
+                return !stopped;
+            };
+            if (!tell(0.0))
+                std::rethrow_exception(stopped);
+            if (quality.is_live()) {
+                draw_live_frame(condition, pose, quality, writing);
+            } else {
+                SpectralFrame frame = trace(condition, pose, quality, tell);
+                if (writing.valid())
+                    writing.get();
+                if (stopped)
+                    std::rethrow_exception(stopped);
+                writing = std::async(std::launch::async,
+                                     [this, condition, pose, quality, frame = std::move(frame)] {
+                                         cache_->store(condition, pose, quality, frame);
+                                     });
+            }
+            done += cost;
+            ++frames;
+        }
+    }
+    if (writing.valid())
+        writing.get();
+    if (progress && count > 0)
+        progress(what, count, count, 1.0);
+}
+
+void FrameMaker::draw_live_frame(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
+                                 std::future<void>& writing) {
+    const Sculpture& sculpture = cache_->sculpture_of(condition);
+    const MaterialSettings& material = cache_->material_of(condition);
+    const std::filesystem::path file = cache_->frame_file_of(condition, quality, pose);
+    std::filesystem::create_directories(file.parent_path());
+    if (!renderer_)
+        renderer_.emplace(*context_, cache_->protocol().light, sculpture.scene.view.image_px);
+    if (live_material_ != condition.material)
+        renderer_->set_material(material);
+    live_material_ = condition.material;
+    const Degrees angle = cache_->angle_of(pose);
+    LinearImage image = renderer_->draw(maps_->buffers_of(condition.sculpture, true), sculpture.scene, angle);
+    if (writing.valid())
+        writing.get();
+    ImageAttributes attributes = describe_stimulus(cache_->protocol(), sculpture, material, angle);
+    attributes.emplace_back("overt:renderer", "OpenGL");
+    writing =
+        std::async(std::launch::async, [file, image = std::move(image), attributes = std::move(attributes)] {
+            write_linear_exr(file, image, attributes);
+        });
+}
+
+SpectralFrame FrameMaker::trace(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
+                                const BakeProgress& progress) {
+    maps_->draw_missing_map(condition.sculpture, pose);
+    return tracer_.trace(
+        condition, cache_->angle_of(pose), read_triangle_map(cache_->map_file(condition.sculpture, pose)),
+        bake_settings(quality, cache_->protocol().bake, cache_->material_of(condition).kind), progress);
+}
+
+} // namespace overt

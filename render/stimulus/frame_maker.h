@@ -1,0 +1,41 @@
+/// Makes the frames that the cache lacks.
+#pragma once
+
+#include <future>
+#include <optional>
+
+#include "render/stimulus/frame_tracer.h"
+#include "render/stimulus/map_maker.h"
+#include "render/stimulus/stimulus_renderer.h"
+
+namespace overt {
+
+class FrameMaker {
+  public:
+    /// All must outlive the maker, which is used on the context's thread.
+    FrameMaker(const GlContext& context, const StimulusCache& cache, MapMaker& maps)
+        : context_(&context), cache_(&cache), maps_(&maps), tracer_(cache.protocol(), cache.sculptures()) {}
+
+    /// Makes the frames of these stimuli that the cache lacks and puts them there. Throws InputError,
+    /// GraphicsError, RecordError.
+    void make_frames(std::span<const Condition> conditions, const FrameQuality& quality,
+                     const Progress& progress);
+
+    /// Traces one frame, drawing its map before if the cache lacks it; the cache does not get it. Not
+    /// complete if `progress` stopped it.
+    SpectralFrame trace(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
+                        const BakeProgress& progress);
+
+  private:
+    void draw_live_frame(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
+                         std::future<void>& writing);
+
+    const GlContext* context_;
+    const StimulusCache* cache_;
+    MapMaker* maps_;
+    FrameTracer tracer_;
+    std::optional<StimulusRenderer> renderer_;
+    int live_material_ = -1; ///< that the renderer is prepared for
+};
+
+} // namespace overt

@@ -1,0 +1,103 @@
+#include "render/stimulus/map_maker.h"
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/base/parallel.h"
+#include "experiment/maps/coordinate_image_file.h"
+#include "render/stimulus/given_maps.h"
+
+namespace overt {
+
+void MapMaker::prepare_given_maps(const Progress& progress) {
+    const int count = static_cast<int>(cache_->poses().angles.size());
+    for (int sculpture = 0; sculpture < static_cast<int>(cache_->sculptures().size()); ++sculpture) {
+        if (!cache_->has_given_maps(sculpture))
+            continue;
+        const std::string what =
+            "reading the maps of " + cache_->sculptures()[static_cast<std::size_t>(sculpture)].id;
+        if (progress)
+            progress(what, 0, count, 0.0);
+        parallel_for(count, [&](int pose) {
+            const std::filesystem::path file = cache_->map_file(sculpture, {pose});
+            if (std::filesystem::exists(file))
+                return;
+            const CoordinateImageFile map = read_given_map(cache_->protocol(), sculpture,
+                                                           first_frame_of(cache_->poses(), PoseIndex{pose}));
+            std::filesystem::create_directories(file.parent_path());
+            write_coordinate_exr(file, map.image, map.description);
+        });
+        if (progress)
+            progress(what, count, count, 1.0);
+    }
+}
+
+void MapMaker::prepare_maps(const Progress& progress) {
+    for (int sculpture = 0; sculpture < static_cast<int>(cache_->sculptures().size()); ++sculpture) {
+        if (cache_->sculptures()[static_cast<std::size_t>(sculpture)].has_mesh())
+            prepare_maps(sculpture, progress);
+    }
+}
+
+void MapMaker::prepare_maps(int sculpture, const Progress& progress) {
+    const std::string what = "mapping " + cache_->sculptures()[static_cast<std::size_t>(sculpture)].id;
+    const int count = static_cast<int>(cache_->poses().angles.size());
+    bool drew = false;
+    for (int pose = 0; pose < count; ++pose) {
+        if (progress && !std::filesystem::exists(cache_->map_file(sculpture, {pose})))
+            progress(what, pose, count, static_cast<double>(pose) / count);
+        drew = draw_missing_map(sculpture, {pose}) || drew;
+    }
+    if (drew && progress)
+        progress(what, count, count, 1.0);
+}
+
+bool MapMaker::draw_missing_map(int sculpture, PoseIndex pose) {
+    const std::filesystem::path file = cache_->map_file(sculpture, pose);
+    if (std::filesystem::exists(file))
+        return false;
+    const Sculpture& figure = cache_->sculptures()[static_cast<std::size_t>(sculpture)];
+    const Degrees angle = cache_->angle_of(pose);
+    std::filesystem::create_directories(file.parent_path());
+    const TriangleMap map = draw_map(sculpture, pose);
+    if (map.covered_pixels() == 0) {
+        throw InputError(fmt::format(
+            "sculpture «{}» is nowhere in the picture at {:.3g} degrees: correct the camera under [view]",
+            figure.id, angle.value));
+    }
+    const Camera& camera = figure.scene.view.camera;
+    write_triangle_map(
+        file, map,
+        {{"mesh_sha256", figure.mesh_hash},
+         {"angle_deg", fmt::format("{}", angle.value)},
+         {"camera_position",
+          fmt::format("{} {} {}", camera.position.x, camera.position.y, camera.position.z)},
+         {"camera_target", fmt::format("{} {} {}", camera.target.x, camera.target.y, camera.target.z)},
+         {"camera_vertical_fov_deg", fmt::format("{}", camera.vertical_fov.value)}});
+    return true;
+}
+
+TriangleMap MapMaker::draw_map(int sculpture, PoseIndex pose) {
+    const SceneView& scene = cache_->sculptures()[static_cast<std::size_t>(sculpture)].scene;
+    if (!coordinate_pass_)
+        coordinate_pass_.emplace(*context_, scene.view.image_px);
+    return {scene.view.image_px,
+            coordinate_pass_->draw(buffers_of(sculpture, false), scene, cache_->angle_of(pose))};
+}
+
+const MeshBuffers& MapMaker::buffers_of(int sculpture, bool for_light) {
+    if (buffered_sculpture_ != sculpture || (for_light && !buffered_for_light_)) {
+        const Mesh& mesh = cache_->sculptures()[static_cast<std::size_t>(sculpture)].mesh;
+        buffers_.reset();
+        if (for_light) {
+            buffers_.emplace(*context_, mesh, openness_of_vertices(mesh));
+        } else {
+            buffers_.emplace(*context_, mesh);
+        }
+        buffered_sculpture_ = sculpture;
+        buffered_for_light_ = for_light;
+    }
+    return *buffers_;
+}
+
+} // namespace overt

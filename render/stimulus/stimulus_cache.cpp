@@ -1,0 +1,160 @@
+#include "render/stimulus/stimulus_cache.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/maps/coordinate_image_file.h"
+#include "render/signal/display_light.h"
+#include "render/stimulus/frame_description.h"
+#include "render/stimulus/frame_key.h"
+#include "render/stimulus/given_maps.h"
+#include "render/stimulus/observed_colours.h"
+
+namespace overt {
+
+StimulusCache::StimulusCache(const Protocol& protocol, std::span<const Sculpture> sculptures,
+                             std::filesystem::path folder)
+    : protocol_(&protocol), sculptures_(sculptures), folder_(std::move(folder)),
+      poses_(distinct_poses(protocol.animation)), surroundings_(hash_of_surroundings(protocol.light)) {}
+
+std::vector<Condition> StimulusCache::rendered_stimuli() const {
+    std::vector<Condition> stimuli;
+    for (int sculpture = 0; sculpture < static_cast<int>(sculptures_.size()); ++sculpture) {
+        for (int material = 0; material < static_cast<int>(protocol_->materials.size()); ++material) {
+            if (!is_ready_made({sculpture, material}))
+                stimuli.push_back({sculpture, material});
+        }
+    }
+    return stimuli;
+}
+
+void StimulusCache::require_mesh(const Condition& condition) const {
+    const Sculpture& sculpture = sculpture_of(condition);
+    if (!sculpture.has_mesh()) {
+        throw InputError(fmt::format("{}, {}: there is neither a mesh to render nor [[frames]] to show",
+                                     protocol_->sculptures[static_cast<std::size_t>(condition.sculpture)].id,
+                                     material_of(condition).id));
+    }
+}
+
+std::vector<PoseIndex> StimulusCache::missing_frames(const Condition& condition,
+                                                     const FrameQuality& quality) const {
+    std::vector<PoseIndex> missing;
+    const ContentHash key = frame_key(condition, quality);
+    for (int pose = 0; pose < static_cast<int>(poses_.angles.size()); ++pose) {
+        if (!std::filesystem::exists(file_of("frames", key, {pose})))
+            missing.push_back({pose});
+    }
+    return missing;
+}
+
+std::optional<FrameQuality> StimulusCache::best_quality(std::span<const Condition> conditions,
+                                                        BakeQuality least) const {
+    std::vector<BakeQuality> levels{BakeQuality::reference, BakeQuality::standard, BakeQuality::draft,
+                                    BakeQuality::preview};
+    // Who asks for live frames gets live frames.
+    if (least == BakeQuality::live)
+        levels = {BakeQuality::live};
+    const auto has_all = [&](const FrameQuality& quality) {
+        return std::ranges::all_of(conditions, [&](const Condition& condition) {
+            return missing_frames(condition, quality).empty();
+        });
+    };
+    for (const BakeQuality level : levels) {
+        const FrameQuality quality = quality_of(level, protocol_->bake);
+        if (level >= least && has_all(quality))
+            return quality;
+    }
+    return std::nullopt;
+}
+
+std::filesystem::path StimulusCache::frame_file_of(const Condition& condition, const FrameQuality& quality,
+                                                   PoseIndex pose) const {
+    return file_of("frames", frame_key(condition, quality), pose);
+}
+
+ContentHash StimulusCache::frame_key(const Condition& condition, const FrameQuality& quality) const {
+    const Sculpture& sculpture = sculpture_of(condition);
+    const MaterialSettings& material = material_of(condition);
+    if (quality.is_live())
+        return live_key(sculpture, material, surroundings_, protocol_->light.exposure);
+    return traced_key(sculpture, material, surroundings_, protocol_->light.exposure,
+                      bake_settings(quality, protocol_->bake, material.kind), protocol_->bake.observer);
+}
+
+glm::dmat3 StimulusCache::display_from_frame(const FrameQuality& quality) const {
+    if (quality.is_live())
+        return display_from(PictureColours::rec709, protocol_->display);
+    return protocol_->light.exposure *
+           display_from(rendered_colours(protocol_->bake.observer), protocol_->display);
+}
+
+void StimulusCache::store(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
+                          const SpectralFrame& frame) const {
+    OVERT_EXPECTS(frame.is_complete);
+    const std::filesystem::path file = frame_file_of(condition, quality, pose);
+    std::filesystem::create_directories(file.parent_path());
+    const Degrees angle = angle_of(pose);
+    const MaterialSettings& material = material_of(condition);
+    ImageAttributes attributes = describe_stimulus(*protocol_, sculpture_of(condition), material, angle);
+    for (auto& attribute : describe_tracing(quality, *protocol_, material.kind))
+        attributes.push_back(std::move(attribute));
+    attributes.emplace_back("overt:key", frame_key(condition, quality));
+    write_linear_exr(file, seen_by(protocol_->bake.observer, frame), attributes);
+}
+
+bool StimulusCache::has_given_maps(int sculpture) const {
+    return !protocol_->sculptures[static_cast<std::size_t>(sculpture)].lut.empty();
+}
+
+std::filesystem::path StimulusCache::map_file(int sculpture, PoseIndex pose) const {
+    if (has_given_maps(sculpture)) {
+        return file_of("given_maps", hash_of_given_map(*protocol_, sculpture, first_frame_of(poses_, pose)),
+                       pose);
+    }
+    return file_of("maps", map_key(sculptures_[static_cast<std::size_t>(sculpture)]), pose);
+}
+
+SceneView StimulusCache::scene_of_given_maps(int sculpture) const {
+    SceneView scene;
+    scene.view.camera.vertical_fov.value = 0.0;
+    scene.view.image_px = {protocol_->view.width_px, protocol_->view.height_px};
+    const MapDescription first = read_map_description(map_file(sculpture, {0}));
+    if (first.camera)
+        scene.view.camera = *first.camera;
+    if (first.bounds) {
+        scene.bounds = *first.bounds;
+        return scene;
+    }
+    // Coordinates that need no box to be read: it is as large as what is seen.
+    scene.bounds = {glm::dvec3(std::numeric_limits<double>::infinity()),
+                    glm::dvec3(-std::numeric_limits<double>::infinity())};
+    for (int pose = 0; pose < static_cast<int>(poses_.angles.size()); ++pose) {
+        for (const glm::vec4& pixel : read_coordinate_image(map_file(sculpture, {pose})).image.pixels) {
+            if (pixel.w == 0.0f)
+                continue;
+            scene.bounds.min = glm::min(scene.bounds.min, glm::dvec3(pixel));
+            scene.bounds.max = glm::max(scene.bounds.max, glm::dvec3(pixel));
+        }
+    }
+    return scene;
+}
+
+CoordinateMaps StimulusCache::maps_of(int sculpture) const {
+    const Sculpture& figure = sculptures_[static_cast<std::size_t>(sculpture)];
+    OVERT_EXPECTS(figure.has_mesh());
+    std::vector<TriangleMap> maps;
+    for (int pose = 0; pose < static_cast<int>(poses_.angles.size()); ++pose)
+        maps.push_back(read_triangle_map(map_file(sculpture, {pose})));
+    return {figure.mesh, figure.scene, poses_.angles, std::move(maps)};
+}
+
+std::filesystem::path StimulusCache::file_of(std::string_view kind, const ContentHash& hash,
+                                             PoseIndex pose) const {
+    return folder_ / kind / hash.substr(0, 24) / fmt::format("{:+010.5f}deg.exr", angle_of(pose).value);
+}
+
+} // namespace overt

@@ -1,0 +1,94 @@
+/// The rendered frames and hidden maps of a protocol's stimuli on disk: kept by what they were made from, so
+/// that whoever wants the same finds them there.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "experiment/base/content_hash.h"
+#include "experiment/maps/coordinate_maps.h"
+#include "experiment/stimulus/sculpture.h"
+#include "experiment/trial.h"
+#include "render/bake/spectral_frame.h"
+#include "render/stimulus/frame_quality.h"
+
+namespace overt {
+
+/// Knows where everything lies and what is there, and writes and reads it; makes nothing. From any thread.
+class StimulusCache {
+  public:
+    /// `protocol` and `sculptures` must outlive the cache. `folder`: for frames and maps; shared by all
+    /// protocols, for each file is named by the hash of everything that made it. Throws InputError for a
+    /// light probe that cannot be read.
+    StimulusCache(const Protocol& protocol, std::span<const Sculpture> sculptures,
+                  std::filesystem::path folder);
+
+    const Protocol& protocol() const { return *protocol_; }
+    std::span<const Sculpture> sculptures() const { return sculptures_; }
+    const Sculpture& sculpture_of(const Condition& condition) const {
+        return sculptures_[static_cast<std::size_t>(condition.sculpture)];
+    }
+    const MaterialSettings& material_of(const Condition& condition) const {
+        return protocol_->materials[static_cast<std::size_t>(condition.material)];
+    }
+    const PoseTable& poses() const { return poses_; }
+    Degrees angle_of(PoseIndex pose) const { return poses_.angles[static_cast<std::size_t>(pose.value)]; }
+
+    /// The ready-made frames of a stimulus, or null if it is to be rendered.
+    const FrameSequenceSettings* sequence_of(const Condition& condition) const {
+        return find_frames(*protocol_, condition.sculpture, condition.material);
+    }
+    bool is_ready_made(const Condition& condition) const { return sequence_of(condition) != nullptr; }
+
+    /// All stimuli that are rendered.
+    std::vector<Condition> rendered_stimuli() const;
+
+    /// Throws InputError if a stimulus has neither a mesh to render nor [[frames]].
+    void require_mesh(const Condition& condition) const;
+
+    /// Poses of which there is no frame of that quality.
+    std::vector<PoseIndex> missing_frames(const Condition& condition, const FrameQuality& quality) const;
+
+    /// The best quality of which every frame of these stimuli is there, if it is no less than `least`.
+    std::optional<FrameQuality> best_quality(std::span<const Condition> conditions, BakeQuality least) const;
+
+    /// A frame's file: linear light without exposure, in rendered_colours(). Live ones are in Rec. 709 and
+    /// have the exposure.
+    std::filesystem::path frame_file_of(const Condition& condition, const FrameQuality& quality,
+                                        PoseIndex pose) const;
+
+    /// Everything that makes a stimulus's frames but the angle.
+    ContentHash frame_key(const Condition& condition, const FrameQuality& quality) const;
+
+    /// What turns a frame's file into the display's light; the exposure is in it.
+    glm::dmat3 display_from_frame(const FrameQuality& quality) const;
+
+    /// Writes a traced frame, which must be complete. Throws RecordError.
+    void store(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
+               const SpectralFrame& frame) const;
+
+    /// The sculpture has no mesh, but ready-made maps.
+    bool has_given_maps(int sculpture) const;
+
+    /// A map's file; only for a sculpture with a mesh, or ready-made maps.
+    std::filesystem::path map_file(int sculpture, PoseIndex pose) const;
+
+    /// The box of a sculpture with ready-made maps, and where the camera stood: the field of view is 0 if the
+    /// maps do not say. The maps must be there (MapMaker).
+    SceneView scene_of_given_maps(int sculpture) const;
+
+    /// All maps of a sculpture with a mesh. They must be there.
+    CoordinateMaps maps_of(int sculpture) const;
+
+  private:
+    std::filesystem::path file_of(std::string_view kind, const ContentHash& hash, PoseIndex pose) const;
+
+    const Protocol* protocol_;
+    std::span<const Sculpture> sculptures_;
+    std::filesystem::path folder_;
+    PoseTable poses_;
+    ContentHash surroundings_;
+};
+
+} // namespace overt
