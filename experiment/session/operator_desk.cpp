@@ -213,7 +213,7 @@ void OperatorDesk::calibrate() {
     stage_.show({});
     const ValidationResult result = stage_.ports.tracker.calibrate();
     stage_.note(validation_event, fmt::format("mean error {:.3f} deg, largest {:.3f} deg",
-                                          result.mean_error.value, result.max_error.value));
+                                              result.mean_error.value, result.max_error.value));
 }
 
 } // namespace overt

@@ -98,7 +98,7 @@ void TrialRun::check_drift(TrialOutcome& outcome) {
         stage_.note(drift_check_failed_event, "no eye was found");
     else if (outcome.drift->value > limit_deg)
         stage_.note(drift_check_failed_event, fmt::format("{:.3f} deg is more than the limit of {} deg",
-                                                      outcome.drift->value, limit_deg));
+                                                          outcome.drift->value, limit_deg));
 }
 
 void TrialRun::present(const Trial& trial, Attempt& attempt) {
@@ -223,7 +223,8 @@ void TrialRun::keep_answer(AnswerRecording& recording) {
         answer = recording.result();
     }
     if (!answer) {
-        stage_.note(answer_recording_event, "was not complete two seconds after its end: the file may be short");
+        stage_.note(answer_recording_event,
+                    "was not complete two seconds after its end: the file may be short");
         return;
     }
     for (const std::string& warning : warnings_about(*answer))
