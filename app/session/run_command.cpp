@@ -170,7 +170,8 @@ SessionStore::Options store_options(const RunOptions& options, const SessionPlan
 void note_circumstances(const RunOptions& options, const Protocol& protocol, const Schedule& schedule,
                         Rig& rig, SessionStore& store) {
     for (const ScreenFinding& finding : rig.screen_findings())
-        store.event({rig.clock().now(), -1, screen_event, fmt::format("{}: {}", finding.what, finding.finding)});
+        store.event(
+            {rig.clock().now(), -1, screen_event, fmt::format("{}: {}", finding.what, finding.finding)});
     if (options.verify_output) {
         ProgressBar bar;
         record_verification(rig.presenter(), rig.library(), protocol, schedule, rig.clock(), store,
