@@ -1,5 +1,6 @@
 #include "experiment/ports/event_kinds.h"
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
