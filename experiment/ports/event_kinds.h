@@ -1,5 +1,6 @@
-/// The kinds of events that a session's record has, by the words that stand in the record and in its exports. What is
-/// written under a name here is read by that name: a word that changes makes older sessions say something else.
+/// The kinds of events that a session's record has, by the words that stand in the record and in its exports.
+/// What is written under a name here is read by that name: a word that changes makes older sessions say
+/// something else.
 #pragma once
 
 #include <string_view>
@@ -32,9 +33,10 @@ inline constexpr std::string_view operator_asked_event = "operator asked"; ///< 
 inline constexpr std::string_view operator_answered_event = "operator answered";
 
 // Of the equipment.
-inline constexpr std::string_view validation_event = "validation"; ///< of a calibration: mean and largest error
-inline constexpr std::string_view screen_event = "screen";         ///< a finding about it
-inline constexpr std::string_view thread_event = "thread";         ///< how the program's threads are scheduled
+inline constexpr std::string_view validation_event =
+    "validation";                                          ///< of a calibration: mean and largest error
+inline constexpr std::string_view screen_event = "screen"; ///< a finding about it
+inline constexpr std::string_view thread_event = "thread"; ///< how the program's threads are scheduled
 inline constexpr std::string_view output_verified_event = "output verified";
 inline constexpr std::string_view display_box_event = "display box";
 inline constexpr std::string_view display_box_lost_event = "display box lost";

@@ -54,7 +54,8 @@ struct TrialRecord {
 };
 std::string_view name_of(TrialRecord::Status status);
 
-/// The flips of a trial as they were written down, at least one, and as the line through all time stamps has them.
+/// The flips of a trial as they were written down, at least one, and as the line through all time stamps has
+/// them.
 struct TrialLedger {
     std::vector<FlipRecord> recorded;
     LedgerFit fit;
@@ -142,7 +143,8 @@ class SessionRecord {
     std::vector<BoxClockPair> box_clock_readings(int sitting) const;
 
     /// The flips of a trial, with the line through their time stamps by the refresh interval that all trials
-    /// of its sitting have together; nothing of a trial without flips. Reads them: keep it while it is needed.
+    /// of its sitting have together; nothing of a trial without flips. Reads them: keep it while it is
+    /// needed.
     std::optional<TrialLedger> ledger(const TrialRecord& trial) const;
 
     /// A trial's frames as they were lit on this session's display, at the times of the ledger's line.
