@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "experiment/base/content_hash.h"
-#include "experiment/design/schedule.h"
 #include "experiment/ports/clock.h"
 #include "experiment/ports/session_log.h"
+#include "experiment/protocol/protocol.h"
+#include "experiment/trial.h"
 #include "render/image/gamut.h"
 #include "render/presenter/page_presenter.h"
 #include "render/signal/signal_check.h"

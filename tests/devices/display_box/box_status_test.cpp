@@ -159,8 +159,8 @@ TEST_CASE("a reading of the clocks holds also when the first status line is a le
         return line;
     };
     const BoxClockPair pair = display.read_clocks();
-    CHECK(to_seconds(pair.box) >= bench.box.box_s(pair.before) - 1e-6);
-    CHECK(to_seconds(pair.box) <= bench.box.box_s(pair.after) + 1e-6);
+    CHECK(to_seconds(pair.other) >= bench.box.box_s(pair.before) - 1e-6);
+    CHECK(to_seconds(pair.other) <= bench.box.box_s(pair.after) + 1e-6);
 }
 
 TEST_CASE("status fields that are switched off on the box are said to be the reason", "[unit]") {
