@@ -13,6 +13,7 @@
 #include "experiment/record/tables/table_export.h"
 #include "experiment/session/session.h"
 #include "render/gl/headless_context.h"
+#include "render/presenter/page_presenter.h"
 #include "render/vblank/display_surface.h"
 #include "tests/app/small_experiment.h"
 #include "tests/support/tsv_file.h"
