@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "experiment/colour/number_table.h"
+#include "experiment/base/number_table.h"
 #include "experiment/protocol/characterisation_keys.h"
 
 namespace overt {
