@@ -1,4 +1,4 @@
-#include "experiment/protocol/toml_remedy.h"
+#include "experiment/keys/toml_remedy.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "experiment/protocol/toml_tree.h"
+#include "experiment/keys/toml_tree.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/protocol/toml_remedy.h"
+#include "experiment/keys/toml_remedy.h"
 
 // toml++ 3.3 takes a few things for granted that a damaged file does not keep to, and goes on with undefined
 // behaviour: a heading without a name (`[=`), and letters beyond ASCII where there might be blanks. So its
