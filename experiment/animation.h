@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "experiment/base/enum_names.h"
 #include "experiment/units.h"
 
 namespace overt {
@@ -23,11 +24,13 @@ struct PoseIndex {
 /// How the frames follow one another. `cycle`: the frames hold one whole period of the sine, the last closing
 /// the loop. `ping_pong`: they hold one sweep from one end to the other, played forth and back.
 enum class Playback { cycle, ping_pong };
+template <> inline constexpr auto names_of<Playback> = enum_names<Playback>("cycle", "ping-pong");
 
 /// What becomes of the plan when a picture comes late. `drop`: the animation keeps time, and frames whose
 /// time has passed are left out. `stretch`: every frame is lit for its refreshes, and the presentation ends
 /// later.
 enum class WhenLate { drop, stretch };
+template <> inline constexpr auto names_of<WhenLate> = enum_names<WhenLate>("drop", "stretch");
 
 /// The motion that all stimuli share. Source of the defaults: Sidorov, Harvey, Smithson and Hardeberg 2019,
 /// section 4.1.

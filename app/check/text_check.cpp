@@ -31,12 +31,8 @@ std::vector<ShownText> shown_texts(const Protocol& protocol) {
                                  {"consent.text", &protocol.consent.text},
                                  {"breaks.text", &protocol.breaks.text},
                                  {"operator.pause_text", &protocol.operators.pause_text}};
-    for_each_section([&]<class Struct>(const Section<Struct>& section) {
-        if constexpr (std::is_same_v<Struct, WordSettings>)
-            for (const Key<WordSettings>& key : section.keys)
-                texts.push_back({fmt::format("words.{}", key.rule.name),
-                                 &(protocol.words.*std::get<std::string WordSettings::*>(key.member))});
-    });
+    for (const Key& key : protocol_keys().section("words").keys)
+        texts.push_back({fmt::format("words.{}", key.rule.name), key.get_if<std::string>(&protocol.words)});
     add_numbered(texts, "operator.skip_reasons", "skip reason", protocol.operators.skip_reasons, false);
     add_numbered(texts, "instructions.pages", "page", protocol.instructions.pages, false);
     for (std::size_t i = 0; i < protocol.tasks.size(); ++i)

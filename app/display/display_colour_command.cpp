@@ -7,8 +7,8 @@
 #include "app/display/display_commands.h"
 #include "app/inputs/protocol_file.h"
 #include "experiment/base/error.h"
+#include "experiment/base/number_table.h"
 #include "experiment/colour/display_colour.h"
-#include "experiment/colour/number_table.h"
 #include "experiment/protocol/characterisation_file.h"
 #include "render/signal/level_table.h"
 

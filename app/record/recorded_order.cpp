@@ -13,7 +13,7 @@ namespace overt {
 namespace {
 
 /// The names that a trial's indices stand for, block first.
-std::array<std::string, 4> names_of(const Trial& trial, const SessionHeader& header) {
+std::array<std::string, 4> words_of(const Trial& trial, const SessionHeader& header) {
     const auto id = [](const auto& list, int index) { return list.at(static_cast<std::size_t>(index)).id; };
     return {header.blocks.empty() ? "" : header.blocks.at(static_cast<std::size_t>(trial.block)),
             id(header.tasks, trial.task), id(header.sculptures, trial.condition.sculpture),
@@ -54,7 +54,7 @@ RecordedOrder recorded_order(const SessionHeader& header) {
 std::string to_text(const RecordedOrder& order, const SessionHeader& header) {
     std::string text;
     for (const Trial& trial : order.recorded) {
-        const auto [block, task, sculpture, material] = names_of(trial, header);
+        const auto [block, task, sculpture, material] = words_of(trial, header);
         std::string line = fmt::format("{:>5}  {:<12} {:<12} {:<12} {}", trial.index + 1, task, sculpture,
                                        material, block.empty() ? "" : fmt::format("block {}", block));
         line.erase(line.find_last_not_of(' ') + 1);
@@ -73,7 +73,7 @@ std::string to_text(const RecordedOrder& order, const SessionHeader& header) {
 nlohmann::ordered_json to_json(const RecordedOrder& order, const SessionHeader& header) {
     auto trials = nlohmann::ordered_json::array();
     for (const Trial& trial : order.recorded) {
-        const auto [block, task, sculpture, material] = names_of(trial, header);
+        const auto [block, task, sculpture, material] = words_of(trial, header);
         nlohmann::ordered_json item{{"trial", trial.index + 1}};
         if (!block.empty())
             item["block"] = block;

@@ -87,17 +87,13 @@ std::vector<RecordedDatasetEntry> recorded(const DatasetSettings& dataset) {
         if (!value.empty())
             entries.push_back({std::string(key), value});
     };
-    for_each_section([&]<class Struct>(const Section<Struct>& section) {
-        if constexpr (std::is_same_v<Struct, DatasetSettings>) {
-            for (const Key<DatasetSettings>& key : section.keys) {
-                if (const auto* text = std::get_if<std::string DatasetSettings::*>(&key.member))
-                    add(key.rule.name, dataset.*(*text));
-                if (const auto* list = std::get_if<std::vector<std::string> DatasetSettings::*>(&key.member))
-                    for (const std::string& value : dataset.*(*list))
-                        add(key.rule.name, value);
-            }
-        }
-    });
+    for (const Key& key : protocol_keys().section("dataset").keys) {
+        if (const auto* text = key.get_if<std::string>(&dataset))
+            add(key.rule.name, *text);
+        if (const auto* list = key.get_if<std::vector<std::string>>(&dataset))
+            for (const std::string& value : *list)
+                add(key.rule.name, value);
+    }
     return entries;
 }
 

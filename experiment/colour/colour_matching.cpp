@@ -28,18 +28,6 @@ std::array<SampledSpectrum, 3> functions_of(std::string_view table) {
 
 } // namespace
 
-std::string_view name_of(ColourSpace space) {
-    switch (space) {
-    case ColourSpace::cie1931_xyz:
-        return "CIE 1931 XYZ";
-    case ColourSpace::cie2006_xyz:
-        return "CIE 2006 XYZ_F";
-    case ColourSpace::cie2006_cones:
-        return "CIE 2006 LMS";
-    }
-    return {};
-}
-
 const std::array<SampledSpectrum, 3>& colour_matching(ColourSpace space) {
     static const std::array tables{functions_of(embedded::cie1931_xyz_2deg_csv),
                                    functions_of(embedded::cie2006_xyz_2deg_csv),

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <array>
-#include <string_view>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "experiment/base/enum_names.h"
 #include "experiment/colour/sampled_spectrum.h"
 
 namespace overt {
@@ -18,9 +18,9 @@ enum class ColourSpace {
     cie2006_cones ///< L, M, S cone excitations by the 2-degree fundamentals of CIE 2006, each with its
                   ///< highest value 1: W/(sr m2)
 };
-
-/// "CIE 1931 XYZ", …
-std::string_view name_of(ColourSpace space);
+template <>
+inline constexpr auto names_of<ColourSpace> = enum_names<ColourSpace>("CIE 1931 XYZ", "CIE 2006 XYZ_F",
+                                                                      "CIE 2006 LMS");
 
 /// The three functions of a space, at each nanometre. Made once; from any thread.
 const std::array<SampledSpectrum, 3>& colour_matching(ColourSpace space);

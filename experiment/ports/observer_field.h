@@ -9,9 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "experiment/base/enum_names.h"
+
 namespace overt {
 
 enum class FieldKind : std::uint8_t { text, number, choice };
+template <> inline constexpr auto names_of<FieldKind> = enum_names<FieldKind>("text", "number", "choice");
 
 /// [[observer_field]]
 struct ObserverFieldSettings {

@@ -1,10 +1,13 @@
 #include "experiment/protocol/characterisation_file.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "experiment/colour/number_table.h"
+#include "experiment/base/number_table.h"
+#include "experiment/keys/key_walk.h"
 #include "experiment/protocol/characterisation_keys.h"
 
 namespace overt {
@@ -14,6 +17,32 @@ using namespace characterisation_keys;
 namespace {
 
 constexpr std::array<std::string_view, 3> channel_names{"red", "green", "blue"};
+
+/// A file while it is read.
+struct Reading {
+    std::string file;
+    TomlFile toml;
+    Diagnostics& diagnostics;
+    KeyPlaces places = {};
+
+    void error(std::string_view path, std::string message, std::string hint = {}) {
+        diagnostics.error(file, places.of(path), std::move(message), std::move(hint));
+    }
+    bool is_written(std::string_view path) const { return places.is_written(path); }
+
+    /// The value of a key, or null.
+    const TomlValue* value(std::string_view section, std::string_view key) const {
+        const TomlValue* const table = find(toml.root, section);
+        return table && table->table() ? find(*table->table(), key) : nullptr;
+    }
+
+  private:
+    static const TomlValue* find(const TomlTable& table, std::string_view key) {
+        const auto found = std::find_if(table.begin(), table.end(),
+                                        [&](const TomlEntry& entry) { return entry.key == key; });
+        return found == table.end() ? nullptr : &found->value;
+    }
+};
 
 /// The points of a gamma table, wherever they were written.
 struct GammaPoints {
@@ -28,23 +57,20 @@ class CharacterisationReader {
         : reading_(reading), folder_(std::move(folder)), out_(out) {}
 
     void read() {
-        check_sections(reading_);
-        DisplayKeys names;
-        LightKeys light;
-        GammaKeys gamma;
-        read_section(reading_, "display", display(), names);
-        read_section(reading_, "screen", screen(), out_.screen);
-        read_section(reading_, "light", characterisation_keys::light(), light);
-        read_section(reading_, "gamma", characterisation_keys::gamma(), gamma);
-        out_.display = names.name;
-        out_.date = names.date;
-        out_.instrument = names.instrument;
-        out_.note = names.note;
+        FileKeys keys;
+        KeyPaths faulty;
+        KeyWalk(table(), reading_.file, reading_.places, faulty, reading_.diagnostics)
+            .read(reading_.toml, keys);
+        out_.display = keys.display.name;
+        out_.date = keys.display.date;
+        out_.instrument = keys.display.instrument;
+        out_.note = keys.display.note;
+        out_.screen = keys.screen;
         // What follows from keys that are wrong, or lie in lines that were passed over, is nobody's doing.
         if (!reading_.toml.is_whole || reading_.diagnostics.has_errors())
             return;
-        take_light(light);
-        take_gamma(gamma);
+        take_light(keys.light);
+        take_gamma(keys.gamma);
     }
 
   private:
@@ -304,7 +330,7 @@ std::optional<DisplayCharacterisation> read_characterisation(const std::filesyst
     DisplayCharacterisation characterisation;
     characterisation.files.push_back({file.filename().string(), *text});
     found.quote_from(file.string(), *text);
-    Reading reading{file.string(), parse_toml(*text, file.string(), found), found, {}};
+    Reading reading{file.string(), parse_toml(*text, file.string(), found), found};
     CharacterisationReader(reading, file.parent_path(), characterisation).read();
     diagnostics.take(found);
     if (found.has_errors())

@@ -2,22 +2,24 @@
 
 namespace overt::key_rows {
 
-Section<Protocol> protocol() {
+Section protocol() {
     using P = Protocol;
     return {.name = "protocol",
             .explanation = "What the experiment is called.",
-            .keys = {
-                {{.name = "name",
-                  .is_required = true,
-                  .is_identifier = true,
-                  .explanation = "Short name, used in file names."},
-                 &P::name},
-                {{.name = "title", .if_left_out = "the name", .explanation = "Name for people to read."},
-                 &P::title},
-            }};
+            .keys =
+                {
+                    {{.name = "name",
+                      .is_required = true,
+                      .is_identifier = true,
+                      .explanation = "Short name, used in file names."},
+                     &P::name},
+                    {{.name = "title", .if_left_out = "the name", .explanation = "Name for people to read."},
+                     &P::title},
+                },
+            .home = SectionHome::root<Protocol>()};
 }
 
-Section<ScheduleSettings> schedule() {
+Section schedule() {
     using S = ScheduleSettings;
     return {
         .name = "schedule",
@@ -88,7 +90,6 @@ Section<ScheduleSettings> schedule() {
                       "in a row, 3 leaves two others between them; 0 for no limit."},
                  &S::min_stimulus_distance},
                 {{.name = "material_rotation",
-                  .choices = square_kinds,
                   .explanation =
                       "How the materials of tasks that are asked once per sculpture go round over the "
                       "observers: "
@@ -100,7 +101,6 @@ Section<ScheduleSettings> schedule() {
                       "takes twice as many observers."},
                  &S::material_rotation},
                 {{.name = "block_order",
-                  .choices = level_orders,
                   .explanation =
                       "Order of the blocks: random for each session; fixed, as they stand in the file; "
                       "or by the rows of a Latin square over the observers, as for "
@@ -113,10 +113,10 @@ Section<ScheduleSettings> schedule() {
                                  "they do not depend on `seed`."},
                  &S::rotation_seed},
             },
-        .one = &Protocol::schedule};
+        .home = &Protocol::schedule};
 }
 
-Section<Task> task() {
+Section task() {
     using T = Task;
     return {
         .name = "task",
@@ -133,7 +133,6 @@ Section<Task> task() {
                   .explanation = "What the observer reads before the animation."},
                  &T::question},
                 {{.name = "stimuli",
-                  .choices = task_coverages,
                   .explanation = "Asked for every sculpture in every material, or once per sculpture with "
                                  "the material changing from observer to observer."},
                  &T::stimuli},
@@ -143,7 +142,7 @@ Section<Task> task() {
                   .explanation = "Share of a simulated observer's fixations that go to the head."},
                  &T::simulated_head_share},
             },
-        .many = &Protocol::tasks};
+        .home = &Protocol::tasks};
 }
 
 } // namespace overt::key_rows

@@ -7,10 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "experiment/base/enum_names.h"
+
 namespace overt {
 
 /// Which stimuli a task is asked for.
 enum class TaskCoverage : std::uint8_t { every_stimulus, once_per_sculpture };
+template <>
+inline constexpr auto names_of<TaskCoverage> = enum_names<TaskCoverage>("every-stimulus",
+                                                                        "once-per-sculpture");
 
 /// [[task]]
 struct Task {
@@ -23,6 +28,9 @@ struct Task {
 
 /// What tells trials apart. A stimulus is a sculpture in a material.
 enum class TrialFactor : std::uint8_t { task, sculpture, material, stimulus };
+template <>
+inline constexpr auto names_of<TrialFactor> = enum_names<TrialFactor>("task", "sculpture", "material",
+                                                                      "stimulus");
 inline constexpr int trial_factor_count = 4;
 
 /// How the trials of a block come.
@@ -32,16 +40,25 @@ enum class OrderMethod : std::uint8_t {
     blocked,    ///< all trials of one level of a factor, then all of the next
     weighted    ///< levels of a factor come more or less often
 };
+template <>
+inline constexpr auto names_of<OrderMethod> = enum_names<OrderMethod>("random", "sequential", "blocked",
+                                                                      "weighted");
 
 /// Latin squares, of which each observer takes a row (latin_square.h).
 enum class SquareKind : std::uint8_t { cyclic, balanced, random_square };
+template <>
+inline constexpr auto names_of<SquareKind> = enum_names<SquareKind>("cyclic", "balanced", "random-square");
 
 /// In which order levels come, or blocks: drawn for each session, the same for all observers, or the row of a
 /// Latin square.
 enum class LevelOrder : std::uint8_t { random, fixed, cyclic, balanced, random_square };
+template <>
+inline constexpr auto names_of<LevelOrder> = enum_names<LevelOrder>("random", "fixed", "cyclic", "balanced",
+                                                                    "random-square");
 
 /// Whether one repetition is over before the next begins.
 enum class RepetitionOrder : std::uint8_t { in_turn, mixed };
+template <> inline constexpr auto names_of<RepetitionOrder> = enum_names<RepetitionOrder>("in-turn", "mixed");
 
 /// [schedule]
 struct ScheduleSettings {
@@ -98,6 +115,7 @@ struct PracticeSettings {
 };
 
 enum class BreakPace : std::uint8_t { self, timed };
+template <> inline constexpr auto names_of<BreakPace> = enum_names<BreakPace>("self", "timed");
 
 /// [breaks]
 struct BreakSettings {
@@ -111,6 +129,8 @@ struct BreakSettings {
 
 /// When a trial that failed comes again.
 enum class RepeatWhen : std::uint8_t { never, now, end_of_block };
+template <>
+inline constexpr auto names_of<RepeatWhen> = enum_names<RepeatWhen>("never", "now", "end-of-block");
 
 /// [repeat]
 struct RepeatSettings {

@@ -2,7 +2,7 @@
 
 namespace overt::key_rows {
 
-Section<BakingSettings> bake() {
+Section bake() {
     using B = BakingSettings;
     return {
         .name = "bake",
@@ -11,7 +11,6 @@ Section<BakingSettings> bake() {
         .keys =
             {
                 {{.name = "quality",
-                  .choices = bake_qualities,
                   .explanation = "What a session needs at least; if better frames of all stimuli are there, "
                                  "it takes those. \"preview\" is rendered when it is needed; \"live\" is "
                                  "drawn by OpenGL, an approximation without interreflection and spectra."},
@@ -29,9 +28,7 @@ Section<BakingSettings> bake() {
                   .explanation = "A pixel is left when its standard error is below this many units of "
                                  "colour difference (CIE 1976)."},
                  &B::target_error_de},
-                {{.name = "filter",
-                  .choices = pixel_filters,
-                  .explanation = "How light paths about a pixel's middle are weighed."},
+                {{.name = "filter", .explanation = "How light paths about a pixel's middle are weighed."},
                  &B::filter},
                 {{.name = "filter_width_px",
                   .unit = "px",
@@ -44,16 +41,15 @@ Section<BakingSettings> bake() {
                   .explanation = "Of the light paths: the same seed gives the same frames."},
                  &B::seed},
                 {{.name = "observer",
-                  .choices = standard_observers,
                   .explanation =
                       "Whose colours the display shows: the CIE 1931 standard observer, or that of "
                       "CIE 2006, for which the display's characterisation needs spectra."},
                  &B::observer},
             },
-        .one = &Protocol::bake};
+        .home = &Protocol::bake};
 }
 
-Section<FrameSequenceSettings> frames() {
+Section frames() {
     using F = FrameSequenceSettings;
     return {
         .name = "frames",
@@ -76,11 +72,9 @@ Section<FrameSequenceSettings> frames() {
                   .explanation = "Number of the first frame's file."},
                  &F::first_number},
                 {{.name = "encoding",
-                  .choices = frame_encodings,
                   .explanation = "What the numbers in the pictures mean: linear light, or sRGB."},
                  &F::encoding},
                 {{.name = "colour_space",
-                  .choices = frame_colours,
                   .explanation = "Whose three numbers they are: the display's own light; Rec. 709, white "
                                  "being the display's; or CIE 1931 XYZ, Y = 1 being as bright as its white. "
                                  "The last two are turned into the light of the same colour by the "
@@ -106,7 +100,7 @@ Section<FrameSequenceSettings> frames() {
                   .explanation = "How far from it, in any channel, still is background."},
                  &F::background_tolerance},
             },
-        .many = &Protocol::frames};
+        .home = &Protocol::frames};
 }
 
 } // namespace overt::key_rows

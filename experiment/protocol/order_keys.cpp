@@ -2,7 +2,7 @@
 
 namespace overt::key_rows {
 
-Section<BlockSettings> block() {
+Section block() {
     using B = BlockSettings;
     return {
         .name = "block",
@@ -39,12 +39,10 @@ Section<BlockSettings> block() {
                   .explanation = "Which materials they have, by their ids."},
                  &B::materials},
                 {{.name = "stimuli",
-                  .choices = task_coverages,
                   .if_left_out = "as each task says",
                   .explanation = "Which stimuli the tasks are asked for in this block."},
                  &B::stimuli},
                 {{.name = "order",
-                  .choices = order_methods,
                   .explanation =
                       "Random: every order that keeps to the limits is equally probable. Sequential: task by "
                       "task, sculpture by sculpture, material by material, as listed. Blocked: all trials of "
@@ -52,12 +50,9 @@ Section<BlockSettings> block() {
                       "level of the factor `by`, then all of the next; random within a level. Weighted: the "
                       "levels of `by` come more or less often, by `weights`."},
                  &B::order},
-                {{.name = "by",
-                  .choices = trial_factors,
-                  .explanation = "Factor by whose levels a blocked or weighted order goes."},
+                {{.name = "by", .explanation = "Factor by whose levels a blocked or weighted order goes."},
                  &B::by},
                 {{.name = "levels",
-                  .choices = level_orders,
                   .explanation = "Order of the levels of a blocked order: random for each session, fixed as "
                                  "listed, or by "
                                  "the rows of a Latin square over the observers."},
@@ -85,7 +80,6 @@ Section<BlockSettings> block() {
                   .explanation = "How often the block's trials come."},
                  &B::repetitions},
                 {{.name = "repetition_order",
-                  .choices = repetition_orders,
                   .explanation = "One repetition is over before the next begins, or all are mixed."},
                  &B::repetition_order},
                 {{.name = "instructions",
@@ -154,10 +148,10 @@ Section<BlockSettings> block() {
                       "Least distance of trials with the same stimulus in this block; 0 for no limit."},
                  &B::min_stimulus_distance},
             },
-        .many = &Protocol::blocks};
+        .home = &Protocol::blocks};
 }
 
-Section<GroupSettings> group() {
+Section group() {
     using G = GroupSettings;
     return {.name = "group",
             .explanation = "A group of observers, for what differs between observers. Observers are assigned "
@@ -200,7 +194,7 @@ Section<GroupSettings> group() {
                       .explanation = "Which materials they see."},
                      &G::materials},
                 },
-            .many = &Protocol::groups};
+            .home = &Protocol::groups};
 }
 
 } // namespace overt::key_rows

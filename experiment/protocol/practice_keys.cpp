@@ -2,7 +2,7 @@
 
 namespace overt::key_rows {
 
-Section<PracticeSettings> practice() {
+Section practice() {
     using P = PracticeSettings;
     return {
         .name = "practice",
@@ -36,10 +36,10 @@ Section<PracticeSettings> practice() {
                   .explanation = "What the observer reads after the answer, until a key is pressed."},
                  &P::feedback},
             },
-        .many = &Protocol::practice};
+        .home = &Protocol::practice};
 }
 
-Section<BreakSettings> breaks() {
+Section breaks() {
     using B = BreakSettings;
     return {.name = "breaks",
             .explanation = "Rests between trials; never before the first or after the last.",
@@ -55,7 +55,6 @@ Section<BreakSettings> breaks() {
                     {{.name = "between_blocks", .explanation = "A break before each block but the first."},
                      &B::between_blocks},
                     {{.name = "pace",
-                      .choices = break_paces,
                       .explanation =
                           "Self: a key goes on, after `min_s` at the earliest. Timed: goes on by itself "
                           "after `duration_s`."},
@@ -75,10 +74,10 @@ Section<BreakSettings> breaks() {
                      &B::min_s},
                     {{.name = "text", .explanation = "What stands on the screen meanwhile."}, &B::text},
                 },
-            .one = &Protocol::breaks};
+            .home = &Protocol::breaks};
 }
 
-Section<RepeatSettings> repeat() {
+Section repeat() {
     using R = RepeatSettings;
     return {
         .name = "repeat",
@@ -90,7 +89,6 @@ Section<RepeatSettings> repeat() {
         .keys =
             {
                 {{.name = "missed_refreshes",
-                  .choices = repeat_whens,
                   .explanation = "When a trial comes again that missed more than `missed_refreshes_limit`."},
                  &R::missed_refreshes},
                 {{.name = "missed_refreshes_limit",
@@ -99,7 +97,6 @@ Section<RepeatSettings> repeat() {
                   .explanation = "Most missed refreshes of a presentation that counts."},
                  &R::missed_refreshes_limit},
                 {{.name = "gaze_lost",
-                  .choices = repeat_whens,
                   .explanation = "When a trial comes again in which the eye was lost for longer than "
                                  "`gaze_lost_limit`."},
                  &R::gaze_lost},
@@ -109,9 +106,7 @@ Section<RepeatSettings> repeat() {
                   .explanation = "Largest share of a presentation's samples without gaze (blinks among them) "
                                  "with which it counts."},
                  &R::gaze_lost_limit},
-                {{.name = "rejected",
-                  .choices = repeat_whens,
-                  .explanation = "When a trial comes again that the operator rejected."},
+                {{.name = "rejected", .explanation = "When a trial comes again that the operator rejected."},
                  &R::rejected},
                 {{.name = "most_attempts",
                   .low = 1,
@@ -120,7 +115,7 @@ Section<RepeatSettings> repeat() {
                       "At one trial. The last one counts however it went, unless it was rejected."},
                  &R::most_attempts},
             },
-        .one = &Protocol::repeat};
+        .home = &Protocol::repeat};
 }
 
 } // namespace overt::key_rows

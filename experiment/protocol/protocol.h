@@ -13,10 +13,11 @@
 #include <glm/glm.hpp>
 
 #include "experiment/animation.h"
+#include "experiment/base/enum_names.h"
 #include "experiment/colour/display_characterisation.h"
+#include "experiment/keys/key_places.h"
 #include "experiment/ports/observer_field.h"
 #include "experiment/protocol/design_settings.h"
-#include "experiment/protocol/key_places.h"
 #include "experiment/protocol/material_kind.h"
 #include "experiment/protocol/output_mode.h"
 #include "experiment/protocol/protocol_sources.h"
@@ -28,12 +29,18 @@ namespace overt {
 
 /// How the native modes spread what lies between two of their levels over neighbours and refreshes.
 enum class Dithering : std::uint8_t { none, ordered, blue_noise };
+template <>
+inline constexpr auto names_of<Dithering> = enum_names<Dithering>("none", "ordered", "blue-noise");
 
 /// How two neighbours become the one colour of a pair, in linear light.
 enum class PairFilter : std::uint8_t { box, lanczos };
+template <> inline constexpr auto names_of<PairFilter> = enum_names<PairFilter>("box", "lanczos");
 
 /// Where a square for a photodiode stands.
 enum class PatchCorner : std::uint8_t { none, top_left, top_right, bottom_left, bottom_right };
+template <>
+inline constexpr auto names_of<PatchCorner> = enum_names<PatchCorner>("none", "top-left", "top-right",
+                                                                      "bottom-left", "bottom-right");
 
 /// [display]: the screen in front of the observer. Defaults: a Display++ as in the paper; its 698 mm are the
 /// active width.
@@ -162,12 +169,19 @@ struct MaterialSettings {
 /// How carefully frames are rendered, in rising order. `live`: drawn by OpenGL, an approximation; the others
 /// are path traced.
 enum class BakeQuality : std::uint8_t { live, preview, draft, standard, reference };
+template <>
+inline constexpr auto names_of<BakeQuality> = enum_names<BakeQuality>("live", "preview", "draft", "standard",
+                                                                      "reference");
 
 /// How the samples about a pixel's middle are weighed.
 enum class PixelFilter : std::uint8_t { box, gaussian, blackman_harris };
+template <>
+inline constexpr auto names_of<PixelFilter> = enum_names<PixelFilter>("box", "gaussian", "blackman-harris");
 
 /// Whose colour matching functions make three numbers of a spectrum, 2 degrees.
 enum class StandardObserver : std::uint8_t { cie1931, cie2006 };
+template <>
+inline constexpr auto names_of<StandardObserver> = enum_names<StandardObserver>("cie1931", "cie2006");
 
 /// [bake]: how stimuli are rendered that are not given as [[frames]].
 struct BakingSettings {
@@ -182,10 +196,13 @@ struct BakingSettings {
 
 /// Encoding of ready-made frames.
 enum class FrameEncoding : std::uint8_t { linear, srgb };
+template <> inline constexpr auto names_of<FrameEncoding> = enum_names<FrameEncoding>("linear", "srgb");
 
 /// What the three numbers of a ready-made frame's pixel are: the display's own light, linear Rec. 709 of
 /// which white is the display's, or CIE 1931 XYZ of which Y = 1 is as bright as the display's white.
 enum class FrameColours : std::uint8_t { display, rec709, xyz };
+template <>
+inline constexpr auto names_of<FrameColours> = enum_names<FrameColours>("display", "rec709", "xyz");
 
 /// [[frames]]: a ready-made animation for one sculpture in one material, instead of rendering it.
 struct FrameSequenceSettings {

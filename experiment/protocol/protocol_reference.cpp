@@ -48,63 +48,30 @@ by a JSON Schema: write it once with `overt schema > protocol.schema.json`, and 
 This page is written from the program's own table of keys.
 )";
 
-std::string default_text(const KeyRule&, int value) { return fmt::format("{}", value); }
-std::string default_text(const KeyRule&, bool value) { return value ? "true" : "false"; }
-std::string default_text(const KeyRule&, double value) { return fmt::format("{}", value); }
-std::string default_text(const KeyRule&, Degrees value) { return fmt::format("{}", value.value); }
-std::string default_text(const KeyRule&, const std::string& value) {
-    std::string text;
-    for (const char character : value)
-        text += character == '\n' ? std::string("\\n") : std::string(1, character);
-    return fmt::format("\"{}\"", text);
-}
-std::string default_text(const KeyRule&, const std::filesystem::path& value) { return value.string(); }
-std::string default_text(const KeyRule&, const std::array<double, 3>& value) {
-    return fmt::format("[{}]", fmt::join(value, ", "));
-}
-template <class Value> std::string default_text(const KeyRule& rule, const Value& value) {
-    if constexpr (std::is_enum_v<Value>)
-        return fmt::format("\"{}\"", rule.choices[static_cast<std::size_t>(value)]);
-    else
-        return {};
-}
-
 /// What stands in the column of defaults.
-template <class Struct> std::string default_of(const Key<Struct>& key) {
+std::string default_of(const Key& key) {
     if (key.rule.is_required)
         return "required";
-    if (!key.rule.if_left_out.empty())
-        return std::string(key.rule.if_left_out);
-    static const Struct defaults{};
-    const std::string text =
-        std::visit([&](auto member) { return default_text(key.rule, defaults.*member); }, key.member);
-    return fmt::format("`{}`", text);
+    return key.rule.if_left_out.empty() ? fmt::format("`{}`", key.default_text())
+                                        : std::string(key.rule.if_left_out);
 }
 
-std::string value_of(const KeyRule& rule, const std::string& expected) {
-    if (!rule.choices.empty())
-        return fmt::format("`\"{}\"`", fmt::join(rule.choices, "\"`, `\""));
-    if (const std::string range = range_text(rule); !range.empty())
-        return fmt::format("{}, {}", expected, range);
-    return expected;
+std::string value_of(const Key& key) {
+    if (!key.rule.choices.empty())
+        return fmt::format("`\"{}\"`", fmt::join(key.rule.choices, "\"`, `\""));
+    const std::string range = range_text(key.rule);
+    return expected_kind(key) + (range.empty() ? "" : ", " + range);
 }
 
-template <class Struct>
-void add_section(std::string& text, const Section<Struct>& section, std::string_view parent) {
-    const std::string heading = !parent.empty() ? fmt::format("{} = {{ … }} in [[{}]]", section.name, parent)
-                                : section.many  ? fmt::format("[[{}]]", section.name)
-                                                : fmt::format("[{}]", section.name);
+void add_section(std::string& text, const Section& section, std::string_view parent) {
+    const std::string heading =
+        parent.empty() ? section.heading() : fmt::format("{} = {{ … }} in [[{}]]", section.name, parent);
     text += fmt::format("\n## `{}`\n\n{}\n\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n",
                         heading, section.explanation);
-    for (const Key<Struct>& key : section.keys) {
-        KeyRule plain = key.rule;
-        plain.unit = {}; // the range names the unit already
-        const bool has_range = !range_text(key.rule).empty();
-        const std::string expected = expected_value(has_range ? Key<Struct>{plain, key.member} : key);
-        text += fmt::format("| `{}` | {} | {} | {} |\n", key.rule.name, value_of(key.rule, expected),
-                            default_of(key), key.rule.explanation);
-    }
-    for (const Section<Struct>& table : section.tables)
+    for (const Key& key : section.keys)
+        text += fmt::format("| `{}` | {} | {} | {} |\n", key.rule.name, value_of(key), default_of(key),
+                            key.rule.explanation);
+    for (const Section& table : section.tables)
         add_section(text, table, section.name);
 }
 
@@ -112,7 +79,8 @@ void add_section(std::string& text, const Section<Struct>& section, std::string_
 
 std::string protocol_reference_markdown() {
     std::string text(introduction);
-    for_each_section([&](const auto& section) { add_section(text, section, ""); });
+    for (const Section& section : protocol_keys())
+        add_section(text, section, "");
     return text;
 }
 

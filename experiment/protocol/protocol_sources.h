@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "experiment/base/diagnostics.h"
-#include "experiment/protocol/toml_tree.h"
+#include "experiment/keys/toml_tree.h"
 
 namespace overt {
 

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/protocol/protocol_schema.h"
@@ -67,7 +66,7 @@ std::string comment(std::string_view text) {
         const std::string_view word = text.substr(begin, end - begin);
         if (line.size() + 1 + word.size() > 78 && line.size() > 1) {
             lines += line + "\n";
-            line = "#";
+            line.assign(1, '#');
         }
         line += " ";
         line += word;
@@ -76,24 +75,18 @@ std::string comment(std::string_view text) {
     return lines + line + "\n";
 }
 
-/// A value as a comment shows it: the default, or what kind of value goes there.
-std::string placeholder(const nlohmann::ordered_json& schema) {
-    if (const auto standard = schema.find("default"); standard != schema.end())
-        return standard->dump();
-    return "…";
+/// A value as a comment shows it: the default, or a mark where a value goes.
+std::string placeholder(const Key& key) {
+    std::string text = key.default_text();
+    if (text.starts_with('['))
+        std::erase(text, ' ');
+    return text.empty() ? "…" : text;
 }
 
-/// What kind of value goes there; where there is a range, that says the unit.
-template <class Struct> std::string expected_kind(const Key<Struct>& key) {
-    Key<Struct> plain = key;
-    if (!range_text(key.rule).empty())
-        plain.rule.unit = {};
-    return expected_value(plain);
-}
-
-std::string described(const KeyRule& rule, const std::string& expected) {
+std::string described(const Key& key) {
+    const KeyRule& rule = key.rule;
     std::string text(rule.explanation);
-    const std::string range = range_text(rule);
+    const std::string range = range_text(rule), expected = expected_kind(key);
     text += fmt::format(" {}{}.", static_cast<char>(std::toupper(static_cast<unsigned char>(expected[0]))),
                         expected.substr(1) + (range.empty() ? "" : ", " + range));
     if (!rule.if_left_out.empty())
@@ -101,40 +94,34 @@ std::string described(const KeyRule& rule, const std::string& expected) {
     return text;
 }
 
-template <class Struct>
-void add_keys(std::string& text, const Section<Struct>& section, const Values& values, bool is_idle,
-              bool with_comments, const nlohmann::ordered_json& schema) {
-    for (const Key<Struct>& key : section.keys) {
+void add_keys(std::string& text, const Section& section, const Values& values, bool is_idle,
+              bool with_comments) {
+    for (const Key& key : section.keys) {
         const auto value = values.find(key.rule.name);
         if (value == values.end() && !with_comments)
             continue;
         if (with_comments)
-            text += "\n" + comment(without_links(described(key.rule, expected_kind(key))));
+            text += fmt::format("\n{}", comment(without_links(described(key))));
         if (value != values.end() && !is_idle)
             text += fmt::format("{} = {}\n", key.rule.name, value->second);
         else
-            text += fmt::format("# {} = {}\n", key.rule.name,
-                                placeholder(schema.at("properties").at(std::string(key.rule.name))));
+            text += fmt::format("# {} = {}\n", key.rule.name, placeholder(key));
     }
-    for (const Section<Struct>& table : section.tables) {
+    for (const Section& table : section.tables) {
         if (!with_comments)
             continue;
-        text += "\n" + comment(table.explanation);
+        text += fmt::format("\n{}", comment(table.explanation));
         std::string keys;
-        for (const Key<Struct>& key : table.keys)
+        for (const Key& key : table.keys)
             keys += fmt::format("{}{} = …", keys.empty() ? "" : ", ", key.rule.name);
         text += fmt::format("# {} = {{ {} }}\n", table.name, keys);
     }
 }
 
-template <class Struct>
-void add_section(std::string& text, const Section<Struct>& section, std::string_view name,
-                 const nlohmann::ordered_json& whole) {
-    const auto& found = whole.at("properties").at(std::string(section.name));
-    const auto& schema = section.many ? found.at("items") : found;
+void add_section(std::string& text, const Section& section, std::string_view name) {
     const auto known = starter_values().find(section.name);
     std::vector<Values> entries = known == starter_values().end() ? std::vector<Values>{{}} : known->second;
-    const bool is_idle = section.many && known == starter_values().end();
+    const bool is_idle = section.is_list() && known == starter_values().end();
     const std::string quoted = fmt::format("\"{}\"", name);
     if (section.name == "protocol")
         entries.front()["name"] = quoted;
@@ -142,10 +129,8 @@ void add_section(std::string& text, const Section<Struct>& section, std::string_
     for (std::size_t entry = 0; entry < entries.size(); ++entry) {
         if (entry > 0)
             text += "\n";
-        const std::string heading =
-            section.many ? fmt::format("[[{}]]", section.name) : fmt::format("[{}]", section.name);
-        text += (is_idle ? "# " : "") + heading + "\n";
-        add_keys(text, section, entries[entry], is_idle, entry == 0, schema);
+        text += (is_idle ? "# " : "") + section.heading() + "\n";
+        add_keys(text, section, entries[entry], is_idle, entry == 0);
     }
 }
 
@@ -160,8 +145,8 @@ std::string protocol_starter(std::string_view name) {
                     "# The end of a key's name is its unit: _px, _mm, _deg, _hz, _s.\n\n"
                     "# What belongs to the rig can stand in a file of its own:\n# include = \"rig.toml\"\n",
                     name, name, name);
-    const nlohmann::ordered_json schema = protocol_schema();
-    for_each_section([&](const auto& section) { add_section(text, section, name, schema); });
+    for (const Section& section : protocol_keys())
+        add_section(text, section, name);
     return text;
 }
 

@@ -22,7 +22,7 @@ std::string_view tracker_explanation() {
 
 } // namespace
 
-Section<DisplaySettings> display() {
+Section display() {
     using D = DisplaySettings;
     return {
         .name = "display",
@@ -76,12 +76,10 @@ Section<DisplaySettings> display() {
                       "[output.md](output.md)."},
                  &D::output},
                 {{.name = "dither",
-                  .choices = ditherings,
                   .explanation = "How the native modes spread what lies between two of their levels over "
                                  "neighbouring pixels and refreshes."},
                  &D::dither},
                 {{.name = "pair_filter",
-                  .choices = pair_filters,
                   .explanation = "How pixels become the one colour of a pair, in linear light: the mean of "
                                  "the two, or a Lanczos filter over twelve."},
                  &D::pair_filter},
@@ -102,7 +100,6 @@ Section<DisplaySettings> display() {
                       "refresh; see [output.md](output.md)."},
                  &D::onset_trigger},
                 {{.name = "photodiode",
-                  .choices = patch_corners,
                   .explanation =
                       "A square in this corner that changes between white and black with each frame "
                       "of the animation, white first, for a photodiode; black otherwise. It stands "
@@ -154,10 +151,10 @@ Section<DisplaySettings> display() {
                   .explanation = "The same as a luminance; needs a `characterisation`."},
                  &D::background_cd_m2},
             },
-        .one = &Protocol::display};
+        .home = &Protocol::display};
 }
 
-Section<TrackerSettings> tracker() {
+Section tracker() {
     using T = TrackerSettings;
     return {
         .name = "tracker",
@@ -197,10 +194,10 @@ Section<TrackerSettings> tracker() {
                   .explanation = "How much faster the simulated tracker's clock runs than the session's."},
                  &T::simulated_clock_drift_ppm},
             },
-        .one = &Protocol::tracker};
+        .home = &Protocol::tracker};
 }
 
-Section<ScreenSettings> screens() {
+Section screens() {
     using S = ScreenSettings;
     return {
         .name = "screens",
@@ -261,7 +258,7 @@ Section<ScreenSettings> screens() {
                 {{.name = "welcome_text", .explanation = "Shown before the first trial."}, &S::welcome_text},
                 {{.name = "farewell_text", .explanation = "Shown after the last trial."}, &S::farewell_text},
             },
-        .one = &Protocol::screens};
+        .home = &Protocol::screens};
 }
 
 } // namespace overt::key_rows

@@ -14,7 +14,7 @@ constexpr std::string_view letter_names[] = {"a", "b", "c", "d", "e", "f", "g", 
 
 } // namespace
 
-Section<ConsentSettings> consent() {
+Section consent() {
     using C = ConsentSettings;
     return {
         .name = "consent",
@@ -31,10 +31,10 @@ Section<ConsentSettings> consent() {
                 {{.name = "decline_key", .choices = letter_names, .explanation = "Declines."},
                  &C::decline_key},
             },
-        .one = &Protocol::consent};
+        .home = &Protocol::consent};
 }
 
-Section<InstructionSettings> instructions() {
+Section instructions() {
     using I = InstructionSettings;
     return {.name = "instructions",
             .explanation =
@@ -44,13 +44,13 @@ Section<InstructionSettings> instructions() {
                 {
                     {{.name = "pages", .if_left_out = "none", .explanation = "The texts."}, &I::pages},
                 },
-            .one = &Protocol::instructions};
+            .home = &Protocol::instructions};
 }
 
-Section<OperatorSettings> operators() {
+Section operators() {
     using O = OperatorSettings;
     const auto key = [](std::string_view name, std::string O::*member, std::string_view explanation) {
-        return Key<O>{{.name = name, .choices = key_names, .explanation = explanation}, member};
+        return Key{{.name = name, .choices = key_names, .explanation = explanation}, member};
     };
     return {
         .name = "operator",
@@ -78,10 +78,10 @@ Section<OperatorSettings> operators() {
                   .explanation = "Why a trial is skipped, to be chosen by a digit."},
                  &O::skip_reasons},
             },
-        .one = &Protocol::operators};
+        .home = &Protocol::operators};
 }
 
-Section<AnswerSettings> answers() {
+Section answers() {
     using A = AnswerSettings;
     return {
         .name = "answers",
@@ -92,7 +92,6 @@ Section<AnswerSettings> answers() {
         .keys =
             {
                 {{.name = "record",
-                  .choices = answer_uses,
                   .explanation = "Required: no session without a sound device. Optional: a machine without "
                                  "one says so, and goes on."},
                  &A::record},
@@ -115,10 +114,10 @@ Section<AnswerSettings> answers() {
                       "`[words]`."},
                  &A::meter_on_screen},
             },
-        .one = &Protocol::answers};
+        .home = &Protocol::answers};
 }
 
-Section<ObserverFieldSettings> observer_fields() {
+Section observer_fields() {
     using F = ObserverFieldSettings;
     return {
         .name = "observer_field",
@@ -139,7 +138,6 @@ Section<ObserverFieldSettings> observer_fields() {
                   .explanation = "What is asked."},
                  &F::title},
                 {{.name = "kind",
-                  .choices = field_kinds,
                   .if_left_out = "the standard field's, or `\"text\"`",
                   .explanation = "What may stand there."},
                  &F::kind},
@@ -163,7 +161,7 @@ Section<ObserverFieldSettings> observer_fields() {
                   .explanation = "Shown while the field is filled in."},
                  &F::note},
             },
-        .many = &Protocol::observer_fields};
+        .home = &Protocol::observer_fields};
 }
 
 } // namespace overt::key_rows

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "experiment/base/enum_names.h"
+
 namespace overt {
 
 /// [consent]
@@ -34,6 +36,7 @@ struct OperatorSettings {
 };
 
 enum class AnswerUse : std::uint8_t { none, optional, required };
+template <> inline constexpr auto names_of<AnswerUse> = enum_names<AnswerUse>("none", "optional", "required");
 
 /// [answers]
 struct AnswerSettings {

@@ -7,7 +7,7 @@ namespace {
 constexpr std::string_view units[] = {"own", "mm", "cm", "m", "in"};
 constexpr std::string_view axes[] = {"x", "y", "z", "-x", "-y", "-z"};
 
-Section<SculptureSettings> head() {
+Section head() {
     using S = SculptureSettings;
     return {.name = "head",
             .explanation = "Which part of a mesh is the head: inside any of the spheres, and in front of all "
@@ -27,7 +27,7 @@ Section<SculptureSettings> head() {
 
 } // namespace
 
-Section<ViewSettings> view() {
+Section view() {
     using V = ViewSettings;
     return {
         .name = "view",
@@ -98,10 +98,10 @@ Section<ViewSettings> view() {
                   .explanation = "What the camera looks at."},
                  &V::camera_target},
             },
-        .one = &Protocol::view};
+        .home = &Protocol::view};
 }
 
-Section<LightSettings> light() {
+Section light() {
     using L = LightSettings;
     return {.name = "light",
             .explanation = "What surrounds the sculptures and is reflected in them.",
@@ -123,10 +123,10 @@ Section<LightSettings> light() {
                       .explanation = "Turns the surroundings about the vertical."},
                      &L::rotation_deg},
                 },
-            .one = &Protocol::light};
+            .home = &Protocol::light};
 }
 
-Section<Animation> animation() {
+Section animation() {
     using A = Animation;
     return {
         .name = "animation",
@@ -152,7 +152,6 @@ Section<Animation> animation() {
                   .explanation = "Largest turn to each side of the front view."},
                  &A::amplitude},
                 {{.name = "playback",
-                  .choices = playbacks,
                   .explanation = "The frames hold a whole period of the sine, or one sweep from end to end "
                                  "that is played forth and back."},
                  &A::playback},
@@ -163,16 +162,15 @@ Section<Animation> animation() {
                   .explanation = "Length of one presentation, a whole number of frames."},
                  &A::duration_s},
                 {{.name = "when_late",
-                  .choices = when_lates,
                   .explanation = "What becomes of the animation when a picture comes late: it keeps time and "
                                  "drops the frames whose time has passed, or it keeps all frames and ends "
                                  "later. Either way the record names each refresh that was missed."},
                  &A::when_late},
             },
-        .one = &Protocol::animation};
+        .home = &Protocol::animation};
 }
 
-Section<SculptureSettings> sculpture() {
+Section sculpture() {
     using S = SculptureSettings;
     return {
         .name = "sculpture",
@@ -246,10 +244,10 @@ Section<SculptureSettings> sculpture() {
                  &S::lut_max},
             },
         .tables = {head()},
-        .many = &Protocol::sculptures};
+        .home = &Protocol::sculptures};
 }
 
-Section<MaterialSettings> material() {
+Section material() {
     using M = MaterialSettings;
     return {
         .name = "material",
@@ -314,7 +312,7 @@ Section<MaterialSettings> material() {
                   .explanation = "Share of red, green and blue light that a matt surface returns."},
                  &M::reflectance},
             },
-        .many = &Protocol::materials};
+        .home = &Protocol::materials};
 }
 
 } // namespace overt::key_rows

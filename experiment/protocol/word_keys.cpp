@@ -2,10 +2,10 @@
 
 namespace overt::key_rows {
 
-Section<WordSettings> words() {
+Section words() {
     using W = WordSettings;
     const auto text = [](std::string_view name, std::string W::*member, std::string_view explanation) {
-        return Key<W>{{.name = name, .explanation = explanation}, member};
+        return Key{{.name = name, .explanation = explanation}, member};
     };
     return {.name = "words",
             .explanation =
@@ -32,18 +32,18 @@ Section<WordSettings> words() {
                     text("too_loud", &W::too_loud, "Beside the level meter: the microphone clips."),
                     text("no_voice", &W::no_voice, "Beside the level meter: nothing is heard."),
                 },
-            .one = &Protocol::words};
+            .home = &Protocol::words};
 }
 
-Section<DatasetSettings> dataset() {
+Section dataset() {
     using D = DatasetSettings;
     const auto text = [](std::string_view name, std::string D::*member, std::string_view explanation,
                          std::string_view if_left_out = "none") {
-        return Key<D>{{.name = name, .if_left_out = if_left_out, .explanation = explanation}, member};
+        return Key{{.name = name, .if_left_out = if_left_out, .explanation = explanation}, member};
     };
     const auto list = [](std::string_view name, std::vector<std::string> D::*member,
                          std::string_view explanation) {
-        return Key<D>{{.name = name, .if_left_out = "none", .explanation = explanation}, member};
+        return Key{{.name = name, .if_left_out = "none", .explanation = explanation}, member};
     };
     return {
         .name = "dataset",
@@ -68,7 +68,7 @@ Section<DatasetSettings> dataset() {
                 text("institution_address", &D::institution_address, "Address of that place."),
                 text("department", &D::department, "Department of that place."),
             },
-        .one = &Protocol::dataset};
+        .home = &Protocol::dataset};
 }
 
 } // namespace overt::key_rows

@@ -1,9 +1,6 @@
 #include "experiment/scene/metal_table.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <fstream>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -11,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/number_table.h"
 
 namespace overt {
 
@@ -28,31 +26,13 @@ struct MetalColumns {
     bool are_bins = false;
 };
 
-std::vector<std::string_view> cells_of(std::string_view line) {
-    std::vector<std::string_view> cells;
-    for (;;) {
-        const std::size_t comma = line.find(',');
-        std::string_view cell = line.substr(0, comma);
-        while (!cell.empty() && (cell.front() == ' ' || cell.front() == '\t'))
-            cell.remove_prefix(1);
-        while (!cell.empty() && (cell.back() == ' ' || cell.back() == '\t' || cell.back() == '\r'))
-            cell.remove_suffix(1);
-        cells.push_back(cell);
-        if (comma == std::string_view::npos)
-            return cells;
-        line.remove_prefix(comma + 1);
-    }
-}
-
 class MetalFile {
   public:
-    explicit MetalFile(const std::filesystem::path& file) : file_(file), input_(file) {
-        if (!input_)
-            throw InputError(fmt::format("{}: cannot be read as a table of a metal", file.string()));
-    }
+    /// `text` outlives it.
+    MetalFile(const std::filesystem::path& file, std::string_view text) : file_(file), lines_(text) {}
 
     ComplexIndex read() {
-        while (next_line())
+        while (lines_.next())
             columns_ ? add_row() : read_header();
         if (!columns_)
             fail("there is no line that names the columns: wavelength_nm,n,k");
@@ -61,22 +41,14 @@ class MetalFile {
 
   private:
     [[noreturn]] void fail(const std::string& message) const {
-        throw InputError(fmt::format("{}:{}: {}", file_.string(), line_number_, message));
-    }
-
-    bool next_line() {
-        while (std::getline(input_, line_)) {
-            ++line_number_;
-            if (line_.find_first_not_of(" \t\r") != std::string::npos && line_.front() != '#')
-                return true;
-        }
-        return false;
+        throw InputError(fmt::format("{}:{}: {}", file_.string(), lines_.number(), message));
     }
 
     void read_header() {
-        const std::vector<std::string_view> names = cells_of(line_);
+        const std::vector<TableCell>& names = lines_.cells();
         const auto column = [&](std::string_view name) -> std::optional<std::size_t> {
-            const auto found = std::find(names.begin(), names.end(), name);
+            const auto found = std::find_if(names.begin(), names.end(),
+                                            [&](const TableCell& cell) { return cell.text == name; });
             return found == names.end() ? std::nullopt
                                         : std::optional(static_cast<std::size_t>(found - names.begin()));
         };
@@ -100,21 +72,19 @@ class MetalFile {
         columns_ = columns;
     }
 
-    double number(const std::vector<std::string_view>& cells, std::size_t column) const {
-        if (column >= cells.size())
-            fail(fmt::format("the line has {} columns only", cells.size()));
-        double value = 0.0;
-        const std::string_view cell = cells[column];
-        const auto parsed = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-        if (parsed.ec != std::errc() || parsed.ptr != cell.data() + cell.size() || !std::isfinite(value))
-            fail(fmt::format("«{}» is no number", cell));
-        return value;
+    double number(std::size_t column) const {
+        if (column >= lines_.cells().size())
+            fail(fmt::format("the line has {} columns only", lines_.cells().size()));
+        const TableCell& cell = lines_.cells()[column];
+        const std::optional<double> value = cell.number();
+        if (!value)
+            fail(fmt::format("«{}» is no number", cell.text));
+        return *value;
     }
 
     void add_row() {
-        const std::vector<std::string_view> cells = cells_of(line_);
-        const MetalRow row{number(cells, columns_->wavelength) * columns_->nm_per_unit,
-                           number(cells, columns_->n), number(cells, columns_->k)};
+        const MetalRow row{number(columns_->wavelength) * columns_->nm_per_unit, number(columns_->n),
+                           number(columns_->k)};
         if (row.n < 0.0 || row.k < 0.0 || row.n > 100.0 || row.k > 100.0 || row.n + row.k == 0.0)
             fail("n and k of a metal lie between 0 and 100, and are not both 0");
         if (!rows_.empty() && row.wavelength_nm <= rows_.back().wavelength_nm)
@@ -164,9 +134,7 @@ class MetalFile {
     }
 
     std::filesystem::path file_;
-    std::ifstream input_;
-    std::string line_;
-    int line_number_ = 0;
+    TableLines lines_;
     std::optional<MetalColumns> columns_;
     std::vector<MetalRow> rows_;
 };
@@ -175,7 +143,13 @@ class MetalFile {
 
 bool is_metal_file(const std::string& metal) { return std::filesystem::path(metal).extension() == ".csv"; }
 
-ComplexIndex read_metal_table(const std::filesystem::path& file) { return MetalFile(file).read(); }
+ComplexIndex read_metal_table(const std::filesystem::path& file) {
+    Diagnostics ignored;
+    const auto text = read_whole_file(file, file.string(), {}, ignored);
+    if (!text)
+        throw InputError(fmt::format("{}: cannot be read as a table of a metal", file.string()));
+    return MetalFile(file, *text).read();
+}
 
 ComplexIndex load_metal(const std::string& metal) {
     return is_metal_file(metal) ? read_metal_table(metal) : metal_index(metal);

@@ -6,20 +6,6 @@
 
 namespace overt {
 
-std::string_view name_of(DisplayFault::Kind kind) {
-    switch (kind) {
-    case DisplayFault::Kind::late:
-        return "late";
-    case DisplayFault::Kind::skip:
-        return "skip";
-    case DisplayFault::Kind::stall:
-        return "stall";
-    case DisplayFault::Kind::stamp:
-        return "stamp";
-    }
-    return "unknown";
-}
-
 bool DisplayFaults::is_clean() const {
     return drift_ppm == 0.0 && jitter_sd_ms == 0.0 && counts_refreshes && given.empty() &&
            by_chance.are_none();

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
+#include "experiment/base/enum_names.h"
 #include "experiment/session_time.h"
 
 namespace overt {
@@ -27,7 +27,9 @@ struct DisplayFault {
     int refreshes = 1;      ///< of skip
     friend bool operator==(const DisplayFault&, const DisplayFault&) = default;
 };
-std::string_view name_of(DisplayFault::Kind kind);
+template <>
+inline constexpr auto names_of<DisplayFault::Kind> = enum_names<DisplayFault::Kind>("late", "skip", "stall",
+                                                                                    "stamp");
 
 /// Faults that come by chance: each refresh is struck with these probabilities, independently.
 struct RandomFaults {

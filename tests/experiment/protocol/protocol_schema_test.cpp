@@ -2,9 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "experiment/keys/toml_tree.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/protocol/protocol_starter.h"
-#include "experiment/protocol/toml_tree.h"
 #include "tests/experiment/protocol/protocol_fixtures.h"
 #include "tests/support/json_schema.h"
 
@@ -129,19 +129,19 @@ TEST_CASE("what the reader refuses of a single key, the schema refuses, and the 
 TEST_CASE("the schema has every key, with its explanation and a default that fits it", "[unit]") {
     const SchemaJson schema = protocol_schema();
     CHECK(schema["$schema"] == "https://json-schema.org/draft/2020-12/schema");
-    for_each_section([&](const auto& section) {
+    for (const Section& section : protocol_keys()) {
         SchemaJson found = schema["properties"].at(std::string(section.name));
-        if (section.many)
+        if (section.is_list())
             found = found.at("items");
-        for (const auto& key : section.keys) {
+        for (const Key& key : section.keys) {
             CAPTURE(section.name, key.rule.name);
             const SchemaJson value = found["properties"].at(std::string(key.rule.name));
-            CHECK_THAT(value["description"].template get<std::string>(),
+            CHECK_THAT(value["description"].get<std::string>(),
                        Contains(without_links(key.rule.explanation)));
             if (value.contains("default"))
                 CHECK(schema_faults(value["default"], value) == std::vector<std::string>{});
         }
-    });
+    }
 }
 
 TEST_CASE("a new protocol is sound, fits the schema, and explains every key", "[unit]") {
@@ -152,15 +152,15 @@ TEST_CASE("a new protocol is sound, fits the schema, and explains every key", "[
     CHECK(read.protocol->name == "my_study");
     CHECK(read.protocol->sculptures.size() == 2);
     CHECK(faults_of(text) == std::vector<std::string>{});
-    for_each_section([&](const auto& section) {
+    for (const Section& section : protocol_keys()) {
         CHECK(text.find(fmt::format("[{}]", section.name)) != std::string::npos);
-        for (const auto& key : section.keys) {
+        for (const Key& key : section.keys) {
             CAPTURE(section.name, key.rule.name);
             CHECK(text.find(fmt::format("\n# {} = ", key.rule.name)) +
                       text.find(fmt::format("\n{} = ", key.rule.name)) + 1 !=
                   std::string::npos);
         }
-    });
+    }
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
         CAPTURE(line);

@@ -29,7 +29,7 @@ auto press_once(SessionPhase phase, int trial, Key key, Key answer = Key::yes, c
     };
 }
 
-std::vector<std::string> names_of(const Phases& phases) {
+std::vector<std::string> phase_names_of(const Phases& phases) {
     std::vector<std::string> names;
     for (const SessionPhase phase : phases)
         names.emplace_back(name_of(phase));
@@ -46,7 +46,7 @@ TEST_CASE("each change of phase is an event, in the order in which a session goe
                           response_screen, rest,        trial, task_screen, drift_check, stimulus,
                           response_screen, end};
     CHECK(sitting.panel.phases == expected);
-    CHECK(sitting.log.details_of(phase_event) == names_of(expected));
+    CHECK(sitting.log.details_of(phase_event) == phase_names_of(expected));
 }
 
 TEST_CASE("a session goes from phase to phase by its table, and nowhere from its end", "[unit]") {

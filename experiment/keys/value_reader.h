@@ -1,11 +1,18 @@
-/// One value of a protocol file into one member of a struct, by the rule of its key.
+/// One value of a TOML file into one member of a struct, by the rule of its key.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <string>
-#include <type_traits>
+#include <vector>
 
-#include "experiment/protocol/protocol_keys.h"
-#include "experiment/protocol/toml_tree.h"
+#include <glm/glm.hpp>
+
+#include "experiment/keys/key_rule.h"
+#include "experiment/keys/toml_tree.h"
+#include "experiment/units.h"
 
 namespace overt {
 
@@ -36,23 +43,7 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<
 /// A list of texts, or one text, which is a list of one. The rule holds for each.
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<std::string>& out);
 
-template <class Enumeration>
-requires std::is_enum_v<Enumeration> ValueResult read_value(const TomlValue& value, const KeyRule& rule,
-                                                            Enumeration& out) {
-    std::string name;
-    if (ValueResult fault = read_value(value, rule, name))
-        return fault;
-    for (std::size_t i = 0; i < rule.choices.size(); ++i) {
-        if (rule.choices[i] == name)
-            out = static_cast<Enumeration>(i);
-    }
-    return std::nullopt;
-}
-
-template <class Enumeration>
-requires std::is_enum_v<Enumeration> ValueResult read_value(const TomlValue& value, const KeyRule& rule,
-                                                            std::optional<Enumeration>& out) {
-    return read_value(value, rule, out.emplace());
-}
+/// A text that is one of the rule's choices: which.
+ValueResult read_choice(const TomlValue& value, const KeyRule& rule, std::size_t& index);
 
 } // namespace overt

@@ -1,4 +1,4 @@
-#include "experiment/protocol/key_places.h"
+#include "experiment/keys/key_places.h"
 
 #include "experiment/base/error.h"
 

@@ -1,4 +1,4 @@
-#include "experiment/protocol/value_reader.h"
+#include "experiment/keys/value_reader.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "experiment/keys/value_type.h"
+
 namespace overt {
 
 namespace {
 
-ValueFault wrong_kind(const TomlValue& value, const KeyRule& rule, std::string_view noun) {
+template <class Value> ValueFault wrong_kind(const TomlValue& value, const KeyRule& rule) {
+    const std::string_view noun = value_type(TypeTag<Value>()).noun;
     return {value.place,
             fmt::format("{}: expected {}, found {}", rule.name, expected_text(rule, noun), value.kind())};
 }
@@ -27,7 +30,7 @@ ValueResult check_range(const TomlValue& value, const KeyRule& rule, double numb
 ValueResult read_whole(const TomlValue& value, const KeyRule& rule, std::int64_t& out) {
     const auto* whole = std::get_if<std::int64_t>(&value.content);
     if (!whole) {
-        ValueFault fault = wrong_kind(value, rule, "a whole number");
+        ValueFault fault = wrong_kind<int>(value, rule);
         if (const auto* number = std::get_if<double>(&value.content);
             number && std::abs(*number) < 1e9 && *number == std::floor(*number))
             fault.hint = fmt::format("write {:.0f}, without the point", *number);
@@ -39,12 +42,12 @@ ValueResult read_whole(const TomlValue& value, const KeyRule& rule, std::int64_t
     return std::nullopt;
 }
 
-/// The numbers of a list of exactly `count`. The range of the rule holds for each.
-ValueResult read_numbers(const TomlValue& value, const KeyRule& rule, std::string_view noun,
-                         std::size_t count, double* out) {
+/// The numbers of a list of exactly `count`, in a Value. The range of the rule holds for each.
+template <class Value>
+ValueResult read_numbers(const TomlValue& value, const KeyRule& rule, std::size_t count, double* out) {
     const TomlList* list = value.list();
     if (!list)
-        return wrong_kind(value, rule, noun);
+        return wrong_kind<Value>(value, rule);
     if (list->size() != count) {
         return ValueFault{value.place,
                           fmt::format("{}: expected {} numbers, found {}", rule.name, count, list->size())};
@@ -75,7 +78,7 @@ ValueResult check_identifier(const TomlValue& value, const KeyRule& rule, const 
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, bool& out) {
     const auto* truth = std::get_if<bool>(&value.content);
     if (!truth)
-        return wrong_kind(value, rule, "true or false");
+        return wrong_kind<bool>(value, rule);
     out = *truth;
     return std::nullopt;
 }
@@ -97,7 +100,7 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, double& out)
     else if (const auto* real = std::get_if<double>(&value.content))
         number = *real;
     else
-        return wrong_kind(value, rule, "a number");
+        return wrong_kind<double>(value, rule);
     if (ValueResult fault = check_range(value, rule, number))
         return fault;
     out = number;
@@ -111,7 +114,7 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, Degrees& out
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::string& out) {
     const auto* text = std::get_if<std::string>(&value.content);
     if (!text)
-        return wrong_kind(value, rule, "a text");
+        return wrong_kind<std::string>(value, rule);
     if (!rule.choices.empty() &&
         std::find(rule.choices.begin(), rule.choices.end(), *text) == rule.choices.end()) {
         return ValueFault{value.place, fmt::format("{}: unknown value \"{}\"", rule.name, *text),
@@ -162,7 +165,7 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::optiona
 }
 
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::array<double, 3>& out) {
-    return read_numbers(value, rule, "a list of three numbers", out.size(), out.data());
+    return read_numbers<std::array<double, 3>>(value, rule, out.size(), out.data());
 }
 
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<double>& out) {
@@ -171,21 +174,21 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<
         const bool is_number = std::holds_alternative<double>(value.content) ||
                                std::holds_alternative<std::int64_t>(value.content);
         if (!is_number)
-            return wrong_kind(value, rule, "a list of numbers");
+            return wrong_kind<std::vector<double>>(value, rule);
         if (ValueResult fault = read_value(value, rule, number))
             return fault;
         out = {number};
         return std::nullopt;
     }
     out.resize(value.list()->size());
-    return read_numbers(value, rule, "a list of numbers", out.size(), out.data());
+    return read_numbers<std::vector<double>>(value, rule, out.size(), out.data());
 }
 
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<std::string>& out) {
     out.clear(); // of what it is when the key is left out
     if (!value.list()) {
         if (!std::holds_alternative<std::string>(value.content))
-            return wrong_kind(value, rule, "a list of texts");
+            return wrong_kind<std::vector<std::string>>(value, rule);
         return read_value(value, rule, out.emplace_back());
     }
     for (const TomlValue& item : *value.list()) {
@@ -199,12 +202,12 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<
 }
 
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<std::array<double, 4>>& out) {
-    constexpr std::string_view noun = "a list of spheres [x, y, z, radius]";
+    using Spheres = std::vector<std::array<double, 4>>;
     if (!value.list())
-        return wrong_kind(value, rule, noun);
+        return wrong_kind<Spheres>(value, rule);
     for (const TomlValue& item : *value.list()) {
         std::array<double, 4> sphere{};
-        if (ValueResult fault = read_numbers(item, rule, noun, sphere.size(), sphere.data()))
+        if (ValueResult fault = read_numbers<Spheres>(item, rule, sphere.size(), sphere.data()))
             return fault;
         if (!(sphere[3] > 0.0))
             return ValueFault{
@@ -215,9 +218,9 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<
 }
 
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<std::array<double, 6>>& out) {
-    constexpr std::string_view noun = "a list of planes [[x, y, z], [nx, ny, nz]]";
+    using Planes = std::vector<std::array<double, 6>>;
     if (!value.list())
-        return wrong_kind(value, rule, noun);
+        return wrong_kind<Planes>(value, rule);
     for (const TomlValue& item : *value.list()) {
         const TomlList* pair = item.list();
         if (!pair || pair->size() != 2)
@@ -226,7 +229,7 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<
                 fmt::format("{}: expected a point and a direction, [[x, y, z], [nx, ny, nz]]", rule.name)};
         std::array<double, 6> plane{};
         for (std::size_t half = 0; half < 2; ++half) {
-            if (ValueResult fault = read_numbers((*pair)[half], rule, noun, 3, plane.data() + 3 * half))
+            if (ValueResult fault = read_numbers<Planes>((*pair)[half], rule, 3, plane.data() + 3 * half))
                 return fault;
         }
         if (plane[3] == 0.0 && plane[4] == 0.0 && plane[5] == 0.0)
@@ -234,6 +237,15 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<
                               fmt::format("{}: a direction of length 0 points nowhere", rule.name)};
         out.push_back(plane);
     }
+    return std::nullopt;
+}
+
+ValueResult read_choice(const TomlValue& value, const KeyRule& rule, std::size_t& index) {
+    std::string name;
+    if (ValueResult fault = read_value(value, rule, name))
+        return fault;
+    index = static_cast<std::size_t>(std::find(rule.choices.begin(), rule.choices.end(), name) -
+                                     rule.choices.begin());
     return std::nullopt;
 }
 

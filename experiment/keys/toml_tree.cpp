@@ -1,4 +1,4 @@
-#include "experiment/protocol/toml_tree.h"
+#include "experiment/keys/toml_tree.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/protocol/toml_remedy.h"
+#include "experiment/keys/toml_remedy.h"
 
 // toml++ 3.3 takes a few things for granted that a damaged file does not keep to, and goes on with undefined
 // behaviour: a heading without a name (`[=`), and letters beyond ASCII where there might be blanks. So its
@@ -120,12 +120,6 @@ Place place_of_broken_promise(std::string_view text) {
     return place;
 }
 
-std::string remedy_at(std::string_view text, Place place, std::string_view message) {
-    const auto span = find_line(text, place.line);
-    return span ? toml_remedy(message, text.substr(span->begin, span->end - span->begin), place.column)
-                : std::string();
-}
-
 /// toml++ opens with «Error while parsing …: », which the place says already.
 std::string without_preamble(std::string_view description) {
     const std::size_t end = description.find(": ");
@@ -169,7 +163,7 @@ TomlFile parse_toml(std::string_view text, const std::string& file, Diagnostics&
         // After a line was passed over, an error before it is a consequence and none of the user's.
         if (place.line <= last_line)
             return result;
-        diagnostics.error(file, place, message, remedy_at(remaining, place, message));
+        diagnostics.error(file, place, message, toml_remedy(remaining, place));
         last_line = place.line;
         if (!pass_over(remaining, place.line))
             return result;

@@ -20,8 +20,8 @@ struct UnreadableText {
 /// has, for the reader goes into each of them and its stack has an end.
 std::optional<UnreadableText> why_unreadable(std::string_view text);
 
-/// In words, what would mend a line that `message` of the TOML reader is about; empty if nobody knows.
-/// `column` counts characters from 1.
-std::string toml_remedy(std::string_view message, std::string_view line, int column);
+/// In words, what would mend the line at a place where a TOML reader fails; empty if nobody knows. Told from
+/// what is written there, whatever the reader says of it; the lines above are without error.
+std::string toml_remedy(std::string_view text, Place place);
 
 } // namespace overt

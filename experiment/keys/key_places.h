@@ -1,4 +1,4 @@
-/// Where each key stands in a protocol file, so that whoever finds a value wrong can point at it.
+/// Where each key stands in a TOML file, so that whoever finds a value wrong can point at it.
 #pragma once
 
 #include <initializer_list>

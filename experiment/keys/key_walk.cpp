@@ -1,0 +1,120 @@
+#include "experiment/keys/key_walk.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiment/keys/key_hints.h"
+
+namespace overt {
+
+void KeyWalk::read_root(const TomlFile& toml, void* root) {
+    is_whole_ = toml.is_whole;
+    for (const TomlEntry& entry : toml.root) {
+        if (std::none_of(table_.begin(), table_.end(),
+                         [&](const Section& section) { return section.name == entry.key; }))
+            report_unknown_section(entry);
+    }
+    for (const Section& section : table_) {
+        const auto entry = std::find_if(toml.root.begin(), toml.root.end(), [&](const TomlEntry& candidate) {
+            return candidate.key == section.name;
+        });
+        const TomlValue* value = entry == toml.root.end() ? nullptr : &entry->value;
+        if (!section.is_list())
+            read_one(section, value, root);
+        else if (value)
+            read_entries(section, *value, root);
+    }
+}
+
+void KeyWalk::report_unknown_section(const TomlEntry& entry) {
+    if (!entry.value.table() && !entry.value.list()) {
+        error(entry.key_place, fmt::format("key \"{}\" stands outside all sections", entry.key),
+              hint_for_stray_key(table_, entry.key));
+        return;
+    }
+    std::vector<std::string_view> names;
+    for (const Section& section : table_)
+        names.push_back(section.name);
+    error(entry.key_place, fmt::format("unknown section [{}]", entry.key), suggest_name(entry.key, names));
+}
+
+void KeyWalk::read_one(const Section& section, const TomlValue* value, void* root) {
+    static const TomlTable nothing;
+    if (value && !value->table()) {
+        error(value->place, fmt::format("{}: expected a section, found {}", section.name, value->kind()),
+              fmt::format("write [{}] on a line of its own, and its keys below", section.name));
+        return;
+    }
+    if (value)
+        places_.note(std::string(section.name), value->place);
+    read_keys(section, value ? *value->table() : nothing, std::string(section.name), section.home.open(root));
+}
+
+void KeyWalk::read_entries(const Section& section, const TomlValue& value, void* root) {
+    if (!value.list()) {
+        error(value.place, fmt::format("{}: expected a list of sections", section.name),
+              fmt::format("write [[{}]], with two brackets", section.name));
+        faulty_.insert(std::string(section.name));
+        return;
+    }
+    for (std::size_t i = 0; i < value.list()->size(); ++i) {
+        const TomlValue& item = (*value.list())[i];
+        const std::string path = fmt::format("{}[{}]", section.name, i);
+        places_.note(path, item.place);
+        void* const entry = section.home.open(root);
+        if (item.table())
+            read_keys(section, *item.table(), path, entry);
+        else
+            error(item.place, fmt::format("{}: expected a section, found {}", section.name, item.kind()));
+    }
+}
+
+void KeyWalk::read_keys(const Section& section, const TomlTable& table, const std::string& path, void* out) {
+    for (const TomlEntry& entry : table) {
+        const auto key = std::find_if(section.keys.begin(), section.keys.end(),
+                                      [&](const Key& row) { return row.rule.name == entry.key; });
+        const auto inner =
+            std::find_if(section.tables.begin(), section.tables.end(),
+                         [&](const Section& candidate) { return candidate.name == entry.key; });
+        const std::string entry_path = path + "." + entry.key;
+        if (key != section.keys.end())
+            read_key(*key, entry.value, entry_path, out);
+        else if (inner != section.tables.end())
+            read_inner(*inner, entry, entry_path, out);
+        else
+            error(entry.key_place, fmt::format("unknown key \"{}\" in [{}]", entry.key, section.name),
+                  hint_for_unknown_key(table_, entry.key, section));
+    }
+    for (const Key& key : section.keys) {
+        if (key.rule.is_required && is_whole_ &&
+            !places_.is_written(fmt::format("{}.{}", path, key.rule.name)))
+            report_missing(section, key.rule, path);
+    }
+}
+
+void KeyWalk::read_inner(const Section& section, const TomlEntry& entry, const std::string& path, void* out) {
+    places_.note(path, entry.value.place);
+    if (entry.value.table()) {
+        read_keys(section, *entry.value.table(), path, out);
+        return;
+    }
+    error(entry.value.place, fmt::format("{}: expected a table, found {}", section.name, entry.value.kind()),
+          fmt::format("write {} = {{ {} = … }}", section.name, section.keys.front().rule.name));
+}
+
+void KeyWalk::read_key(const Key& key, const TomlValue& value, const std::string& path, void* out) {
+    places_.note(path, value.place);
+    if (const ValueResult fault = key.type->read(value, key.rule, key.place.in(out))) {
+        error(fault->place, fault->message, fault->hint);
+        faulty_.insert(path);
+    }
+}
+
+void KeyWalk::report_missing(const Section& section, const KeyRule& rule, const std::string& path) {
+    error(places_.of(path), fmt::format("{} has no \"{}\"", section.heading(), rule.name),
+          std::string(rule.explanation));
+    faulty_.insert(fmt::format("{}.{}", path, rule.name));
+}
+
+} // namespace overt
