@@ -13,28 +13,27 @@ namespace {
 
 std::string text_of(glm::dvec3 vector) { return fmt::format("{} {} {}", vector.x, vector.y, vector.z); }
 
-std::string text_of(const std::string& text) { return text; }
-std::string text_of(const std::array<double, 3>& numbers) {
-    return fmt::format("[{}]", fmt::join(numbers, ", "));
-}
-template <class Number> std::string text_of(const Number& number) {
-    OVERT_EXPECTS(std::is_arithmetic_v<Number>); // no key of a material has another type
-    if constexpr (std::is_arithmetic_v<Number>)
-        return fmt::format("{}", number);
-    return {};
+/// The value of a key of a material, as its file has it.
+std::string text_of(const Key& key, const MaterialSettings& material) {
+    if (const auto* text = key.get_if<std::string>(&material))
+        return *text;
+    if (const auto* number = key.get_if<double>(&material))
+        return fmt::format("{}", *number);
+    if (const auto* whole = key.get_if<int>(&material))
+        return fmt::format("{}", *whole);
+    const auto* numbers = key.get_if<std::array<double, 3>>(&material);
+    OVERT_EXPECTS(numbers != nullptr); // no key of a material has another type
+    return fmt::format("[{}]", fmt::join(*numbers, ", "));
 }
 
 /// Its kind, and the keys that make a difference to it.
 std::string text_of(const MaterialSettings& material) {
     const MaterialKindRow& row = row_of(material.kind);
     std::string text = fmt::format("kind = {}", row.name);
-    const auto& keys = std::get<Section<MaterialSettings>>(protocol_sections()).keys;
     for (const std::string_view name : row.keys) {
-        for (const Key<MaterialSettings>& key : keys) {
+        for (const Key& key : protocol_keys().section("material").keys) {
             if (key.rule.name == name)
-                text += fmt::format(
-                    ", {} = {}", name,
-                    std::visit([&](auto member) { return text_of(material.*member); }, key.member));
+                text += fmt::format(", {} = {}", name, text_of(key, material));
         }
     }
     return text;
