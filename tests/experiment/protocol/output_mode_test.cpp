@@ -40,7 +40,7 @@ TEST_CASE("every key of a material is some kind's, and every kind's keys are key
                 of_kinds.insert(key);
         }
     }
-    for (const auto& key : std::get<Section<MaterialSettings>>(protocol_sections()).keys)
+    for (const auto& key : protocol_keys().section("material").keys)
         of_section.insert(key.rule.name);
     for (const std::string_view everybodys : {"id", "title", "kind"})
         CHECK(of_section.erase(everybodys) == 1);
