@@ -47,7 +47,7 @@ std::optional<GazeEvent::Kind> gaze_event_kind(std::string_view word);
 struct GazeSource {
     std::string file;   ///< its name, without folders
     std::string sha256; ///< of its bytes
-    std::string header; ///< its first lines, that begin with «**»
+    std::string header; ///< its first lines, that begin with "**"
     bool pupil_is_diameter = false;
     double rate_hz = 0.0;
     bool has_left = false, has_right = false;

@@ -106,7 +106,7 @@ int run_bench(const BenchOptions& options) {
     const auto chosen = std::find_if(std::begin(benchmarks), std::end(benchmarks),
                                      [&](const Benchmark& one) { return one.name == options.what; });
     if (chosen == std::end(benchmarks))
-        throw InputError(fmt::format("there is no benchmark «{}»: see overt bench --help", options.what));
+        throw InputError(fmt::format("there is no benchmark \"{}\": see overt bench --help", options.what));
     const BenchFigures figures = chosen->measure(options);
     if (options.json) {
         fmt::print("{}\n", to_json(figures).dump(2));

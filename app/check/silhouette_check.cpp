@@ -180,7 +180,7 @@ std::vector<SequenceSilhouette> check_silhouettes(const Experiment& experiment, 
         const std::string key = fmt::format("frames[{}].files", i);
         if (!matched.has_silhouette) {
             diagnostics.warning(protocol.file.string(), protocol.places.of(key),
-                                "the frames have no alpha: nobody can tell whether they show the sculpture "
+                                "the frames have no alpha: it cannot be told whether they show the sculpture "
                                 "where the hidden maps have it",
                                 "give background_colour, or render with alpha");
             continue;

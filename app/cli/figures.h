@@ -14,7 +14,7 @@ struct BenchFigure {
     std::string figure; ///< what was measured, and on what
     double value = 0.0;
     std::string unit;
-    std::string target = {};        ///< such as «<= 0.5»; empty if none is set
+    std::string target = {};        ///< such as "<= 0.5"; empty if none is set
     std::optional<bool> holds = {}; ///< whether the value reaches the target; nothing without a target
 };
 using BenchFigures = std::vector<BenchFigure>;

@@ -21,7 +21,7 @@ class Interruption {
     /// Set once a signal came, by its handler.
     static const std::atomic<bool>& requested() noexcept;
 
-    /// Throws Error if a signal came: «`what` was interrupted: nothing was written.»
+    /// Throws Error if a signal came: "`what` was interrupted: nothing was written."
     static void check(std::string_view what);
 
   private:

@@ -70,7 +70,7 @@ void add_screens(std::vector<Line>& lines) {
     }
 }
 
-/// Asks only ports of the box's vendor: another maker's device is no business of an overview.
+/// Asks only ports of the box's vendor: an overview must not talk to another maker's device.
 void add_instruments(std::vector<Line>& lines) {
     const std::vector<SerialPortInfo> ports = serial_ports();
     if (ports.empty())

@@ -32,7 +32,7 @@ class PatchPhotometer {
 std::unique_ptr<PatchPhotometer> make_colorcal_photometer(const std::optional<std::string>& port,
                                                           Clock& clock);
 
-/// Asks at the terminal for what an instrument shows: three numbers, X Y Z, or x y Y behind a word «xyY».
+/// Asks at the terminal for what an instrument shows: three numbers, X Y Z, or x y Y behind a word "xyY".
 std::unique_ptr<PatchPhotometer> make_typed_photometer(std::string instrument);
 
 std::unique_ptr<PatchPhotometer> make_simulated_photometer(const DisplayTruth& truth, std::uint64_t seed);

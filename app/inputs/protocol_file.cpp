@@ -43,13 +43,13 @@ Observer observer_labelled(const std::string& label) {
         const char last = label.back();
         if (last >= '0' && last <= '9')
             throw InputError(
-                fmt::format("observer «{}»: the number at its end decides which materials are shown, "
+                fmt::format("observer \"{}\": the number at its end decides which materials are shown, "
                             "and is from 1 to 999999999",
                             label));
-        throw InputError(
-            fmt::format("observer «{}» has no number at its end, and the number decides which materials are "
-                        "shown: call the observer {}01, say",
-                        label, label));
+        throw InputError(fmt::format(
+            "observer \"{}\" has no number at its end, and the number decides which materials are "
+            "shown: call the observer {}01, say",
+            label, label));
     }
     return {label, *number};
 }
@@ -64,7 +64,7 @@ Condition stimulus_called(const Protocol& protocol, const std::string& name) {
         }
     }
     const std::vector<std::string_view> known(names.begin(), names.end());
-    throw InputError(fmt::format("no stimulus is called «{}»: {}", name, suggest_name(name, known)));
+    throw InputError(fmt::format("no stimulus is called \"{}\": {}", name, suggest_name(name, known)));
 }
 
 int sculpture_called(const Protocol& protocol, const std::string& name) {
@@ -76,7 +76,7 @@ int sculpture_called(const Protocol& protocol, const std::string& name) {
             return static_cast<int>(known.size());
         known.push_back(sculpture.id);
     }
-    throw InputError(fmt::format("no sculpture is called «{}»: {}", name, suggest_name(name, known)));
+    throw InputError(fmt::format("no sculpture is called \"{}\": {}", name, suggest_name(name, known)));
 }
 
 } // namespace overt

@@ -49,7 +49,8 @@ nlohmann::ordered_json to_json(const AscImportSummary& summary) {
 void print(const AscImportSummary& summary) {
     const AscSurvey& survey = summary.survey;
     if (survey.skipped_lines > shown_lines)
-        fmt::print(stderr, "… and {} more: all are events («line left out») in the session and its tables\n",
+        fmt::print(stderr,
+                   "… and {} more: all are events (\"line left out\") in the session and its tables\n",
                    counted(survey.skipped_lines - shown_lines, "line"));
     for (const std::string& remark : summary.remarks)
         fmt::print("{}\n", remark);

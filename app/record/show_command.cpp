@@ -126,7 +126,7 @@ void write_picture(const SessionRecord& record, const TrialRecord& trial, const 
     RecordedSurfaces surfaces(record);
     const CoordinateMaps* maps = surfaces.maps_of(sculpture);
     if (!maps)
-        throw InputError(fmt::format("sculpture «{}» has no map: there is no surface to show gaze on",
+        throw InputError(fmt::format("sculpture \"{}\" has no map: there is no surface to show gaze on",
                                      header.sculptures[static_cast<std::size_t>(sculpture)].id));
     const SampleJoin join(record, trial, maps);
     std::vector<glm::dvec3> gaze;

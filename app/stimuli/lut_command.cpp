@@ -111,10 +111,10 @@ CoordinateMaps draw_maps(StimulusLibrary& library, const Sculpture& sculpture, i
         angles.push_back(library.cache().poses().angles[static_cast<std::size_t>(pose.value)]);
         maps.push_back(library.maps().draw_map(index, pose));
         if (maps.back().covered_pixels() == 0) {
-            throw InputError(
-                fmt::format("sculpture «{}» is nowhere in the picture at {:.3g} degrees: correct the camera "
-                            "under [view]",
-                            sculpture.id, angles.back().value));
+            throw InputError(fmt::format(
+                "sculpture \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera "
+                "under [view]",
+                sculpture.id, angles.back().value));
         }
     }
     return {sculpture.mesh, sculpture.scene, std::move(angles), std::move(maps)};
@@ -143,7 +143,7 @@ int run_lut(const LutOptions& options) {
     Sculpture& sculpture = sculptures[static_cast<std::size_t>(index)];
     sculpture = load_sculpture(settings, protocol, cache_folder());
     if (!sculpture.has_mesh()) {
-        throw InputError(fmt::format("sculpture «{}» has no mesh to make maps of, or to check them against",
+        throw InputError(fmt::format("sculpture \"{}\" has no mesh to make maps of, or to check them against",
                                      sculpture.id));
     }
 

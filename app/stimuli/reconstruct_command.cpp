@@ -52,8 +52,9 @@ class StimulusMaps {
             return;
         }
         if (settings.lut.empty())
-            throw InputError(fmt::format(
-                "sculpture «{}» has neither a mesh nor maps: nothing is known of its surface", sculpture.id));
+            throw InputError(
+                fmt::format("sculpture \"{}\" has neither a mesh nor maps: nothing is known of its surface",
+                            sculpture.id));
         std::vector<CoordinateImageFile> images;
         for (std::size_t pose = 0; pose < poses_.angles.size(); ++pose) {
             bar.update("reading maps of " + sculpture.id, static_cast<int>(pose),

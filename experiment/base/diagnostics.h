@@ -76,7 +76,7 @@ class Diagnostics {
 /// neighbours counting once, case not at all), or only in the unit at its end. Nothing if none is near.
 std::optional<std::string_view> nearest_name(std::string_view word, std::span<const std::string_view> known);
 
-/// A hint for an unknown word: «did you mean "…"?», or else the list of what is known.
+/// A hint for an unknown word: "did you mean "…"?", or else the list of what is known.
 std::string suggest_name(std::string_view word, std::span<const std::string_view> known);
 
 } // namespace overt

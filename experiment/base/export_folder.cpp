@@ -20,7 +20,7 @@ const fs::path& unless_refused(const fs::path& directory, bool overwrite,
     for (const auto& entry : fs::directory_iterator(directory))
         if (!is_ours(entry.path().filename().string()))
             throw InputError(
-                fmt::format("{}: holds «{}», which no export has written, so it is not overwritten. "
+                fmt::format("{}: holds \"{}\", which no export has written, so it is not overwritten. "
                             "Name another folder.",
                             directory.string(), entry.path().filename().string()));
     return directory;

@@ -31,7 +31,7 @@ void sync_around(const fs::path& directory) {
 
 PartialDirectory::PartialDirectory(const fs::path& final_path) : final_path_(fs::absolute(final_path)) {
     if (!final_path_.has_filename())
-        final_path_ = final_path_.parent_path(); // «out/» means «out»
+        final_path_ = final_path_.parent_path(); // "out/" means "out"
     const fs::path parent = final_path_.parent_path();
     std::error_code error;
     fs::create_directories(parent, error);

@@ -6,7 +6,8 @@
 namespace overt {
 
 /// Lies hidden beside its final place, under another name, until publish(). Without publish() it removes
-/// itself. A program that is killed leaves a hidden directory «.NAME.partial-XXXXXX» that is in nobody's way.
+/// itself. A program that is killed leaves a hidden directory ".NAME.partial-XXXXXX" that no other program
+/// reads.
 class PartialDirectory {
   public:
     /// Makes the folders around it, too. Throws RecordError.

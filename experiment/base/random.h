@@ -20,7 +20,7 @@ std::array<std::uint32_t, 4> philox_4x32_10(std::array<std::uint32_t, 4> counter
 /// cryptography.
 class RandomStream {
   public:
-    /// `seed` is the session's recorded seed; `purpose` names what is drawn («trial order», «gaze noise»);
+    /// `seed` is the session's recorded seed; `purpose` names what is drawn ("trial order", "gaze noise");
     /// `index` tells streams of one purpose apart (an observer's number, a trial's).
     RandomStream(std::uint64_t seed, std::string_view purpose, std::uint64_t index = 0);
 

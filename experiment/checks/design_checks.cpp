@@ -119,7 +119,7 @@ void check_block(ProtocolExamination& examination, int index) {
 
 /// Those of the planned observers who see the same.
 struct AlikeObservers {
-    std::string of_group; ///< « of group "gold"», or nothing without groups
+    std::string of_group; ///< " of group "gold"", or nothing without groups
     int count = 0;
     int first = 1;  ///< number of one of them
     int blocks = 0; ///< that they have

@@ -72,7 +72,7 @@ struct IncidenceCell {
 /// A block of the protocol, or the only one.
 struct BlockFacts {
     std::string id;    ///< empty if the protocol has no blocks
-    std::string order; ///< «random», «blocked by task, levels balanced», …
+    std::string order; ///< "random", "blocked by task, levels balanced", …
     int trials = 0;    ///< of the observer who has most
 };
 

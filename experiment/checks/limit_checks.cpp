@@ -8,7 +8,7 @@ namespace overt {
 
 namespace {
 
-/// «block "a" (sequential), block "b" (blocked by stimulus)»: those in which a limit of [schedule] is
+/// "block "a" (sequential), block "b" (blocked by stimulus)": those in which a limit of [schedule] is
 /// dropped.
 std::string blocks_without(const Protocol& protocol, TrialFactor factor, OrderLimit::Kind kind) {
     std::string blocks;

@@ -8,7 +8,7 @@ namespace overt {
 /// Light of one channel at a signal of 0 … 1, relative to that at full signal, with the black level taken
 /// off: 0 at 0, 1 at 1, never falling.
 ///
-/// Either a power, after Berns (1996), «Methods for characterizing CRT displays», Displays 16(4):
+/// Either a power, after Berns (1996), "Methods for characterizing CRT displays", Displays 16(4):
 ///     light = (g(signal) - g(0)) / (1 - g(0)),  g(s) = max(0, (1 - offset) s + offset)^exponent;
 /// or a measured table, between whose points light^(1 / exponent) is interpolated by cubics that rise
 /// wherever the points do (Fritsch & Butland 1984, SIAM J. Sci. Stat. Comput. 5). In that measure a usual

@@ -1,5 +1,5 @@
 /// What is known of a display: the light that it makes of a signal, measured. The model is the usual one of
-/// independent channels that add up (Brainard, Pelli & Robson 2002, «Display characterization», in:
+/// independent channels that add up (Brainard, Pelli & Robson 2002, "Display characterization", in:
 /// Encyclopedia of Imaging Science and Technology):
 ///     XYZ(signal) = black + sum over channels of curve(signal of channel) * (channel at full signal - black)
 #pragma once

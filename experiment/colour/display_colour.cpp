@@ -12,18 +12,19 @@ DisplayColour::DisplayColour(const DisplayCharacterisation& display, ColourSpace
     black_ = display.black_xyz;
     if (space != ColourSpace::cie1931_xyz) {
         if (!display.spectra) {
-            throw InputError(fmt::format(
-                "the characterisation of «{}» has no spectra of its primaries, and without them nobody knows "
-                "its {}: measure them, and name the table with [light] spectra.",
-                display.display, name_of(space)));
+            throw InputError(fmt::format("the characterisation of \"{}\" has no spectra of its primaries, "
+                                         "and without them nobody knows "
+                                         "its {}: measure them, and name the table with [light] spectra.",
+                                         display.display, name_of(space)));
         }
         for (std::size_t i = 0; i < 3; ++i)
             primaries[i] = tristimulus_of(display.spectra->channels[i], space);
         black_ = tristimulus_of(display.spectra->black, space);
     }
     if (independence_of(primaries) < least_independence)
-        throw InputError(fmt::format("the primaries of «{}» lie in one plane of {}: no light has an inverse.",
-                                     display.display, name_of(space)));
+        throw InputError(
+            fmt::format("the primaries of \"{}\" lie in one plane of {}: no light has an inverse.",
+                        display.display, name_of(space)));
     to_ = primary_matrix(primaries);
     from_ = glm::inverse(to_);
 }

@@ -120,7 +120,7 @@ Place place_of_broken_promise(std::string_view text) {
     return place;
 }
 
-/// toml++ opens with «Error while parsing …: », which the place says already.
+/// toml++ opens with "Error while parsing …: ", which the place says already.
 std::string without_preamble(std::string_view description) {
     const std::size_t end = description.find(": ");
     return std::string(end == std::string_view::npos ? description : description.substr(end + 2));

@@ -31,8 +31,8 @@ TriangleMap read_triangle_map(const std::filesystem::path& file) {
     const OIIO::ImageSpec spec = input->spec();
     if (spec.nchannels != 1 || spec.channelnames.front() != "triangle" ||
         spec.format != OIIO::TypeDesc::UINT32) {
-        throw InputError(
-            fmt::format("{}: is no map of triangle numbers (one 32-bit channel «triangle»)", file.string()));
+        throw InputError(fmt::format("{}: is no map of triangle numbers (one 32-bit channel \"triangle\")",
+                                     file.string()));
     }
     TriangleMap map{{spec.width, spec.height}, {}};
     with_memory_for(file, [&] {

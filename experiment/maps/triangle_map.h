@@ -31,7 +31,7 @@ struct TriangleMap {
 /// Text attributes kept with a map: mesh hash, camera, pose.
 using MapAttributes = std::vector<std::pair<std::string, std::string>>;
 
-/// Writes an EXR file with one 32-bit unsigned channel, «triangle» (code as above), losslessly compressed; at
+/// Writes an EXR file with one 32-bit unsigned channel, "triangle" (code as above), losslessly compressed; at
 /// once or not at all. Throws RecordError.
 void write_triangle_map(const std::filesystem::path& file, const TriangleMap& map,
                         const MapAttributes& attributes);

@@ -66,7 +66,7 @@ class CharacterisationReader {
         out_.instrument = keys.display.instrument;
         out_.note = keys.display.note;
         out_.screen = keys.screen;
-        // What follows from keys that are wrong, or lie in lines that were passed over, is nobody's doing.
+        // Keys that are wrong, or lie in lines that were passed over, would raise false alarms here.
         if (!reading_.toml.is_whole || reading_.diagnostics.has_errors())
             return;
         take_light(keys.light);

@@ -28,7 +28,7 @@ class ProtocolExamination {
     void error(const std::vector<std::string>& paths, std::string message, std::string hint = {});
     void warning(std::initializer_list<std::string_view> paths, std::string message, std::string hint = {});
 
-    /// «line 12», or «line 12 of rig.toml» for a key that stands in another file than the key `seen_from`.
+    /// "line 12", or "line 12 of rig.toml" for a key that stands in another file than the key `seen_from`.
     std::string line_of(std::string_view path, std::string_view seen_from) const;
 
     /// Where findings about files that the protocol names belong.

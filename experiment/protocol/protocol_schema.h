@@ -13,8 +13,8 @@ namespace overt {
 /// `overt check` says.
 nlohmann::ordered_json protocol_schema();
 
-/// A text of the table of keys for where no page of docs/ is a click away: «[bake.md](bake.md)» becomes
-/// «docs/bake.md».
+/// A text of the table of keys for where no page of docs/ is a click away: "[bake.md](bake.md)" becomes
+/// "docs/bake.md".
 std::string without_links(std::string_view text);
 
 } // namespace overt

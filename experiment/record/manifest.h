@@ -26,7 +26,7 @@ struct SessionManifest {
         ContentHash sha256;
     };
     struct File {
-        std::string path; ///< relative to the folder, with «/»
+        std::string path; ///< relative to the folder, with "/"
         std::uint64_t bytes = 0;
         ContentHash sha256;
     };

@@ -45,7 +45,7 @@ struct RowDigest {
 /// Which rows of which table, in words that a statement can be made of.
 struct RowChoice {
     std::string table;
-    std::string columns;   ///< separated by «, »
+    std::string columns;   ///< separated by ", "
     std::string condition; ///< what follows WHERE, with up to two question marks; empty: all rows
     std::string order;     ///< what follows ORDER BY
 };

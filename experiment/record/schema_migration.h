@@ -8,7 +8,7 @@ namespace overt {
 
 /// Brings a session file of an earlier version to session_schema_version, in place and in one transaction; a
 /// program that is killed meanwhile leaves it as it was. The file as it was is kept beside it, as
-/// «session.version-N.sqlite»: gives that path, or nothing if there was nothing to do. To read a session no
+/// "session.version-N.sqlite": gives that path, or nothing if there was nothing to do. To read a session no
 /// migration is needed.
 ///
 /// The caller holds the session's lock, and nobody else has the file open. Throws RecordError, also for a

@@ -33,7 +33,7 @@ std::string_view name_of(SealKind kind);
 enum class SealedRows : std::uint8_t {
     all,      ///< as they are now; what an earlier seal says of them is of the past
     of_trial, ///< those with the seal's trial_id
-    of_none,  ///< those with the trial_id 0, which belong to no trial; as «all»
+    of_none,  ///< those with the trial_id 0, which belong to no trial; as "all"
     new_ones  ///< those with an id beyond what earlier seals cover
 };
 std::string_view name_of(SealedRows rows);
@@ -44,13 +44,13 @@ std::string_view name_of(SealedRows rows);
 struct SealedTable {
     enum class Growth : std::uint8_t { by_trial, by_id, any };
     std::string name;
-    std::string columns; ///< separated by «, »; of a seal in the record, those that there were
+    std::string columns; ///< separated by ", "; of a seal in the record, those that there were
     std::string order;   ///< by its key
     Growth growth = Growth::any;
 };
 
 /// All tables but those of the chain itself and the file's hash (file_hash.h), and their statements as the
-/// table «sqlite_schema».
+/// table "sqlite_schema".
 std::vector<SealedTable> tables_to_seal(const SQLite::Database& database);
 
 /// The rows of a table that a seal covers, for digest_rows() with these parameters: the trial's id, or the

@@ -25,9 +25,10 @@ void check_names(const SessionPlace& place) {
     const std::string& name = place.protocol_name;
     const auto fits = [](char c) { return is_letter_or_digit(c) || c == '_' || c == '-' || c == '.'; };
     if (name.empty() || name.front() == '.' || !std::all_of(name.begin(), name.end(), fits))
-        throw InputError(fmt::format("Protocol name «{}»: use letters, digits, «_», «-» and «.» only, and no "
-                                     "«.» at the beginning; a folder is named by it.",
-                                     name));
+        throw InputError(
+            fmt::format("Protocol name \"{}\": use letters, digits, \"_\", \"-\" and \".\" only, and no "
+                        "\".\" at the beginning; a folder is named by it.",
+                        name));
 }
 
 std::string stem(const SessionPlace& place) { return fmt::format("sub-{}_ses-", place.observer_label); }
@@ -94,11 +95,11 @@ void check_observer_label(const std::string& label) {
     constexpr std::size_t most_characters = 40;
     if (label.size() > most_characters)
         throw InputError(
-            fmt::format("Observer label «{}…»: {} characters are too many; {} is the most, for files "
+            fmt::format("Observer label \"{}…\": {} characters are too many; {} is the most, for files "
                         "are named by it.",
                         label.substr(0, 12), label.size(), most_characters));
     if (label.empty() || !std::all_of(label.begin(), label.end(), is_letter_or_digit))
-        throw InputError(fmt::format("Observer label «{}»: use letters and digits only, such as 07 or P07; "
+        throw InputError(fmt::format("Observer label \"{}\": use letters and digits only, such as 07 or P07; "
                                      "files are named by it.",
                                      label));
 }

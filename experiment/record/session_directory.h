@@ -14,7 +14,7 @@ namespace overt {
 /// Whose session of what.
 struct SessionPlace {
     std::filesystem::path root; ///< folder of all sessions; made if it is not there
-    std::string protocol_name;  ///< letters, digits, «_», «-» and «.», not beginning with «.»
+    std::string protocol_name;  ///< letters, digits, "_", "-" and ".", not beginning with "."
     std::string observer_label; ///< letters and digits only, as BIDS wants it
 };
 

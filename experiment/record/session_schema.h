@@ -9,7 +9,7 @@ class Database;
 
 namespace overt {
 
-/// PRAGMA application_id of a session file: «Ovrt» in ASCII. file(1) and every reader can tell it from other
+/// PRAGMA application_id of a session file: "Ovrt" in ASCII. file(1) and every reader can tell it from other
 /// SQLite files by it.
 inline constexpr std::int32_t session_application_id = 0x4f767274;
 

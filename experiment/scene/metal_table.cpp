@@ -78,7 +78,7 @@ class MetalFile {
         const TableCell& cell = lines_.cells()[column];
         const std::optional<double> value = cell.number();
         if (!value)
-            fail(fmt::format("«{}» is no number", cell.text));
+            fail(fmt::format("\"{}\" is no number", cell.text));
         return *value;
     }
 

@@ -104,7 +104,7 @@ PlyProperty property_in(MeshText& text, const PlyHeader& header) {
     return property;
 }
 
-// `comment part LABEL NAME`; every other comment is nobody's business.
+// `comment part LABEL NAME`; every other comment is passed over.
 void read_comment(MeshText& text, PlyHeader& header) {
     if (text.next_in_line() != "part")
         return;

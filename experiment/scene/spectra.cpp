@@ -60,7 +60,7 @@ const ComplexIndex& metal_index(std::string_view metal) {
         return gold;
     if (metal == "Ag")
         return silver;
-    throw InputError(fmt::format("unknown metal «{}»: known are Au and Ag", metal));
+    throw InputError(fmt::format("unknown metal \"{}\": known are Au and Ag", metal));
 }
 
 const std::array<Spectrum, 3>& cie1931_xyz() {

@@ -109,7 +109,7 @@ Sculpture load_sculpture(const SculptureSettings& settings, const Protocol& prot
     try {
         depth_range(sculpture.scene.bounds, sculpture.scene.view);
     } catch (const InputError& error) {
-        throw InputError(fmt::format("sculpture «{}»: {}", settings.id, error.what()));
+        throw InputError(fmt::format("sculpture \"{}\": {}", settings.id, error.what()));
     }
     return sculpture;
 }

@@ -16,7 +16,7 @@ std::string_view name_of(ContextKind kind);
 /// What a context says of itself.
 struct GlDescription {
     ContextKind kind = ContextKind::osmesa;
-    std::string platform; ///< how it was reached, such as «EGL device 0 (/dev/dri/card0)»
+    std::string platform; ///< how it was reached, such as "EGL device 0 (/dev/dri/card0)"
     std::string vendor, renderer, version;
     bool is_software = false; ///< drawn by the processor
 };

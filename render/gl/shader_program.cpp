@@ -24,7 +24,7 @@ GlName compile(const GlContext& context, std::string_view program, GLenum stage,
         GLsizei written = 0;
         gl.GetShaderInfoLog(*shader, static_cast<GLsizei>(log.size()), &written, log.data());
         log.resize(static_cast<std::size_t>(written));
-        throw GraphicsError(fmt::format("the {} shader of «{}» does not compile on {}:\n{}",
+        throw GraphicsError(fmt::format("the {} shader of \"{}\" does not compile on {}:\n{}",
                                         stage == GL_VERTEX_SHADER ? "vertex" : "fragment", program,
                                         context.description().renderer, log));
     }
@@ -50,7 +50,7 @@ ShaderProgram::ShaderProgram(const GlContext& context, std::string_view name, st
         GLsizei written = 0;
         gl.GetProgramInfoLog(*name_, static_cast<GLsizei>(log.size()), &written, log.data());
         log.resize(static_cast<std::size_t>(written));
-        throw GraphicsError(fmt::format("the program «{}» does not link:\n{}", name, log));
+        throw GraphicsError(fmt::format("the program \"{}\" does not link:\n{}", name, log));
     }
 }
 

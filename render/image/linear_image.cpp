@@ -135,7 +135,7 @@ void read_opened(const std::filesystem::path& file, FrameEncoding encoding, Line
         const auto bad = std::ranges::find_if(into.pixels, [](const glm::vec4& pixel) {
             return !all_finite({&pixel.x, 4});
         });
-        // What is bad may stand in a channel that nobody wants.
+        // The value may stand in a channel that is not used.
         if (bad != into.pixels.end()) {
             const auto index = static_cast<int>(bad - into.pixels.begin());
             throw InputError(fmt::format("{}: pixel ({}, {}) holds a value that is not a finite number",

@@ -72,7 +72,7 @@ int even(int size) { return (size + 1) & ~1; }
 
 void require_utf8(const std::string& text) {
     if (!g_utf8_validate(text.data(), static_cast<gssize>(text.size()), nullptr))
-        throw InputError(fmt::format("a text to be shown is not UTF-8: «{:.40}»", text));
+        throw InputError(fmt::format("a text to be shown is not UTF-8: \"{:.40}\"", text));
 }
 
 } // namespace

@@ -39,7 +39,7 @@ std::string text_attribute(const std::filesystem::path& file, const std::string&
         return {};
     const auto input = OIIO::ImageInput::open(file.string());
     if (!input) {
-        OIIO::geterror(); // nobody asks for it
+        OIIO::geterror(); // fetched, so that it is not printed later
         return {};
     }
     return input->spec().get_string_attribute(name);

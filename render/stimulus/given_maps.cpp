@@ -118,7 +118,7 @@ std::vector<std::string> check_given_maps(const Protocol& protocol, int sculptur
     });
     const SculptureSettings& settings = protocol.sculptures[static_cast<std::size_t>(sculpture)];
     if (head_region(settings) && !head_seen) {
-        throw InputError(fmt::format("sculpture «{}»: no pixel of its maps lies in the head that is "
+        throw InputError(fmt::format("sculpture \"{}\": no pixel of its maps lies in the head that is "
                                      "described; its coordinates must be those of the maps",
                                      settings.id));
     }

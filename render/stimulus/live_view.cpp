@@ -68,7 +68,7 @@ void LiveView::choose(const Condition& stimulus) {
     const Sculpture& sculpture = sculptures_[static_cast<std::size_t>(stimulus.sculpture)];
     const MaterialSettings& material = protocol_->materials[static_cast<std::size_t>(stimulus.material)];
     if (!sculpture.has_mesh())
-        throw InputError(fmt::format("sculpture «{}» has no mesh to be turned", sculpture.id));
+        throw InputError(fmt::format("sculpture \"{}\" has no mesh to be turned", sculpture.id));
     if (stimulus.sculpture != stimulus_.sculpture) {
         buffers_.reset();
         buffers_.emplace(*context_, sculpture.mesh, openness_of_vertices(sculpture.mesh));

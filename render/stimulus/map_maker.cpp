@@ -62,7 +62,7 @@ bool MapMaker::draw_missing_map(int sculpture, PoseIndex pose) {
     const TriangleMap map = draw_map(sculpture, pose);
     if (map.covered_pixels() == 0) {
         throw InputError(fmt::format(
-            "sculpture «{}» is nowhere in the picture at {:.3g} degrees: correct the camera under [view]",
+            "sculpture \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera under [view]",
             figure.id, angle.value));
     }
     const Camera& camera = figure.scene.view.camera;

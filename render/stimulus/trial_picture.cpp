@@ -32,7 +32,7 @@ LinearImage picture_of_surface(const CoordinateMaps& maps, PoseIndex pose, const
     return image;
 }
 
-/// Dark to light through purple, red and yellow, even in lightness; after the look of matplotlib's «inferno»,
+/// Dark to light through purple, red and yellow, even in lightness; after the look of matplotlib's "inferno",
 /// in linear light.
 glm::vec3 heat_colour(float t) {
     constexpr std::array<glm::vec3, 6> stops{glm::vec3(0.02f, 0.01f, 0.08f), {0.14f, 0.01f, 0.18f},

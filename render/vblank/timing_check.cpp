@@ -29,7 +29,7 @@ ScreenFinding source_finding(const TimingFacts& facts) {
     const std::string source(name_of(facts.measured.source));
     if (facts.measured.source == VblankSource::swap_return)
         return {Weight::risk, "vertical blank",
-                fmt::format("nobody tells when it begins, times are those of the {}{}", source, refused)};
+                fmt::format("no source tells when it begins, times are those of the {}{}", source, refused)};
     if (!facts.blanks_are_real)
         return {Weight::risk, "vertical blank",
                 fmt::format("{}: not a real one, the server counts by a timer{}", source, refused)};

@@ -11,11 +11,11 @@ namespace overt {
 inline constexpr double largest_rate_deviation = 0.005;
 
 /// Weighs the facts for a session that has to run at `nominal_hz`. `nominal_from` says whose rate that is:
-/// «the protocol». One finding for each thing looked at.
+/// "the protocol". One finding for each thing looked at.
 std::vector<ScreenFinding> judge_timing(const TimingFacts& facts, double nominal_hz,
                                         std::string_view nominal_from);
 
-/// «119.982 Hz ± 0.001, intervals scatter by 0.02 ms, 0 of 600 stamps off the line, 0 refreshes missed».
+/// "119.982 Hz ± 0.001, intervals scatter by 0.02 ms, 0 of 600 stamps off the line, 0 refreshes missed".
 std::string describe(const RefreshMeasurement& measured);
 
 } // namespace overt

@@ -85,7 +85,7 @@ struct VblankCandidate {
 struct VblankChoice {
     std::unique_ptr<VblankClock> clock; ///< null: nobody knows; flips are stamped when their swap returns
     bool is_real = false;               ///< see stamps_stand_still()
-    std::vector<std::string> refused;   ///< «DRM: no card may be opened»
+    std::vector<std::string> refused;   ///< "DRM: no card may be opened"
 };
 VblankChoice choose_vblank_clock(const std::vector<VblankCandidate>& candidates, Clock& clock);
 

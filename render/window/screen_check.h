@@ -1,4 +1,4 @@
-/// What on the way from the graphics card to the screen can spoil a signal that was right when it was
+/// What on the way from the graphics card to the screen can change a signal that was right when it was
 /// written.
 #pragma once
 
@@ -43,7 +43,7 @@ std::vector<ScreenFinding> judge_screen(const ScreenFacts& facts, const DisplayS
 /// 16 bits of an entry, drivers write the others as zeros or repeat the first.
 bool is_identity(const std::vector<std::uint16_t>& ramp);
 
-/// «the gamma table is the identity», or which channel first changes what; «cannot be read».
+/// "the gamma table is the identity", or which channel first changes what; "cannot be read".
 std::string describe(const GammaRamp& ramp);
 
 /// Throws GraphicsError with all refusals, if there is one.

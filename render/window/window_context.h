@@ -72,7 +72,7 @@ struct MonitorInfo {
 /// All of them. Throws GraphicsError if there is no window system. Main thread only.
 std::vector<MonitorInfo> list_monitors();
 
-/// «monitor 2 (DP-1, 1920 x 1080 px at 120 Hz)».
+/// "monitor 2 (DP-1, 1920 x 1080 px at 120 Hz)".
 std::string describe(const MonitorInfo& monitor);
 
 /// The system's table from a channel's value to what is sent, in 16 bits; empty if it cannot be read.

@@ -12,7 +12,7 @@
 
 namespace overt {
 
-/// A key of the window by its name in a protocol: «f1», «escape», «pause», or a letter.
+/// A key of the window by its name in a protocol: "f1", "escape", "pause", or a letter.
 struct NamedKey {
     WindowKey key = WindowKey::other;
     char32_t character = 0; ///< of a letter

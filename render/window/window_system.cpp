@@ -37,7 +37,7 @@ WindowSystem examine_window_system() {
     if (!server)
         return system;
     system.is_x11 = true;
-    // Extended Window Manager Hints, «Compositing managers»: the owner of this selection composites.
+    // Extended Window Manager Hints, "Compositing managers": the owner of this selection composites.
     const std::string selection = fmt::format("_NET_WM_CM_S{}", XDefaultScreen(server.get()));
     system.has_compositor =
         XGetSelectionOwner(server.get(), XInternAtom(server.get(), selection.c_str(), False)) != None;

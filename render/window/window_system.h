@@ -11,7 +11,7 @@ struct WindowSystem {
     bool has_compositor = false; ///< on X11: somebody owns the selection _NET_WM_CM_Sn
     std::string desktop;         ///< as XDG_CURRENT_DESKTOP names it; empty if it does not
 
-    /// «X11 with a compositor (GNOME)».
+    /// "X11 with a compositor (GNOME)".
     std::string description() const;
 };
 

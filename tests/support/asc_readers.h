@@ -262,7 +262,7 @@ inline AscReading read_as_pymovements(const std::string& text) {
     return reading;
 }
 
-/// PyGazeAnalyser, from a start message on: whole time stamps, messages as «MSG tab time blank text», events
+/// PyGazeAnalyser, from a start message on: whole time stamps, messages as "MSG tab time blank text", events
 /// with nine characters before their numbers, lost samples known by a pupil of 0.
 inline AscReading read_as_pygaze_analyser(const std::string& text, const std::string& start_message) {
     AscReading reading;

@@ -81,7 +81,7 @@ inline Mesh box(glm::dvec3 low, glm::dvec3 high) {
     return mesh;
 }
 
-/// A bust: a ball («head») floating just above a box («body») that stands on a wider one («plinth»), 300 mm
+/// A bust: a ball ("head") floating just above a box ("body") that stands on a wider one ("plinth"), 300 mm
 /// high.
 inline Mesh bust() {
     Mesh mesh;

@@ -181,7 +181,7 @@ AscImportSummary import_asc_into(const fs::path& file, const fs::path& session,
     if (match.attempt_of.empty())
         throw InputError(
             fmt::format("{}: no message TRIALID of this file names a trial of {}. Trials are told by "
-                        "messages such as «TRIALID 3»; without --into the file becomes a session of "
+                        "messages such as \"TRIALID 3\"; without --into the file becomes a session of "
                         "its own.",
                         file.string(), record.directory().string()));
     const bool keeps_clock = speak_for(record.clock_pairs(match.sitting), summary.survey);
@@ -223,7 +223,7 @@ AscImportSummary import_asc_into(const fs::path& file, const fs::path& session,
             throw InputError(
                 fmt::format("{}: nothing relates its times to those of the session: its times are "
                             "beyond the session's readings of the tracker's clock, and it has no "
-                            "messages such as «{}» for the trials' screens.",
+                            "messages such as \"{}\" for the trials' screens.",
                             file.string(), onset_message));
         SQLite::Statement forget_pairs(database, "DELETE FROM clock_pair WHERE sitting = ?");
         run_statement(forget_pairs, match.sitting);

@@ -33,7 +33,7 @@ struct AscFormat {
 class AscListener {
   public:
     virtual ~AscListener() = default;
-    /// A line that begins with «**».
+    /// A line that begins with "**".
     virtual void header(std::string_view line) = 0;
     /// One eye's, or both eyes' of one instant, the left one first.
     virtual void samples(std::span<const GazeSample> samples) = 0;

@@ -10,7 +10,7 @@
 
 namespace overt {
 
-/// Beyond this a coordinate is the tracker's sign for «missing» (-32768, 1e8) or nonsense.
+/// Beyond this a coordinate is the tracker's sign for "missing" (-32768, 1e8) or nonsense.
 inline constexpr double largest_coordinate_px = 32000.0;
 
 /// A place, nothing where it is missing, or an error.

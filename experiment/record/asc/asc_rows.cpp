@@ -12,7 +12,7 @@
 namespace overt {
 namespace {
 
-/// When the stimulus came, by a message «SYNCTIME». A whole number before it says by how many milliseconds
+/// When the stimulus came, by a message "SYNCTIME". A whole number before it says by how many milliseconds
 /// the message came too late; less than 0: it was sent beforehand.
 std::optional<TrackerTime> synctime(const GazeEvent& message) {
     Words words(message.text);

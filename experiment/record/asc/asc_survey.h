@@ -35,7 +35,7 @@ class AscTrialCutter {
     bool began_early_ = false; ///< before its TRIALID
 };
 
-/// The number in «TRIALID 12»; nothing if there is none.
+/// The number in "TRIALID 12"; nothing if there is none.
 std::optional<int> asc_trial_number(const GazeEvent& event);
 bool is_trial_id(const GazeEvent& event);
 
@@ -57,10 +57,10 @@ struct AscSurvey {
     std::int64_t non_ascii_texts = 0;
 };
 
-/// «LINE: why: the line», which is cut short and of ASCII.
+/// "LINE: why: the line", which is cut short and of ASCII.
 std::string skipped_line_text(std::int64_t line, std::string_view why, std::string_view text);
 
-/// A line that could not be read: «FILE:LINE: why: the line».
+/// A line that could not be read: "FILE:LINE: why: the line".
 using AscReport = std::function<void(const std::string&)>;
 
 /// Reads the file; each line that is skipped is reported. Throws InputError if it cannot be read, if it is no

@@ -59,7 +59,7 @@ inline bool is_status(std::string_view word) {
     return word.size() >= 3 && word.find_first_not_of(".CRIMANFTBL") == std::string_view::npos;
 }
 
-/// Microseconds of a time in milliseconds, such as «7196720» or «7196720.5»; nothing if it is none.
+/// Microseconds of a time in milliseconds, such as "7196720" or "7196720.5"; nothing if it is none.
 std::optional<std::int64_t> asc_time_us(std::string_view text);
 
 } // namespace overt

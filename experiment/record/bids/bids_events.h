@@ -10,7 +10,7 @@
 
 namespace overt {
 
-/// The path of a stimulus under the dataset's folder «stimuli»; empty if there is no such file.
+/// The path of a stimulus under the dataset's folder "stimuli"; empty if there is no such file.
 using StimulusFile = std::function<std::string(const Condition&)>;
 
 /// Writes STEM.tsv and STEM.json: per attempt at a trial a row for it, and for each screen that it got to.

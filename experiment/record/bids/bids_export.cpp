@@ -29,7 +29,7 @@ class Stimuli {
     Stimuli(const SessionRecord& record, fs::path staged, fs::path dataset, const BidsNames& names)
         : record_(record), staged_(std::move(staged)), dataset_(std::move(dataset)), task_(names.task) {}
 
-    /// Its path under «stimuli», or empty.
+    /// Its path under "stimuli", or empty.
     const std::string& file_of(const Condition& condition) {
         const auto known = files_.find(condition);
         return known != files_.end() ? known->second : files_[condition] = put(condition);

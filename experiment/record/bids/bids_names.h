@@ -13,8 +13,8 @@ inline constexpr std::string_view bids_version = "1.11.1";
 
 /// One sitting of a session: a run, for the tracker's clock may have begun anew with it.
 struct BidsNames {
-    std::string subject; ///< «07» of sub-07
-    std::string session; ///< «01» of ses-01
+    std::string subject; ///< "07" of sub-07
+    std::string session; ///< "01" of ses-01
     std::string task;    ///< letters and digits of the protocol's name
 
     explicit BidsNames(const SessionHeader& header);

@@ -143,7 +143,7 @@ std::vector<std::string> add_bids_participant(const fs::path& dataset, const Ses
             set(field.id, field.title, field.value);
         else
             remarks.push_back(
-                fmt::format("{}: {} is «{}» in this session, which BIDS does not know: left out.", id,
+                fmt::format("{}: {} is \"{}\" in this session, which BIDS does not know: left out.", id,
                             field.id, field.value));
     }
     write_whole_file(table_file, participants.text());

@@ -16,7 +16,7 @@ struct Validations {
     std::string type;                     ///< such as HV9
 };
 
-/// The number before a word: 0.31 of «ERROR 0.31 avg.».
+/// The number before a word: 0.31 of "ERROR 0.31 avg.".
 std::optional<double> number_before(std::string_view text, std::string_view word) {
     const std::size_t end = text.find(word);
     if (end == std::string_view::npos || end < 2)
@@ -39,7 +39,7 @@ Validations validations_of(const SessionRecord& record, int run, bool is_importe
     Validations validations;
     if (!is_imported) {
         record.read_events([&](const RecordedEvent& event) {
-            // «mean error 0.312 deg, largest 0.754 deg»
+            // "mean error 0.312 deg, largest 0.754 deg"
             if (event.sitting == run && event.kind == validation_event)
                 take(validations, event.detail, "deg,", "deg");
         });

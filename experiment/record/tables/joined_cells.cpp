@@ -62,7 +62,7 @@ JoinedColumns time_columns() {
 JoinedColumns place_columns(const SessionHeader& header) {
     TableColumn part{"part", "Part of the figure that is looked at", "", {}};
     for (const std::string& name : all_part_names(header))
-        part.levels.emplace_back(name, fmt::format("the triangles labelled «{}»", name));
+        part.levels.emplace_back(name, fmt::format("the triangles labelled \"{}\"", name));
     const std::string mesh_unit = "unit of the mesh";
     return {
         {{"frame", "Animation frame lit at the gaze's row", "", {}},

@@ -62,7 +62,7 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
         layout.add<SampleCells>({
             {{"p_" + part,
               fmt::format(
-                  "The same for the part «{}»; n/a, too, if the sculpture has no such part. All parts "
+                  "The same for the part \"{}\"; n/a, too, if the sculpture has no such part. All parts "
                   "together make p_object",
                   part),
               "",

@@ -63,7 +63,7 @@ RowLayout<DisplayBoxRow> display_box_layout() {
               "Whether there was a display box",
               "",
               {{"box", "A Display++ or Bits# was switched to the mode"},
-               {"declined", "The protocol says that there is none: its mode was nobody's business"},
+               {"declined", "The protocol says that there is none: its mode was not looked at"},
                {"simulated", "Nothing was shown on a real screen in real time"},
                {"not needed", "The output goes through no box"}}},
              [](auto& to, auto& row) { to.word(name_of(row.box.use)); }},

@@ -19,7 +19,7 @@ struct Damage {
     std::optional<std::int64_t> trial_id = {}; ///< the attempt whose rows they are
     std::optional<int> trial = {};             ///< its place in the order, from 0
     std::optional<int> attempt = {};
-    std::string row = {}; ///< by its key, such as «n = 17», where it is one row alone
+    std::string row = {}; ///< by its key, such as "n = 17", where it is one row alone
     std::string what;     ///< a sentence without the above
 };
 

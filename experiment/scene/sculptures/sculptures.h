@@ -1,4 +1,4 @@
-/// The sculptures that come with the program, modelled by code: nobody's scan and nobody's licence.
+/// The sculptures that come with the program, modelled by code of this project, under its licence.
 #pragma once
 
 #include <span>

@@ -130,7 +130,7 @@ TEST_CASE("a table of a metal is averaged over the bins, and its mistakes are na
     write(file, "bin,centre_nm,k,n\n0,400,1,2\n1,415,1,2\n");
     CHECK_THROWS_WITH(read_metal_table(file), Catch::Contains("metal.csv:3: the centres must be"));
     write(file, "wavelength_nm,n,k\n390,1,2\n500,x,2\n");
-    CHECK_THROWS_WITH(read_metal_table(file), Catch::Contains("metal.csv:3: «x» is no number"));
+    CHECK_THROWS_WITH(read_metal_table(file), Catch::Contains("metal.csv:3: \"x\" is no number"));
     write(file, "wavelength_nm,n,k\n390,1,2\n500,1,2\n");
     CHECK_THROWS_WITH(read_metal_table(file), Catch::Contains("do not cover 395 to 705 nm"));
     write(file, "wavelength_nm,n\n390,1\n");

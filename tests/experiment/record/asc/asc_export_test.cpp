@@ -94,7 +94,7 @@ TEST_CASE("eyelinker, MNE, pymovements and PyGazeAnalyser find every sample of a
                 }
             }
         }
-        // Both drop what stands outside of recordings; MNE also what has «!V», «!MODE» or a semicolon in it.
+        // Both drop what stands outside of recordings; MNE also what has "!V", "!MODE" or a semicolon in it.
         for (const AscReading& reading : {readings[0], readings[1]}) {
             const auto count_of = [&](const std::string& word) {
                 return std::count_if(reading.messages.begin(), reading.messages.end(),

@@ -269,7 +269,7 @@ TEST_CASE("the observer's form stands in the table of participants, in words tha
     CHECK(json["vision"]["Description"] == "Sehen, 視力");
     CHECK(json["age"]["Units"] == "year");
     REQUIRE(dataset.counts.remarks.size() == 1);
-    CHECK_THAT(dataset.counts.remarks[0], Contains("handedness is «beide»"));
+    CHECK_THAT(dataset.counts.remarks[0], Contains("handedness is \"beide\""));
     // The same observer once more, a year older: the table stays, and it is said.
     const fs::path session = make_eye_session(dataset.root.path() / "later");
     {
