@@ -29,6 +29,9 @@ struct TrackerClock {
 };
 using TrackerTime = TrackerClock::time_point;
 
+/// Microseconds of the tracker's clock.
+constexpr TrackerTime tracker_time(std::int64_t us) { return TrackerTime(TrackerClock::duration(us)); }
+
 template <class A, class B>
 concept Subtractable = requires(A a, B b) {
     a - b;

@@ -6,7 +6,7 @@
 namespace overt {
 namespace {
 
-constexpr ResponseDevice devices[] = {
+constexpr ResponseDevice known_devices[] = {
     {"simulated", [](const ResponseParts& parts) { return parts.simulate_observer; },
      [](const ResponseParts& parts, ResponsePanel*) -> std::unique_ptr<ResponsePanel> {
          return std::make_unique<SimulatedResponsePanel>(parts.clock, parts.observer, parts.operator_keys);
@@ -20,7 +20,7 @@ constexpr ResponseDevice devices[] = {
 
 } // namespace
 
-std::span<const ResponseDevice> response_devices() { return devices; }
+std::span<const ResponseDevice> response_devices() { return known_devices; }
 
 std::vector<std::unique_ptr<ResponsePanel>> make_response_devices(const ResponseParts& parts,
                                                                   std::span<const ResponseDevice> among) {

@@ -12,7 +12,7 @@
 namespace overt {
 namespace {
 
-constexpr TrackerDevice devices[] = {
+constexpr TrackerDevice known_trackers[] = {
     {"simulated", false,
      [](const TrackerParts& parts) -> std::unique_ptr<EyeTracker> {
          return std::make_unique<SimulatedEyeTracker>(parts.clock, parts.observer, parts.seed,
@@ -24,12 +24,12 @@ constexpr TrackerDevice devices[] = {
      }},
 };
 
-static_assert(std::ranges::equal(devices, tracker_kinds, {}, &TrackerDevice::name, &TrackerKindRow::name),
+static_assert(std::ranges::equal(known_trackers, tracker_kinds, {}, &TrackerDevice::name, &TrackerKindRow::name),
               "each row of experiment/ports/tracker_kinds.h needs one here, in the same order");
 
 } // namespace
 
-std::span<const TrackerDevice> tracker_devices() { return devices; }
+std::span<const TrackerDevice> tracker_devices() { return known_trackers; }
 
 const TrackerDevice& tracker_device(TrackerKind kind, bool virtual_time,
                                     std::span<const TrackerDevice> among) {

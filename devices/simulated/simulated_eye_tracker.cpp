@@ -161,7 +161,7 @@ SessionTime SimulatedEyeTracker::session_time_of_ns(std::int64_t tracker_ns) con
 }
 
 TrackerTime SimulatedEyeTracker::tracker_time_at(SessionTime time) const noexcept {
-    return TrackerTime(TrackerClock::duration(tracker_ns_at(time) / 1000));
+    return tracker_time(tracker_ns_at(time) / 1000);
 }
 
 SessionTime SimulatedEyeTracker::session_time_at(TrackerTime time) const noexcept {
@@ -188,7 +188,7 @@ GazeSample SimulatedEyeTracker::sample_at(std::int64_t tick, glm::dvec2 offset_d
     const SessionTime time = session_time_of_ns(ns);
     const TrueGaze gaze = observer_->gaze_at(time);
     GazeSample sample;
-    sample.sampled_at = TrackerTime(TrackerClock::duration((ns + 500) / 1000));
+    sample.sampled_at = tracker_time((ns + 500) / 1000);
     sample.eye = settings_.eye;
     if (gaze.state == EyeState::blink)
         return sample;

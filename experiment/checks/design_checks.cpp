@@ -125,7 +125,7 @@ struct AlikeObservers {
     int blocks = 0; ///< that they have
 };
 
-std::vector<AlikeObservers> planned_observers(const Protocol& protocol) {
+std::vector<AlikeObservers> alike_observers(const Protocol& protocol) {
     if (protocol.groups.empty())
         return {{"", protocol.schedule.observers, 1, block_count(protocol)}};
     std::vector<AlikeObservers> groups(protocol.groups.size());
@@ -167,7 +167,7 @@ bool rotates_materials(const Protocol& protocol, int block, const BlockScope& sc
 void check_squares(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
     const ScheduleSettings& schedule = protocol.schedule;
-    for (const AlikeObservers& observers : planned_observers(protocol)) {
+    for (const AlikeObservers& observers : alike_observers(protocol)) {
         const std::vector<BlockPlan> plans = block_plans(protocol, observers.first, 0);
         if (schedule.block_order >= LevelOrder::cyclic)
             check_fill(examination, observers, "the square of blocks",

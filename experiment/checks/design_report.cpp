@@ -11,19 +11,13 @@
 #include "experiment/design/observer_groups.h"
 #include "experiment/design/schedule.h"
 #include "experiment/design/trial_queue.h"
+#include "experiment/protocol/entry_ids.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/stimulus/frame_memory.h"
 
 namespace overt {
 
 namespace {
-
-template <class Entry> std::vector<std::string> ids_of(const std::vector<Entry>& entries) {
-    std::vector<std::string> ids;
-    for (const Entry& entry : entries)
-        ids.push_back(entry.id);
-    return ids;
-}
 
 AnimationFacts animation_facts(const Protocol& protocol) {
     const Animation& animation = protocol.animation;

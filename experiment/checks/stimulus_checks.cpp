@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/protocol/entry_ids.h"
 #include "experiment/protocol/protocol_keys.h"
 
 namespace overt {
@@ -16,13 +17,6 @@ namespace {
 
 std::string entry_path(std::string_view list, std::size_t index, std::string_view key = {}) {
     return key.empty() ? fmt::format("{}[{}]", list, index) : fmt::format("{}[{}].{}", list, index, key);
-}
-
-template <class Entry> std::vector<std::string_view> ids_of(const std::vector<Entry>& entries) {
-    std::vector<std::string_view> ids;
-    for (const Entry& entry : entries)
-        ids.push_back(entry.id);
-    return ids;
 }
 
 template <class Entry>
@@ -201,8 +195,8 @@ void check_materials(ProtocolExamination& examination) {
 
 void check_frames(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
-    const std::vector<std::string_view> sculptures = ids_of(protocol.sculptures),
-                                        materials = ids_of(protocol.materials);
+    const auto sculptures = ids_of<std::string_view>(protocol.sculptures),
+               materials = ids_of<std::string_view>(protocol.materials);
     std::map<std::pair<std::string, std::string>, std::size_t> seen;
     const auto check_reference = [&](std::size_t i, std::string_view key, const std::string& id,
                                      const std::vector<std::string_view>& known) {

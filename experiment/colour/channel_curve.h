@@ -1,9 +1,14 @@
 /// From a channel's signal to its light: what is commonly called gamma.
 #pragma once
 
+#include <array>
+#include <string_view>
 #include <vector>
 
 namespace overt {
+
+/// The channels of a screen, in the order in which they are stored.
+inline constexpr std::array<std::string_view, 3> channel_names{"red", "green", "blue"};
 
 /// Light of one channel at a signal of 0 … 1, relative to that at full signal, with the black level taken
 /// off: 0 at 0, 1 at 1, never falling.

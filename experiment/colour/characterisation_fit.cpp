@@ -14,8 +14,6 @@ namespace overt {
 
 namespace {
 
-constexpr std::array<const char*, 3> channel_names{"red", "green", "blue"};
-
 struct Mean {
     glm::dvec3 xyz{0.0};
     int count = 0;

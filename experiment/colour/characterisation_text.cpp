@@ -9,8 +9,6 @@ namespace overt {
 
 namespace {
 
-constexpr std::array<const char*, 3> channel_names{"red", "green", "blue"};
-
 /// A basic string of TOML.
 std::string quoted(const std::string& text) {
     std::string quoted = "\"";

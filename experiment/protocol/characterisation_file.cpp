@@ -16,8 +16,6 @@ using namespace characterisation_keys;
 
 namespace {
 
-constexpr std::array<std::string_view, 3> channel_names{"red", "green", "blue"};
-
 /// A file while it is read.
 struct Reading {
     std::string file;

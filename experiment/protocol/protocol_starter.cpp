@@ -118,7 +118,7 @@ void add_keys(std::string& text, const Section& section, const Values& values, b
     }
 }
 
-void add_section(std::string& text, const Section& section, std::string_view name) {
+void add_starter_section(std::string& text, const Section& section, std::string_view name) {
     const auto known = starter_values().find(section.name);
     std::vector<Values> entries = known == starter_values().end() ? std::vector<Values>{{}} : known->second;
     const bool is_idle = section.is_list() && known == starter_values().end();
@@ -146,7 +146,7 @@ std::string protocol_starter(std::string_view name) {
                     "# What belongs to the rig can stand in a file of its own:\n# include = \"rig.toml\"\n",
                     name, name, name);
     for (const Section& section : protocol_keys())
-        add_section(text, section, name);
+        add_starter_section(text, section, name);
     return text;
 }
 

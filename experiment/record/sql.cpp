@@ -75,7 +75,7 @@ TrackerTime Query::tracker_time() {
     if (us > farthest_us || us < -farthest_us)
         throw RecordError(
             fmt::format("the session file holds a tracker's time of {} us: it is damaged.", us));
-    return TrackerTime(TrackerClock::duration(us));
+    return overt::tracker_time(us);
 }
 
 double Query::real() { return sqlite3_column_double(statement_.get(), column_++); }

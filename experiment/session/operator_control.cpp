@@ -13,10 +13,7 @@ namespace overt {
 
 namespace {
 
-/// How often the keys are looked at while a screen stands still.
-constexpr SessionDuration key_interval = std::chrono::milliseconds(4);
-
-using Key = ResponsePress::Key;
+using ResponseKey = ResponsePress::Key;
 
 std::string upper(std::string key) {
     for (char& letter : key)
@@ -57,20 +54,20 @@ OperatorControl::Press OperatorControl::wait(const Waiting& waiting) {
             if (!waiting.takes_keys || press->pressed_at < earliest)
                 continue;
             switch (press->key) {
-            case Key::next:
+            case ResponseKey::next:
                 return {How::next, press->pressed_at};
-            case Key::back:
-            case Key::left:
+            case ResponseKey::back:
+            case ResponseKey::left:
                 if (waiting.turns_pages)
                     return {How::back, press->pressed_at};
                 break;
-            case Key::right:
+            case ResponseKey::right:
                 if (waiting.turns_pages)
                     return {How::next, press->pressed_at};
                 break;
-            case Key::yes:
+            case ResponseKey::yes:
                 return {How::yes, press->pressed_at};
-            case Key::no:
+            case ResponseKey::no:
                 return {How::no, press->pressed_at};
             default:
                 break;
@@ -86,25 +83,25 @@ OperatorControl::Press OperatorControl::wait(const Waiting& waiting) {
 }
 
 bool OperatorControl::act_on(const ResponsePress& press) {
-    const Key key = press.key;
+    const ResponseKey key = press.key;
     state_.log().event({press.pressed_at, state_.trial(), operator_pressed_event, std::string(name_of(key))});
     const SessionPhase phase = state_.phase();
     const int trial = state_.trial();
     switch (key) {
-    case Key::pause:
+    case ResponseKey::pause:
         pause();
         break;
-    case Key::recalibrate:
+    case ResponseKey::recalibrate:
         if (confirm(state_.protocol.words.recalibrate))
             calibrate();
         break;
-    case Key::repeat:
-    case Key::reject:
-    case Key::skip:
+    case ResponseKey::repeat:
+    case ResponseKey::reject:
+    case ResponseKey::skip:
         if (!end_trial(key))
             return !state_.is_over();
         return false;
-    case Key::abort:
+    case ResponseKey::abort:
         if (confirm(is_in_trial(phase) ? state_.protocol.words.abort_in_trial
                                        : state_.protocol.words.abort)) {
             state_.note(operator_event, "ends the session");
@@ -122,15 +119,15 @@ bool OperatorControl::act_on(const ResponsePress& press) {
 }
 
 /// Whether the trial is over.
-bool OperatorControl::end_trial(Key key) {
+bool OperatorControl::end_trial(ResponseKey key) {
     if (!is_in_trial(state_.phase())) {
         state_.note(operator_event, "a key for trials had no effect: none is running");
         return false;
     }
     const OperatorSettings& settings = state_.protocol.operators;
     const WordSettings& words = state_.protocol.words;
-    if (key != Key::skip) {
-        const bool at_once = key == Key::repeat;
+    if (key != ResponseKey::skip) {
+        const bool at_once = key == ResponseKey::repeat;
         if (!confirm(at_once ? words.repeat : words.reject))
             return false;
         decision_ = {at_once ? TrialDecision::Word::repeated : TrialDecision::Word::rejected, {}};
@@ -164,14 +161,14 @@ std::optional<int> OperatorControl::confirm(const std::string& question, int rea
         while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
             // A digit without a reason of that number is not taken for a yes.
             const int digit =
-                press->key == Key::character && press->character >= U'1' && press->character <= U'9'
+                press->key == ResponseKey::character && press->character >= U'1' && press->character <= U'9'
                     ? static_cast<int>(press->character - U'0')
                     : 0;
-            if (press->key == Key::yes)
+            if (press->key == ResponseKey::yes)
                 answer = 0;
             else if (digit >= 1 && digit <= reasons)
                 answer = digit;
-            else if (press->key != Key::no && press->key != Key::abort)
+            else if (press->key != ResponseKey::no && press->key != ResponseKey::abort)
                 continue;
             is_decided = true;
             break;
@@ -191,12 +188,12 @@ void OperatorControl::pause() {
     for (bool goes_on = false; !goes_on && !state_.ends_by_itself();) {
         while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
             // The observer's key does not end the operator's pause.
-            if (press->key == Key::pause) {
+            if (press->key == ResponseKey::pause) {
                 state_.log().event({press->pressed_at, state_.trial(), operator_pressed_event, "pause"});
                 goes_on = true;
                 break;
             }
-            if (press->key == Key::abort || press->key == Key::recalibrate) {
+            if (press->key == ResponseKey::abort || press->key == ResponseKey::recalibrate) {
                 if (!act_on(*press))
                     return;
                 state_.ports.panel.await_key(

@@ -36,6 +36,9 @@ struct Waiting {
     bool starts_over = false; ///< when it is shown again: max_s counts from then
 };
 
+/// How often the keys are looked at while a screen stands still.
+inline constexpr SessionDuration key_interval = std::chrono::milliseconds(4);
+
 /// max_s of a screen that only a key ends.
 inline constexpr double without_end_s = 1e9;
 

@@ -15,8 +15,6 @@ namespace {
 /// An observer who has not agreed after so long has left.
 constexpr double longest_reading_s = 3600.0;
 
-constexpr SessionDuration key_interval = std::chrono::milliseconds(4);
-
 } // namespace
 
 bool read_text(SessionState& state, OperatorControl& control, const std::string& text, std::string what) {

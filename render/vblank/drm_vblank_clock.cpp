@@ -19,8 +19,6 @@
 namespace overt {
 namespace {
 
-constexpr timespec pause{0, 150'000};
-
 struct Card {
     int file = -1;
     explicit Card(const char* path) : file(open(path, O_RDWR | O_CLOEXEC)) {}
@@ -68,7 +66,7 @@ class DrmVblankClock final : public VblankClock {
                 return stamp;
             if (clock_->now() > end)
                 return std::nullopt;
-            nanosleep(&pause, nullptr);
+            nanosleep(&between_questions, nullptr);
         }
     }
 

@@ -13,9 +13,6 @@ struct SyncValues {
     std::int64_t ust = 0, msc = 0, sbc = 0;
 };
 
-/// Between two questions; a hundredth of a refresh at 60 Hz.
-constexpr timespec pause{0, 150'000};
-
 class SyncControlClock : public VblankClock {
   public:
     explicit SyncControlClock(const Clock& clock) : clock_(&clock), time_(clock) {}
@@ -54,7 +51,7 @@ class SyncControlClock : public VblankClock {
 
     template <class Reached> std::optional<VblankStamp> poll(Reached reached) noexcept {
         const SessionTime end = clock_->now() + patience;
-        for (SyncValues values; read(values); nanosleep(&pause, nullptr)) {
+        for (SyncValues values; read(values); nanosleep(&between_questions, nullptr)) {
             if (reached(values))
                 return stamp_of(values);
             if (clock_->now() > end)

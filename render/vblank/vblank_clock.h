@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <ctime>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -16,6 +17,9 @@
 namespace overt {
 
 class WindowContext;
+
+/// Between two questions to a source that has to be asked; a hundredth of a refresh at 60 Hz.
+inline constexpr timespec between_questions{0, 150'000};
 
 /// A vertical blank: its number by the source's own count, and when it began.
 struct VblankStamp {

@@ -5,7 +5,7 @@
 namespace overt {
 
 namespace {
-using Key = ResponsePress::Key;
+using ResponseKey = ResponsePress::Key;
 }
 
 bool NamedKey::is(const WindowKeyPress& press) const noexcept {
@@ -32,12 +32,12 @@ WindowResponsePanel::WindowResponsePanel(WindowContext& window, const Clock& clo
                                          const OperatorSettings& operators, const ConsentSettings& consent,
                                          ResponsePanel* answering)
     : window_(&window), clock_(&clock),
-      answering_(answering), operators_{{{key_called(operators.pause), Key::pause},
-                                         {key_called(operators.recalibrate), Key::recalibrate},
-                                         {key_called(operators.repeat), Key::repeat},
-                                         {key_called(operators.reject), Key::reject},
-                                         {key_called(operators.skip), Key::skip},
-                                         {key_called(operators.abort), Key::abort}}},
+      answering_(answering), operators_{{{key_called(operators.pause), ResponseKey::pause},
+                                         {key_called(operators.recalibrate), ResponseKey::recalibrate},
+                                         {key_called(operators.repeat), ResponseKey::repeat},
+                                         {key_called(operators.reject), ResponseKey::reject},
+                                         {key_called(operators.skip), ResponseKey::skip},
+                                         {key_called(operators.abort), ResponseKey::abort}}},
       yes_(key_called(operators.yes)), no_(key_called(operators.no)), accept_(key_called(consent.accept_key)),
       decline_(key_called(consent.decline_key)) {}
 
@@ -51,7 +51,9 @@ std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPres
         for (const auto& [key, meaning] : operators_)
             if (key.is(press))
                 return ResponsePress{meaning, now};
-    const auto meant = [&](Key key) { return std::optional(ResponsePress{key, now, press.character}); };
+    const auto meant = [&](ResponseKey key) {
+        return std::optional(ResponsePress{key, now, press.character});
+    };
     switch (mode_) {
     case Mode::reading:
         if (is_held)
@@ -59,15 +61,15 @@ std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPres
         switch (press.key) {
         case WindowKey::space:
         case WindowKey::enter:
-            return meant(Key::next);
+            return meant(ResponseKey::next);
         case WindowKey::character: // response boxes type digits; the space bar was a key already
-            return press.character == U' ' ? std::nullopt : meant(Key::next);
+            return press.character == U' ' ? std::nullopt : meant(ResponseKey::next);
         case WindowKey::backspace:
-            return meant(Key::back);
+            return meant(ResponseKey::back);
         case WindowKey::left:
-            return meant(Key::left);
+            return meant(ResponseKey::left);
         case WindowKey::right:
-            return meant(Key::right);
+            return meant(ResponseKey::right);
         default:
             return std::nullopt;
         }
@@ -75,29 +77,29 @@ std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPres
     case Mode::confirmation: {
         const bool is_consent = mode_ == Mode::consent;
         if ((is_consent ? accept_ : yes_).is(press))
-            return meant(Key::yes);
+            return meant(ResponseKey::yes);
         if ((is_consent ? decline_ : no_).is(press))
-            return meant(Key::no);
-        return is_character && !is_consent ? meant(Key::character) : std::nullopt;
+            return meant(ResponseKey::no);
+        return is_character && !is_consent ? meant(ResponseKey::character) : std::nullopt;
     }
     case Mode::entry:
         switch (press.key) {
         case WindowKey::character:
-            return meant(Key::character);
+            return meant(ResponseKey::character);
         case WindowKey::backspace:
-            return meant(Key::erase);
+            return meant(ResponseKey::erase);
         case WindowKey::left:
-            return meant(Key::left);
+            return meant(ResponseKey::left);
         case WindowKey::right:
-            return meant(Key::right);
+            return meant(ResponseKey::right);
         case WindowKey::up:
         case WindowKey::back_tab:
-            return meant(Key::up);
+            return meant(ResponseKey::up);
         case WindowKey::down:
         case WindowKey::tab:
-            return meant(Key::down);
+            return meant(ResponseKey::down);
         case WindowKey::enter:
-            return is_held ? std::nullopt : meant(Key::next);
+            return is_held ? std::nullopt : meant(ResponseKey::next);
         default:
             return std::nullopt;
         }

@@ -14,8 +14,6 @@ namespace {
 
 using Kind = GazeEvent::Kind;
 
-TrackerTime at(std::int64_t us) { return TrackerTime(TrackerClock::duration(us)); }
-
 std::optional<Eye> eye_of(std::string_view word) {
     if (word == "L")
         return Eye::left;
@@ -115,8 +113,8 @@ void AscParser::message_line(std::string_view line) {
     if (!us)
         return bad("a message without a time", line);
     GazeEvent event;
-    settle_leap(at(*us));
-    event.start = event.end = last_time_ = at(*us);
+    settle_leap(tracker_time(*us));
+    event.start = event.end = last_time_ = tracker_time(*us);
     event.text = utf8(words.rest());
     in_calibration_ = event.text.starts_with("!CAL");
     if (event.text.starts_with("RECCFG")) {
@@ -158,8 +156,8 @@ void AscParser::eye_event_end(std::string_view line, Kind kind) {
     GazeEvent event;
     event.kind = kind;
     event.eye = eye;
-    event.start = at(*start);
-    event.end = at(*end);
+    event.start = tracker_time(*start);
+    event.end = tracker_time(*end);
     event.duration = TrackerClock::duration(*duration);
     const auto take_place = [&](std::optional<ScreenPoint>& into) {
         const std::string_view x = words.next(), y = words.next();
@@ -194,9 +192,9 @@ void AscParser::recording_line(std::string_view line, bool begins) {
         return bad("the begin or end of a recording without a time", line);
     drop_open_events();
     GazeEvent event;
-    settle_leap(at(*us));
+    settle_leap(tracker_time(*us));
     event.kind = begins ? Kind::started : Kind::ended;
-    event.start = event.end = last_time_ = at(*us);
+    event.start = event.end = last_time_ = tracker_time(*us);
     bool left = false, right = false;
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
         left |= word == "LEFT";
@@ -228,9 +226,9 @@ void AscParser::port_line(std::string_view line, Kind kind) {
     if (!us)
         return bad("a button or input without a time", line);
     GazeEvent event;
-    settle_leap(at(*us));
+    settle_leap(tracker_time(*us));
     event.kind = kind;
-    event.start = event.end = last_time_ = at(*us);
+    event.start = event.end = last_time_ = tracker_time(*us);
     for (std::string_view word = words.next(); !word.empty(); word = words.next())
         event.text += (event.text.empty() ? "" : " ") + utf8(word);
     listener_.event(event);

@@ -15,8 +15,6 @@ constexpr double largest_pupil = 1e6;
 /// In a recording; trackers that lose an eye go on with samples.
 constexpr std::chrono::milliseconds longest_gap(200);
 
-TrackerTime at(std::int64_t us) { return TrackerTime(TrackerClock::duration(us)); }
-
 } // namespace
 
 void AscParser::sample_line(std::string_view line) {
@@ -24,7 +22,7 @@ void AscParser::sample_line(std::string_view line) {
     Words words(line);
     const std::optional<std::int64_t> us = asc_time_us(words.next());
     if (us)
-        settle_leap(at(*us));
+        settle_leap(tracker_time(*us));
     const AscStamps before = stamps_;
     const auto refuse = [&](std::string_view why) {
         // A broken line stands for a sample of its own where its stamp comes next, and for none where it does

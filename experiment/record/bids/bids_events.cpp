@@ -18,8 +18,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Levels = std::vector<std::pair<std::string, std::string>>;
 
-const auto& item(const auto& list, int index) { return list[static_cast<std::size_t>(index)]; }
-
 template <class List> Levels levels_of(const List& list) {
     Levels levels;
     for (const auto& entry : list) {

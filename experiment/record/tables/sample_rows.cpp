@@ -11,8 +11,6 @@ namespace {
 
 constexpr int probability_decimals = 4;
 
-const auto& item(const auto& list, int index) { return list[static_cast<std::size_t>(index)]; }
-
 } // namespace
 
 RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const SessionHeader& header,

@@ -8,6 +8,9 @@
 
 namespace overt {
 
+/// An item of a list of the header that is known to have it.
+const auto& item(const auto& list, int index) { return list[static_cast<std::size_t>(index)]; }
+
 /// An item of a list of the header, or null if it has no such.
 template <class List> const auto* item_of(const List& list, int index) {
     return index >= 0 && static_cast<std::size_t>(index) < list.size()

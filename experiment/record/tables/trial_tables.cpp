@@ -6,8 +6,6 @@
 namespace overt {
 namespace {
 
-const auto& item(const auto& list, int index) { return list[static_cast<std::size_t>(index)]; }
-
 /// An attempt that something ended has no times of what it did not get to.
 void write_reached(TableWriter& to, const TrialRecord& trial, SessionTime at) {
     trial.has_outcome() && at >= trial.started ? to.seconds(at) : to.missing();

@@ -13,7 +13,7 @@ namespace overt::testing {
 
 inline GazeSample sample_number(int number) {
     GazeSample sample;
-    sample.sampled_at = TrackerTime(TrackerClock::duration(9'000'000'000'000 + 500 * number));
+    sample.sampled_at = tracker_time(9'000'000'000'000 + 500 * number);
     sample.eye = number % 2 == 0 ? Eye::left : Eye::right;
     if (number % 5 != 0)
         sample.gaze = ScreenPoint{0.1 * number, -1.0 / (1 + number)};
