@@ -1,11 +1,14 @@
-# overt_room(USES rooms… [LINKS libraries…] [EMBEDS header texts…] [APART patterns…]): a folder of the program is a room, and a room is a
-# library of the .cpp files that lie in it, not of those in folders below it. USES names the rooms whose headers it may
-# include; what those use, it may include too. A room can only use what was declared before it, so arrows cannot run in a
-# circle. LINKS are libraries that only its own .cpp files see. EMBEDS puts text files into a header made at build time.
+# overt_room(USES rooms… [LINKS libraries…] [EMBEDS header texts…] [APART patterns…] [COLD]): a folder of the program is
+# a room, and a room is a library of the .cpp files that lie in it, not of those in folders below it. USES names the rooms
+# whose headers it may include; what those use, it may include too. A room can only use what was declared before it, so
+# arrows cannot run in a circle. LINKS are libraries that only its own .cpp files see. EMBEDS puts text files into a header
+# made at build time.
 #
 # The files of a room are compiled OVERT_UNITY at a time, since most of a compiler's time goes to headers that they share.
 # Any two of them can meet, in which case the words of their unnamed namespaces are common: what two files need is written
 # once, in a header. APART names files that are alike on purpose, a kind of thing each, and are compiled alone.
+# COLD rooms are those where nobody ever waits for what they reckon (commands, keys, checks, talk with devices): compiled
+# with -O1, which takes a compiler two thirds of the time.
 #
 # A room's target is its folder with underscores: experiment/record/asc is overt_experiment_record_asc.
 set(OVERT_UNITY 6 CACHE STRING "How many files of a room are compiled together; 0: each alone")
@@ -15,8 +18,14 @@ function(overt_room_target room result)
     set(${result} overt_${name} PARENT_SCOPE)
 endfunction()
 
+function(overt_compile_together target)
+    if(OVERT_UNITY)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${OVERT_UNITY})
+    endif()
+endfunction()
+
 function(overt_room room)
-    cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "" "USES;LINKS;EMBEDS;APART")
+    cmake_parse_arguments(PARSE_ARGV 1 ROOM "COLD" "" "USES;LINKS;EMBEDS;APART")
     if(ROOM_UNPARSED_ARGUMENTS)
         message(FATAL_ERROR "${room}: not understood: ${ROOM_UNPARSED_ARGUMENTS}")
     endif()
@@ -37,13 +46,14 @@ function(overt_room room)
         overt_embed_text(${target} ${ROOM_EMBEDS})
     endif()
     overt_precompile(${target})
-    if(OVERT_UNITY)
-        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${OVERT_UNITY})
-        foreach(pattern IN LISTS ROOM_APART)
-            file(GLOB apart CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${room}/${pattern})
-            set_source_files_properties(${apart} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-        endforeach()
+    if(ROOM_COLD)
+        target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
     endif()
+    overt_compile_together(${target})
+    foreach(pattern IN LISTS ROOM_APART)
+        file(GLOB apart CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${room}/${pattern})
+        set_source_files_properties(${apart} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endforeach()
     # What the architecture test holds the includes against.
     set_property(GLOBAL APPEND_STRING PROPERTY OVERT_ROOMS "${room}: ${ROOM_USES}\n")
 endfunction()

@@ -80,7 +80,7 @@ std::vector<std::string> wrong_includes(const Rooms& rooms, const std::string& f
     return wrong;
 }
 
-std::string text_of(const fs::path& file) {
+std::string source_of(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -97,7 +97,7 @@ TEST_CASE("no include points the wrong way", "[unit]") {
             if (extension != ".h" && extension != ".cpp")
                 continue;
             const std::string file = entry.path().lexically_relative(root).generic_string();
-            const std::vector<std::string> wrong = wrong_includes(rooms, file, text_of(entry.path()));
+            const std::vector<std::string> wrong = wrong_includes(rooms, file, source_of(entry.path()));
             CAPTURE(file);
             CHECK(wrong == std::vector<std::string>{});
             seen.insert(fs::path(file).parent_path().generic_string());

@@ -68,6 +68,14 @@ inline Mesh ball(glm::dvec3 centre, double radius, int rings = 24, int segments 
     return mesh;
 }
 
+/// The middle of a triangle.
+inline glm::dvec3 centroid(const Mesh& mesh, std::size_t triangle) {
+    glm::dvec3 sum(0.0);
+    for (int corner = 0; corner < 3; ++corner)
+        sum += glm::dvec3(mesh.positions[mesh.triangles[triangle][corner]]);
+    return sum / 3.0;
+}
+
 /// A box between two corners.
 inline Mesh box(glm::dvec3 low, glm::dvec3 high) {
     Mesh mesh;

@@ -10,7 +10,7 @@ using namespace overt::test;
 
 namespace {
 
-Protocol small_protocol() {
+Protocol small_view() {
     Protocol protocol;
     protocol.view.width_px = protocol.view.height_px = 64;
     return protocol;
@@ -30,7 +30,7 @@ const GlDescription card{ContextKind::egl, "", "", "a card", "", false};
 
 TEST_CASE("the probe of a frame's cost times flips and pages, and maps only where there is a mesh", "[gl]") {
     const auto context = make_headless_context(ContextKind::osmesa);
-    const FrameCost cost = measure_frame_cost(*context, small_protocol(), {});
+    const FrameCost cost = measure_frame_cost(*context, small_view(), {});
     CHECK(cost.flips >= 30);
     CHECK(cost.median_flip_ms > 0.0);
     CHECK(cost.worst_flip_ms >= cost.median_flip_ms);
@@ -39,7 +39,7 @@ TEST_CASE("the probe of a frame's cost times flips and pages, and maps only wher
 }
 
 TEST_CASE("what a flip costs is held against the refresh that it has to fit into", "[unit]") {
-    const Protocol protocol = small_protocol(); // 120 Hz
+    const Protocol protocol = small_view(); // 120 Hz
     CHECK_THAT(words(forecast_of({60, 1.0, 2.0, 5.0, {}}, protocol, card)),
                Catch::Contains("1.00 ms, at worst 2.00 ms of 60, of the 8.33 ms") && !Catch::Contains("--"));
     CHECK_THAT(words(forecast_of({60, 1.0, 5.0, 5.0, {}}, protocol, card)), Catch::Contains("--realtime"));

@@ -10,18 +10,12 @@
 #include "experiment/scene/ply_writer.h"
 #include "tests/experiment/scene/mesh_fixtures.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/figures.h"
 
 using namespace overt;
 using namespace overt::test;
 
 namespace {
-
-glm::dvec3 centroid(const Mesh& mesh, std::size_t triangle) {
-    glm::dvec3 sum(0.0);
-    for (int corner = 0; corner < 3; ++corner)
-        sum += glm::dvec3(mesh.positions[mesh.triangles[triangle][corner]]);
-    return sum / 3.0;
-}
 
 std::string labelled_ply(std::string_view type, std::string_view element, std::string_view comments,
                          const std::vector<std::string>& vertex_labels,

@@ -11,6 +11,7 @@
 #include "experiment/scene/sculptures/contouring.h"
 #include "experiment/scene/sculptures/figures.h"
 #include "experiment/scene/sculptures/sculptures.h"
+#include "tests/support/figures.h"
 
 using namespace overt;
 
@@ -23,13 +24,6 @@ const Mesh& coarse(std::string_view name) {
     if (is_new)
         entry->second = make_sculpture(name, coarse_cell_share);
     return entry->second;
-}
-
-glm::dvec3 centroid(const Mesh& mesh, std::size_t triangle) {
-    const glm::uvec3 t = mesh.triangles[triangle];
-    return (glm::dvec3(mesh.positions[t.x]) + glm::dvec3(mesh.positions[t.y]) +
-            glm::dvec3(mesh.positions[t.z])) /
-           3.0;
 }
 
 double area_of(const Mesh& mesh, std::size_t triangle) {
@@ -53,7 +47,7 @@ PartMiddle part_middle(const Mesh& mesh, PartIndex part) {
         all += area;
         if (mesh.triangle_parts[i] != part)
             continue;
-        result.middle += area * centroid(mesh, i);
+        result.middle += area * test::centroid(mesh, i);
         result.share += area;
     }
     result.middle /= result.share;
@@ -179,9 +173,9 @@ TEST_CASE("every triangle of a head is above every triangle of the plinth, with 
         double highest_of_plinth = 0.0;
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
             if (mesh.triangle_parts[i] == 0)
-                lowest_of_head = std::min(lowest_of_head, centroid(mesh, i).z);
+                lowest_of_head = std::min(lowest_of_head, test::centroid(mesh, i).z);
             if (mesh.triangle_parts[i] == 2)
-                highest_of_plinth = std::max(highest_of_plinth, centroid(mesh, i).z);
+                highest_of_plinth = std::max(highest_of_plinth, test::centroid(mesh, i).z);
         }
         CHECK(lowest_of_head > highest_of_plinth + 150.0);
         CHECK(part_middle(mesh, 0).share > 0.03);

@@ -13,7 +13,7 @@ using namespace overt;
 
 namespace {
 
-constexpr glm::ivec2 image_px{24, 16};
+constexpr glm::ivec2 page_px{24, 16};
 constexpr int pages_each = 9;
 constexpr std::size_t page_bytes = 24 * 16 * 4;
 
@@ -30,7 +30,7 @@ class GreyPages final : public FrameSource {
         ++read;
         if (condition.sculpture == 9 && page >= 3)
             throw InputError("page 3 is damaged");
-        LinearImage image(image_px);
+        LinearImage image(page_px);
         for (glm::vec4& pixel : image.pixels)
             pixel = glm::vec4(glm::vec3(static_cast<float>(grey_of(condition, page)) / 255.0f), 1.0f);
         return image;
@@ -54,7 +54,7 @@ struct Store {
               display.output = OutputMode::native_8bit;
               return display;
           }()),
-          store(*context, pages, encoder, {10, 20}, image_px, budget_bytes) {}
+          store(*context, pages, encoder, {10, 20}, page_px, budget_bytes) {}
 
     /// The greys of all pages, as the card has them.
     std::vector<int> greys(const StoredStimulus& stimulus) const {
@@ -64,7 +64,7 @@ struct Store {
         for (int page = 0; page < stimulus.pages; ++page) {
             target.attach_layer(*stimulus.textures, page);
             target.bind();
-            read_pixels(*context, 0, {0, 0}, image_px, PixelFormat::rgba8, bytes);
+            read_pixels(*context, 0, {0, 0}, page_px, PixelFormat::rgba8, bytes);
             greys.push_back(std::to_integer<int>(bytes[0]));
             for (std::size_t i = 0; i < page_bytes; i += 4)
                 REQUIRE(bytes[i] == bytes[0]);

@@ -10,13 +10,13 @@ using namespace overt;
 
 namespace {
 
-constexpr glm::ivec2 image_px{96, 96};
+constexpr glm::ivec2 small_px{96, 96};
 
 std::vector<Sculpture> one_bust() {
     Sculpture bust;
     bust.id = "bust";
     bust.mesh = test::bust();
-    bust.scene = {{fit_camera(bust.mesh, {12.0}, image_px, {25.0}, 0.05), image_px}, bust.mesh.bounds()};
+    bust.scene = {{fit_camera(bust.mesh, {12.0}, small_px, {25.0}, 0.05), small_px}, bust.mesh.bounds()};
     std::vector<Sculpture> sculptures;
     sculptures.push_back(std::move(bust));
     return sculptures;
@@ -43,11 +43,11 @@ TEST_CASE("maps drawn while frames are shown are those drawn before, each pose o
     const PoseTable poses = distinct_poses(animation);
     for (const ContextKind kind : test::headless_kinds) {
         const auto context = make_headless_context(kind);
-        LiveMaps live(*context, sculptures, poses, image_px);
+        LiveMaps live(*context, sculptures, poses, small_px);
         present(live, animation, poses);
         const std::vector<LiveMap> maps = live.take_finished();
         REQUIRE(maps.size() == poses.angles.size());
-        CoordinatePass pass(*context, image_px);
+        CoordinatePass pass(*context, small_px);
         const MeshBuffers buffers(*context, sculptures[0].mesh);
         for (std::size_t i = 0; i < maps.size(); ++i) {
             CHECK(maps[i].pose.value == static_cast<int>(i));

@@ -15,16 +15,16 @@ using namespace overt;
 
 namespace {
 
-constexpr glm::ivec2 image_px{200, 160};
-const std::vector<Degrees> angles{{0.0}, {25.0}, {-17.3}};
+constexpr glm::ivec2 map_px{200, 160};
+const std::vector<Degrees> map_angles{{0.0}, {25.0}, {-17.3}};
 
-struct Figure {
+struct MappedFigure {
     Mesh mesh;
     SceneView scene;
 };
 
-Figure figure_of(Mesh mesh, glm::ivec2 size = image_px) {
-    Figure figure{std::move(mesh), {}};
+MappedFigure figure_of(Mesh mesh, glm::ivec2 size = map_px) {
+    MappedFigure figure{std::move(mesh), {}};
     order_for_drawing(figure.mesh);
     figure.scene.view.image_px = size;
     figure.scene.bounds = figure.mesh.bounds();
@@ -39,20 +39,20 @@ Mesh bust_and_ball() {
     return mesh;
 }
 
-std::vector<TriangleMap> draw_maps(const Figure& figure) {
+std::vector<TriangleMap> draw_maps(const MappedFigure& figure) {
     const auto context = make_headless_context(ContextKind::osmesa);
     CoordinatePass pass(*context, figure.scene.view.image_px);
     const MeshBuffers buffers(*context, figure.mesh);
     std::vector<TriangleMap> maps;
-    for (const Degrees angle : angles)
+    for (const Degrees angle : map_angles)
         maps.push_back({figure.scene.view.image_px, pass.draw(buffers, figure.scene, angle)});
     return maps;
 }
 
-std::vector<CoordinateImage> images_of(const Figure& figure) {
-    const CoordinateMaps maps(figure.mesh, figure.scene, angles, draw_maps(figure));
+std::vector<CoordinateImage> images_of(const MappedFigure& figure) {
+    const CoordinateMaps maps(figure.mesh, figure.scene, map_angles, draw_maps(figure));
     std::vector<CoordinateImage> images;
-    for (int pose = 0; pose < static_cast<int>(angles.size()); ++pose)
+    for (int pose = 0; pose < static_cast<int>(map_angles.size()); ++pose)
         images.push_back(coordinate_image(maps, {pose}, figure.scene.view.image_px));
     return images;
 }
@@ -61,11 +61,11 @@ std::vector<CoordinateImage> images_of(const Figure& figure) {
 
 TEST_CASE("the drawn map holds what rays in double precision meet, within the rounding of a float", "[gl]") {
     for (const Mesh& mesh : {bust_and_ball(), test::ball({1000.0, -2000.0, 500.0}, 60.0, 200, 400)}) {
-        const Figure figure = figure_of(mesh);
+        const MappedFigure figure = figure_of(mesh);
         const RayCaster rays(figure.mesh);
         const std::vector<CoordinateImage> images = images_of(figure);
-        for (std::size_t pose = 0; pose < angles.size(); ++pose) {
-            const MapCheck check = check_map(images[pose], rays, figure.scene, angles[pose]);
+        for (std::size_t pose = 0; pose < map_angles.size(); ++pose) {
+            const MapCheck check = check_map(images[pose], rays, figure.scene, map_angles[pose]);
             CHECK(check.covered_px > 4000);
             CHECK(check.interior_px > check.covered_px / 2);
             CHECK(check.coverage_differs_px <= 1);
@@ -78,8 +78,8 @@ TEST_CASE("the drawn map holds what rays in double precision meet, within the ro
 }
 
 TEST_CASE("16-bit codes of a map are off by the floor of rounding and no more", "[gl]") {
-    const Figure figure = figure_of(test::ball({3.0, 2.0, 1.0}, 60.0, 300, 600), {512, 512});
-    const MapCheck check = check_map(images_of(figure)[1], RayCaster(figure.mesh), figure.scene, angles[1]);
+    const MappedFigure figure = figure_of(test::ball({3.0, 2.0, 1.0}, 60.0, 300, 600), {512, 512});
+    const MapCheck check = check_map(images_of(figure)[1], RayCaster(figure.mesh), figure.scene, map_angles[1]);
     // The mean of the largest of three errors that are even within half a code is 3/8.
     CHECK(check.as_codes.mean_lsb == Approx(0.375).margin(0.002));
     CHECK(check.as_codes.p99_9_lsb < 0.51);
@@ -87,16 +87,16 @@ TEST_CASE("16-bit codes of a map are off by the floor of rounding and no more", 
 }
 
 TEST_CASE("the check finds a map that is shifted, turned, thinned or off the surface", "[gl]") {
-    const Figure figure = figure_of(bust_and_ball());
+    const MappedFigure figure = figure_of(bust_and_ball());
     const RayCaster rays(figure.mesh);
     const std::vector<CoordinateImage> images = images_of(figure);
 
-    CoordinateImage shifted(image_px);
-    for (int y = 0; y < image_px.y; ++y) {
-        for (int x = 1; x < image_px.x; ++x)
+    CoordinateImage shifted(map_px);
+    for (int y = 0; y < map_px.y; ++y) {
+        for (int x = 1; x < map_px.x; ++x)
             shifted.at(x, y) = images[0].at(x - 1, y);
     }
-    const MapCheck shift = check_map(shifted, rays, figure.scene, angles[0]);
+    const MapCheck shift = check_map(shifted, rays, figure.scene, map_angles[0]);
     CHECK(shift.as_float.mean_lsb > 100.0); // a pixel of 200 is some 400 LSB
     CHECK(shift.coverage_differs_px > 100);
 
@@ -110,24 +110,24 @@ TEST_CASE("the check finds a map that is shifted, turned, thinned or off the sur
             ++removed;
         }
     }
-    const int before = check_map(images[0], rays, figure.scene, angles[0]).coverage_differs_px;
-    CHECK(check_map(thinned, rays, figure.scene, angles[0]).coverage_differs_px >= before + 6);
+    const int before = check_map(images[0], rays, figure.scene, map_angles[0]).coverage_differs_px;
+    CHECK(check_map(thinned, rays, figure.scene, map_angles[0]).coverage_differs_px >= before + 6);
 
     CoordinateImage lifted = images[0];
     const double lift = 1e-4 * figure.scene.bounds.diagonal();
     for (glm::vec4& pixel : lifted.pixels)
         pixel.y -= pixel.w * static_cast<float>(lift);
-    CHECK(check_map(lifted, rays, figure.scene, angles[0]).farthest_off_surface ==
+    CHECK(check_map(lifted, rays, figure.scene, map_angles[0]).farthest_off_surface ==
           Approx(1e-4).epsilon(0.05));
 }
 
 TEST_CASE("a map of half the size holds places of the same surface", "[gl]") {
-    const Figure whole = figure_of(bust_and_ball(), {400, 320});
-    Figure half = whole;
+    const MappedFigure whole = figure_of(bust_and_ball(), {400, 320});
+    MappedFigure half = whole;
     half.scene.view.image_px = {200, 160};
     const std::vector<CoordinateImage> large = images_of(whole), small = images_of(half);
     const RayCaster rays(whole.mesh);
-    CHECK(check_map(small[1], rays, half.scene, angles[1]).farthest_off_surface < 1e-6);
+    CHECK(check_map(small[1], rays, half.scene, map_angles[1]).farthest_off_surface < 1e-6);
     int compared = 0;
     for (int y = 0; y < 160; ++y) {
         for (int x = 0; x < 200; ++x) {
@@ -148,10 +148,10 @@ TEST_CASE("a map of half the size holds places of the same surface", "[gl]") {
 }
 
 TEST_CASE("turned by nothing, the map's coordinates project to their own pixels", "[gl]") {
-    const Figure figure = figure_of(bust_and_ball());
+    const MappedFigure figure = figure_of(bust_and_ball());
     const CoordinateImage image = images_of(figure)[0];
-    for (int y = 0; y < image_px.y; ++y) {
-        for (int x = 0; x < image_px.x; ++x) {
+    for (int y = 0; y < map_px.y; ++y) {
+        for (int x = 0; x < map_px.x; ++x) {
             if (!image.covers(x, y))
                 continue;
             const glm::dvec2 pixel = figure.scene.view.project(glm::dvec3(image.at(x, y)));
@@ -161,11 +161,11 @@ TEST_CASE("turned by nothing, the map's coordinates project to their own pixels"
 }
 
 TEST_CASE("the same place of the surface has the same code in every frame", "[gl]") {
-    const Figure figure = figure_of(bust_and_ball(), {600, 480});
+    const MappedFigure figure = figure_of(bust_and_ball(), {600, 480});
     const std::vector<CoordinateImage> images = images_of(figure);
     const CoordinateCodec codec(figure.scene.bounds);
     const std::vector<TriangleMap> maps = draw_maps(figure);
-    const CoordinateMaps lookup(figure.mesh, figure.scene, angles, maps);
+    const CoordinateMaps lookup(figure.mesh, figure.scene, map_angles, maps);
     int compared = 0;
     for (int y = 0; y < 480; y += 5) {
         for (int x = 0; x < 600; x += 5) {
@@ -173,7 +173,7 @@ TEST_CASE("the same place of the surface has the same code in every frame", "[gl
                 continue;
             const auto here = lookup.surface_at({0}, {x + 0.5, y + 0.5});
             REQUIRE(here);
-            const glm::dvec3 turned(figure.scene.pose_at(angles[1]).world_from_object() *
+            const glm::dvec3 turned(figure.scene.pose_at(map_angles[1]).world_from_object() *
                                     glm::dvec4(here->position, 1.0));
             const auto there = lookup.surface_at({1}, figure.scene.view.project(turned));
             if (!there || there->triangle != here->triangle)
@@ -198,11 +198,11 @@ TEST_CASE("meshes with degenerate and inverted faces are mapped like rays see th
             mesh.triangle_parts.push_back(0);
         }
     }
-    const Figure figure = figure_of(mesh);
+    const MappedFigure figure = figure_of(mesh);
     const RayCaster rays(figure.mesh);
     const std::vector<CoordinateImage> images = images_of(figure);
-    for (std::size_t pose = 0; pose < angles.size(); ++pose) {
-        const MapCheck check = check_map(images[pose], rays, figure.scene, angles[pose]);
+    for (std::size_t pose = 0; pose < map_angles.size(); ++pose) {
+        const MapCheck check = check_map(images[pose], rays, figure.scene, map_angles[pose]);
         CHECK(check.coverage_differs_px <= 1);
         CHECK(check.as_float.p99_9_lsb < 0.04);
         CHECK(check.farthest_off_surface < 1e-6);
@@ -210,13 +210,13 @@ TEST_CASE("meshes with degenerate and inverted faces are mapped like rays see th
 }
 
 TEST_CASE("a map of another size than the picture cannot be checked", "[unit]") {
-    const Figure figure = figure_of(test::bust());
+    const MappedFigure figure = figure_of(test::bust());
     CHECK_THROWS_AS(check_map(CoordinateImage({10, 10}), RayCaster(figure.mesh), figure.scene, {0.0}),
                     InputError);
 }
 
 TEST_CASE("a camera inside the object, or with the object behind it, is an error and no empty map", "[gl]") {
-    Figure figure = figure_of(test::bust());
+    MappedFigure figure = figure_of(test::bust());
     figure.scene.view.camera.position = figure.scene.bounds.centre() + glm::dvec3(1.0, 0.0, 0.0);
     CHECK_THROWS_WITH(draw_maps(figure), Catch::Contains("stands inside"));
     figure.scene.view.camera.position = {0.0, -5000.0, 0.0};

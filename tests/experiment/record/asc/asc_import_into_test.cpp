@@ -15,7 +15,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-AscImportOptions options_for(const fs::path& out) {
+AscImportOptions into_options(const fs::path& out) {
     AscImportOptions options;
     options.place = {out.parent_path() / "sessions", "imported", "07"};
     options.out = out;
@@ -35,7 +35,7 @@ TEST_CASE("the gaze of a file comes into the trials that its messages name, in a
     const std::string text = text_of(root.path() / "asc" / "sub-AB7_ses-01_run-01.asc");
     const fs::path file = write_asc(root.path() / "tracker.asc", text);
 
-    const AscImportSummary summary = import_asc_into(file, session, options_for(root.path() / "with_gaze"));
+    const AscImportSummary summary = import_asc_into(file, session, into_options(root.path() / "with_gaze"));
     CHECK(summary.trials == 3);
     CHECK(text_of(session / session_file_name) == before);
     const SessionRecord record(root.path() / "with_gaze");
@@ -55,7 +55,7 @@ TEST_CASE("the gaze of a file comes into the trials that its messages name, in a
     CHECK_FALSE(record.gaze_source(2));
     CHECK(record.damages().empty());
     CHECK(verify_session(record.directory()).is_sound());
-    CHECK_THROWS_WITH(import_asc_into(file, session, options_for(root.path() / "with_gaze")),
+    CHECK_THROWS_WITH(import_asc_into(file, session, into_options(root.path() / "with_gaze")),
                       Contains("exists already"));
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("where the tracker's clock was never read, the messages of the screens
         shifted += '\n';
     }
     import_asc_into(write_asc(root.path() / "other.asc", shifted), session,
-                    options_for(root.path() / "with_gaze"));
+                    into_options(root.path() / "with_gaze"));
     const SessionRecord record(root.path() / "with_gaze");
     const auto map = record.clock_map(1);
     REQUIRE(map);
@@ -101,11 +101,11 @@ TEST_CASE("where the tracker's clock was never read, the messages of the screens
         for (std::size_t at = silent.find(word); at != std::string::npos; at = silent.find(word))
             silent.replace(at, 4, "none");
     CHECK_THROWS_WITH(import_asc_into(write_asc(root.path() / "silent.asc", silent), session,
-                                      options_for(root.path() / "silent")),
+                                      into_options(root.path() / "silent")),
                       Contains("nothing relates"));
     CHECK_FALSE(fs::exists(root.path() / "silent"));
     CHECK_THROWS_WITH(
         import_asc_into(write_asc(root.path() / "alien.asc", "START\t1 \tLEFT\n1\t1.0\t1.0\t1.0\t...\n"),
-                        session, options_for(root.path() / "silent")),
+                        session, into_options(root.path() / "silent")),
         Contains("no message TRIALID"));
 }

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-AscImportOptions options_for(const fs::path& out) {
+AscImportOptions import_options(const fs::path& out) {
     AscImportOptions options;
     options.place = {out.parent_path() / "sessions", "imported", "07"};
     options.out = out;
@@ -28,7 +28,7 @@ fs::path import_example(const test::TemporaryFolder& root) {
     AscExample example;
     example.samples = 400;
     const fs::path file = write_asc(root.path() / "recording.asc", asc_text(example));
-    return import_asc(file, options_for(root.path() / "imported")).session;
+    return import_asc(file, import_options(root.path() / "imported")).session;
 }
 
 /// A copy of a session with the gaze of its own export.
@@ -36,7 +36,7 @@ fs::path import_into_copy(const test::TemporaryFolder& root) {
     const fs::path session = make_eye_session(root.path());
     export_asc(SessionRecord(session), root.path() / "asc");
     return import_asc_into(root.path() / "asc" / "sub-AB7_ses-01_run-01.asc", session,
-                           options_for(root.path() / "with_gaze"))
+                           import_options(root.path() / "with_gaze"))
         .session;
 }
 

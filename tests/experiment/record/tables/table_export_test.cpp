@@ -98,7 +98,7 @@ struct Recorded {
     fs::path target() const { return root.path() / "export"; }
 };
 
-std::vector<std::vector<std::string>> table(const fs::path& file) {
+std::vector<std::vector<std::string>> rows_of(const fs::path& file) {
     std::vector<std::vector<std::string>> rows;
     std::istringstream text(text_of(file));
     for (std::string line; std::getline(text, line);) {
@@ -139,7 +139,7 @@ TEST_CASE("an export holds each row of the completed trials, and its counts are 
     CHECK(counts.samples_without_gaze == 1000);
     CHECK(counts.flips == 503);
 
-    const auto samples = table(recorded.target() / "samples.tsv");
+    const auto samples = rows_of(recorded.target() / "samples.tsv");
     REQUIRE(samples.size() == 10'001);
     std::int64_t on_object = 0;
     for (std::size_t i = 1; i < samples.size(); ++i)
@@ -147,26 +147,26 @@ TEST_CASE("an export holds each row of the completed trials, and its counts are 
     CHECK(on_object == counts.samples_on_object);
     CHECK(on_object > 1000);
     // The names, a row for each flip, and one for the refresh that was missed.
-    CHECK(table(recorded.target() / "flips.tsv").size() == 505);
-    CHECK(table(recorded.target() / "responses.tsv").size() == 3);
-    CHECK(table(recorded.target() / "stimuli.tsv").size() == 3);
-    const auto trials = table(recorded.target() / "trials.tsv");
+    CHECK(rows_of(recorded.target() / "flips.tsv").size() == 505);
+    CHECK(rows_of(recorded.target() / "responses.tsv").size() == 3);
+    CHECK(rows_of(recorded.target() / "stimuli.tsv").size() == 3);
+    const auto trials = rows_of(recorded.target() / "trials.tsv");
     REQUIRE(trials.size() == 4);
     CHECK(row_of(trials, 1)["status"] == "completed");
     CHECK(row_of(trials, 1)["samples_on_object"] == std::to_string(on_object));
     CHECK(row_of(trials, 3)["status"] == "open");
     CHECK(row_of(trials, 3)["samples"] == "n/a");
-    const auto events = table(recorded.target() / "events.tsv");
+    const auto events = rows_of(recorded.target() / "events.tsv");
     REQUIRE(events.size() == 2);
     CHECK(events[1] == std::vector<std::string>{"0.005000000", "n/a", "calibration", "0.3\\tdeg"});
-    CHECK(row_of(table(recorded.target() / "responses.tsv"), 1)["answer"] == "forty\\tor\\nfifty");
-    CHECK(row_of(table(recorded.target() / "responses.tsv"), 2)["response_time_s"] == "0.990000000");
+    CHECK(row_of(rows_of(recorded.target() / "responses.tsv"), 1)["answer"] == "forty\\tor\\nfifty");
+    CHECK(row_of(rows_of(recorded.target() / "responses.tsv"), 2)["response_time_s"] == "0.990000000");
 }
 
 TEST_CASE("a sample's row says when, on which frame and where on the surface it was", "[unit]") {
     const Recorded recorded;
     export_tables(SessionRecord(recorded.session), bust_only, recorded.target());
-    const auto samples = table(recorded.target() / "samples.tsv");
+    const auto samples = rows_of(recorded.target() / "samples.tsv");
     // Sample 301 was taken 150.623 ms after the onset. Row 300 of 600 and a latency of 1.5 ms put it 144.123
     // ms after the onset's blank: refresh 14, the fourth frame of forty milliseconds, which is frame 1 on its
     // way back (0 1 2 1 0 …), pose 1.
@@ -246,7 +246,7 @@ TEST_CASE("the dictionary explains each column of each file, in the files' order
             explained.push_back(column);
             CHECK_FALSE(entry["Description"].get<std::string>().empty());
         }
-        const auto rows = table(recorded.target() / file);
+        const auto rows = rows_of(recorded.target() / file);
         CHECK(explained == rows[0]);
         // Where values are listed, no other occurs.
         for (std::size_t column = 0; column < explained.size(); ++column) {
@@ -313,7 +313,7 @@ TEST_CASE("commas and JSON hold the same cells as tab-separated tables, with the
     std::int64_t rows = 0, quoted = 0;
     std::map<std::string, bool> holds_numbers; // by column, in all tables alike
     for (const char* name : {"trials", "flips", "samples", "events", "responses", "stimuli", "display_box"}) {
-        auto expected = table(recorded.root.path() / "tsv" / (std::string(name) + ".tsv"));
+        auto expected = rows_of(recorded.root.path() / "tsv" / (std::string(name) + ".tsv"));
         for (auto& row : expected)
             for (std::string& cell : row)
                 cell = unescaped(cell);
