@@ -114,6 +114,20 @@ TEST_CASE("pairs that are close together do not pretend to know the rate", "[uni
     }
 }
 
+TEST_CASE("where the rate is not known, it makes the offset of the pairs uncertain, too", "[unit]") {
+    // Exact readings, so that what is left is the tick of 1 us at a pair and at the time asked for, and 200
+    // ppm of the 5 ms between the pairs and their middle.
+    std::vector<ClockPair> pairs;
+    for (const int ms : {0, 10})
+        pairs.push_back(
+            {at_s(20.0 + 0.001 * ms), tracker_time(5'000'000 + 1000 * ms), at_s(20.0 + 0.001 * ms)});
+    const ClockMap map(pairs);
+    CHECK(map.drift_ppm() == 0.0);
+    CHECK(map.drift_uncertainty_ppm() == Approx(ClockMap::largest_drift_ppm));
+    CHECK(map.to_session(tracker_time(5'005'000)).uncertainty == std::chrono::nanoseconds(3000));
+    CHECK(map.to_session(tracker_time(6'005'000)).uncertainty == std::chrono::nanoseconds(203'000));
+}
+
 TEST_CASE("no nanosecond is lost after years of uptime", "[unit]") {
     const SessionTime session(SessionDuration(3'000'000'000'000'000'001));
     const TrackerTime tracker(TrackerClock::duration(4'000'000'000'000'003));

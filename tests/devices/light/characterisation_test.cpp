@@ -191,3 +191,23 @@ TEST_CASE("a characterisation that is written is read back as it was", "[unit]")
         }
     }
 }
+
+TEST_CASE("the noise of repeated readings is that of a sample: n - 1 of n are free", "[unit]") {
+    // Two readings of each patch, 1 % above and below their mean: the sample's standard deviation is
+    // sqrt(2) %, not the 1 % of the two about their mean.
+    DisplayTruth truth = DisplayTruth::drawn(3);
+    truth.reading_noise = truth.dark_noise_cd_m2 = 0.0;
+    std::vector<PatchReading> readings;
+    std::vector<glm::dvec3> seen;
+    for (const PatchReading& reading : readings_of(truth, 1)) {
+        if (std::find(seen.begin(), seen.end(), reading.signal) != seen.end())
+            continue;
+        seen.push_back(reading.signal);
+        for (const double factor : {0.99, 1.01}) {
+            readings.push_back(reading);
+            readings.back().xyz *= factor;
+        }
+    }
+    const CharacterisationFit fit = fit_characterisation(readings, CurveModel::table);
+    CHECK(fit.repeat_noise == Approx(0.01 * std::sqrt(2.0)).epsilon(1e-6));
+}

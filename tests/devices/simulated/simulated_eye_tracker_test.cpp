@@ -179,6 +179,45 @@ TEST_CASE("noise and calibration error are as large as set", "[unit]") {
     CHECK(spread_of(offsets).sd == Approx(0.4).epsilon(0.15));
 }
 
+TEST_CASE("noise across and along are of one size and independent, and so is each sample's of the next",
+          "[unit]") {
+    Sitting sitting(8);
+    SimulatedTrackerSettings settings;
+    settings.noise_deg = 0.2;
+    settings.accuracy_deg = 0.0;
+    settings.steps_per_px = 0.0;
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 8, settings);
+    tracker.start_recording();
+    sitting.clock.wait_until(sitting.clock.now() + 10s);
+    tracker.stop_recording();
+    std::vector<glm::dvec2> errors;
+    const glm::dvec2 px_per_deg = px_per_deg_at_centre(sitting.observer.scene().screen);
+    for (const GazeSample& sample : take_all(tracker)) {
+        if (!sample.gaze)
+            continue;
+        const TrueGaze truth = sitting.observer.gaze_at(tracker.session_time_at(sample.sampled_at));
+        errors.push_back(
+            glm::dvec2(sample.gaze->x_px - truth.place.x_px, sample.gaze->y_px - truth.place.y_px) /
+            px_per_deg / settings.noise_deg);
+    }
+    REQUIRE(errors.size() > 10'000);
+    glm::dvec2 squares(0.0), to_next(0.0);
+    double product = 0.0, product_of_squares = 0.0;
+    for (std::size_t i = 0; i + 1 < errors.size(); ++i) {
+        squares += errors[i] * errors[i];
+        to_next += errors[i] * errors[i + 1];
+        product += errors[i].x * errors[i].y;
+        product_of_squares += (errors[i].x * errors[i].x - 1.0) * (errors[i].y * errors[i].y - 1.0);
+    }
+    const double n = static_cast<double>(errors.size() - 1), five_sigma = 5.0 / std::sqrt(n);
+    CHECK(squares.x / n == Approx(1.0).margin(five_sigma * std::sqrt(2.0)));
+    CHECK(squares.y / n == Approx(1.0).margin(five_sigma * std::sqrt(2.0)));
+    CHECK(product / n == Approx(0.0).margin(five_sigma));
+    CHECK(product_of_squares / n == Approx(0.0).margin(2.0 * five_sigma));
+    CHECK(to_next.x / n == Approx(0.0).margin(five_sigma));
+    CHECK(to_next.y / n == Approx(0.0).margin(five_sigma));
+}
+
 TEST_CASE("gaze comes in tenths of a pixel", "[unit]") {
     Sitting sitting(7);
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 7);

@@ -85,6 +85,28 @@ TEST_CASE("a cone's directions are off by the accuracy on average, to all sides 
     }
 }
 
+TEST_CASE("a cone is as wide in degrees where pixels are wider than high", "[unit]") {
+    ScreenGeometry screen = screen_for({400, 300});
+    screen.screen_mm = {400.0, 150.0}; // pixels of 1 x 0.5 mm
+    for (const ScreenPoint gaze : {ScreenPoint{200.0, 150.0}, {310.0, 260.0}}) {
+        const Witness witness;
+        GazeCone(screen, {0.7}).shares(witness, {0}, gaze, 1);
+        double sum_deg = 0.0;
+        glm::dvec2 mean(0.0), squares(0.0);
+        for (const glm::dvec2 place : witness.asked) {
+            sum_deg += screen.angle_between(gaze, screen.screen_from_image(place)).value;
+            mean += place / static_cast<double>(witness.asked.size());
+        }
+        for (const glm::dvec2 place : witness.asked)
+            squares += (place - mean) * (place - mean) / static_cast<double>(witness.asked.size());
+        CHECK(sum_deg / GazeCone::usual_directions == Approx(0.7).epsilon(0.002));
+        CHECK(screen.angle_between(gaze, screen.screen_from_image(mean)).value < 0.005);
+        // As wide as high in millimetres, hence half as many pixels across.
+        if (gaze.x_px == 200.0)
+            CHECK(std::sqrt(squares.y / squares.x) == Approx(2.0).epsilon(0.02));
+    }
+}
+
 TEST_CASE("a cone's probabilities are what drawing directions by chance and casting rays gives", "[unit]") {
     const CastScene balls(test::two_balls(), {{0.0}, {20.0}});
     const CoordinateMaps maps = balls.maps();

@@ -212,6 +212,22 @@ TEST_CASE("a curve goes through its points, never falls, and a power's points ma
     }
 }
 
+TEST_CASE("a curve through points of a parabola keeps its slope at both ends, however unequal the steps",
+          "[unit]") {
+    // Heights s + a s (1 - s) at uneven signals: the parabola through the three points of an end is this one,
+    // so the curve leaves 0 with the slope 1 + a and reaches 1 with 1 - a.
+    for (const double a : {0.3, -0.3}) {
+        const std::vector<double> signals{0.0, 0.1, 0.4, 0.55, 0.95, 1.0};
+        std::vector<double> lights;
+        for (const double s : signals)
+            lights.push_back(s + a * s * (1.0 - s));
+        const ChannelCurve curve = ChannelCurve::table(signals, lights, 1.0);
+        constexpr double step = 1e-6;
+        CHECK(curve.light_of(step) / step == Approx(1.0 + a).epsilon(1e-4));
+        CHECK((1.0 - curve.light_of(1.0 - step)) / step == Approx(1.0 - a).epsilon(1e-4));
+    }
+}
+
 TEST_CASE("a power with an offset begins at 0, ends at 1, and stays dark as long as it says", "[unit]") {
     for (const double offset : {-0.2, 0.0, 0.15}) {
         const ChannelCurve curve = ChannelCurve::power(2.2, offset);

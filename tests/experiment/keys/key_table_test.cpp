@@ -23,7 +23,7 @@ struct Room {
     double height_m = 2.5;
     std::string colour = "white \"as\" snow";
     Mood mood = Mood::wide_awake;
-    std::optional<Mood> before;
+    std::optional<Mood> before = {};
     Size size = Size::large;
 };
 

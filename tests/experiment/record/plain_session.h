@@ -67,15 +67,23 @@ class BlinkingTracker final : public EyeTracker {
     }
     std::optional<Degrees> drift_check(ScreenPoint) override {
         ++drift_checks;
-        return Degrees{0.1};
+        return drift;
     }
     ClockPair read_clocks() noexcept override {
         ++clock_readings;
         return {};
     }
     void start_recording() override { ++recording_; }
-    void stop_recording() override {}
+    void stop_recording() override { held_ = late; }
     std::size_t poll(std::span<GazeSample> into) noexcept override {
+        if (held_ > 0) {
+            const std::size_t count = std::min(into.size(), held_);
+            std::fill_n(into.begin(), count, GazeSample{});
+            held_ -= count;
+            arrived += static_cast<int>(count);
+            return count;
+        }
+        ++arrived;
         into[0] = {};
         if (std::find(blind.begin(), blind.end(), recording_) == blind.end())
             into[0].gaze = ScreenPoint{1.0, 2.0};
@@ -84,11 +92,15 @@ class BlinkingTracker final : public EyeTracker {
     bool lost() const noexcept override { return false; }
 
     std::vector<int> blind;
+    std::optional<Degrees> drift = Degrees{0.1}; ///< that each drift check finds
+    std::size_t late = 0;                        ///< samples that arrive only when the recording has ended
     int calibrations = 0, drift_checks = 0, clock_readings = 0;
+    int arrived = 0; ///< samples handed over
     bool is_there = true;
 
   private:
     int recording_ = -1;
+    std::size_t held_ = 0;
 };
 
 /// Presses once at each time that it is asked: what it is told to, or yes to decisions and "next" to all

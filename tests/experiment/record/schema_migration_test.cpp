@@ -103,6 +103,33 @@ TEST_CASE("a session of an earlier format that goes on becomes one of today, and
     CHECK(verify_session(session).damages.at(0).row == "trial_id = 1, n = 7");
 }
 
+TEST_CASE("of a trial that failed twice each attempt gets what was decided about itself", "[unit]") {
+    const TemporaryFolder root;
+    const fs::path session = make_session(root.path(), example_header());
+    const Trial trial = example_header().schedule.trials[2];
+    {
+        SessionStore store(session / session_file_name, patient());
+        const char* const decided[] = {"gaze lost: comes again now",
+                                       "gaze lost: comes again at the end of the block",
+                                       "gaze lost: it does not come again"};
+        for (int attempt = 0; attempt < 3; ++attempt) {
+            const int start_ms = 10'000 * (attempt + 1);
+            store.trial_started(trial, at_ms(start_ms));
+            TrialOutcome outcome = outcome_at(start_ms);
+            outcome.status = TrialOutcome::Status::aborted;
+            store.event({at_ms(start_ms + 4500), 2, "trial failed", decided[attempt]});
+            store.trial_finished(trial, outcome);
+        }
+    }
+    make_earlier(session / session_file_name, 2);
+    SessionStore(session / session_file_name, patient()).close();
+    const SessionRecord record(session);
+    REQUIRE(record.trials().size() == 3);
+    CHECK(record.trials()[0].outcome.afterwards == TrialOutcome::Afterwards::now);
+    CHECK(record.trials()[1].outcome.afterwards == TrialOutcome::Afterwards::end_of_block);
+    CHECK(record.trials()[2].outcome.afterwards == TrialOutcome::Afterwards::never);
+}
+
 TEST_CASE("a session of today needs no migration, and one of tomorrow is refused by its version", "[unit]") {
     const TemporaryFolder root;
     const fs::path session = make_session(root.path(), example_header());

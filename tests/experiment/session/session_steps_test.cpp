@@ -117,3 +117,33 @@ TEST_CASE("practice that the operator repeats comes again at once; skipped, it w
         }
     }
 }
+
+TEST_CASE("samples that a slow link delivers after the end of the recording belong to the trial", "[unit]") {
+    // 5000 are more than one look takes.
+    for (const std::size_t late : {std::size_t{0}, std::size_t{3}, std::size_t{5000}}) {
+        Sitting sitting(short_protocol(""));
+        sitting.tracker.late = late;
+        REQUIRE(sitting.run().completed_trials == 2);
+        CHECK(sitting.log.samples == sitting.tracker.arrived);
+        CHECK(sitting.tracker.arrived >= static_cast<int>(2 * late));
+    }
+}
+
+TEST_CASE("a drift check fails beyond its limit, not at it, and where no eye was found", "[unit]") {
+    const Protocol protocol = short_protocol("[tracker]\ndrift_limit_deg = 1.5\n");
+    for (const auto& [drift_deg, failures] : {std::pair{1.499, 0}, {1.5, 0}, {1.501, 2}}) {
+        CAPTURE(drift_deg);
+        Sitting sitting(protocol);
+        sitting.tracker.drift = Degrees{drift_deg};
+        CHECK(sitting.run().completed_trials == 2);
+        CHECK(sitting.log.count("drift check failed") == failures);
+        for (const TrialOutcome& outcome : sitting.log.outcomes)
+            CHECK(outcome.drift->value == drift_deg);
+    }
+    Sitting blind(protocol);
+    blind.tracker.drift.reset();
+    CHECK(blind.run().completed_trials == 2);
+    CHECK(blind.log.details_of("drift check failed") ==
+          std::vector<std::string>{"no eye was found", "no eye was found"});
+    CHECK_FALSE(blind.log.outcomes[0].drift);
+}

@@ -117,3 +117,56 @@ TEST_CASE("a count that stands still or goes back does not hold up a presentatio
         ledger.enter({RefreshIndex{1000 - flips % 7}, {}, {}, SessionTime(flips * interval)});
     CHECK(flips == cycle.total_refreshes);
 }
+
+TEST_CASE("a missed refresh is as uncertain as the less certain of the flips around it", "[unit]") {
+    const PageCycle cycle = plan();
+    for (const auto& [first, second] : {std::pair{30, 700}, {700, 30}}) {
+        RefreshLedger ledger(cycle, WhenLate::drop);
+        ledger.begin(0);
+        FlipReport report;
+        report.refresh = {10};
+        report.vertical_blank = SessionTime(10 * interval);
+        report.uncertainty = std::chrono::microseconds(first);
+        ledger.enter(report);
+        report.refresh = {13};
+        report.vertical_blank = SessionTime(13 * interval);
+        report.uncertainty = std::chrono::microseconds(second);
+        ledger.enter(report);
+        REQUIRE(ledger.missed_count() == 2);
+        for (int i = 0; i < 2; ++i)
+            CHECK(ledger.missed(i).uncertainty == std::chrono::microseconds(700));
+    }
+}
+
+TEST_CASE("a ledger that begins again knows nothing of the presentation before", "[unit]") {
+    const PageCycle cycle = plan();
+    const auto flip_at = [](std::int64_t refresh) {
+        FlipReport report;
+        report.refresh = {refresh};
+        report.vertical_blank = SessionTime(refresh * interval);
+        return report;
+    };
+    RefreshLedger used(cycle, WhenLate::drop), fresh(cycle, WhenLate::drop);
+    used.begin(0);
+    used.enter(flip_at(100));
+    used.enter(flip_at(104)); // three refreshes go by
+    REQUIRE(used.missed_count() == 3);
+    used.begin(1);
+    fresh.begin(1);
+    CHECK(used.missed_count() == 0);
+    CHECK(used.missed_refreshes() == 0);
+    CHECK(used.shown_refreshes() == 0);
+    CHECK_FALSE(used.is_complete());
+    for (const std::int64_t refresh : {500, 501, 503}) {
+        const FlipRecord& one = used.enter(flip_at(refresh));
+        const FlipRecord& other = fresh.enter(flip_at(refresh));
+        CHECK(one.trial == 1);
+        CHECK(one.refresh_in_trial == other.refresh_in_trial);
+        CHECK(one.shown == other.shown);
+        CHECK(one.planned == other.planned);
+        CHECK(one.report.missed_refreshes == other.report.missed_refreshes);
+        CHECK(used.missed_count() == fresh.missed_count());
+    }
+    CHECK(used.missed_refreshes() == 1);
+    CHECK(used.onset() == SessionTime(500 * interval));
+}

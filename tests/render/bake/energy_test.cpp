@@ -83,6 +83,18 @@ TEST_CASE("a matt white surface is as bright as its surroundings", "[unit]") {
     CHECK(furnace(test::bust(), material, 16).worst < 2e-6);
 }
 
+TEST_CASE("a dark surface is as bright as its reflectance, though chance ends most of its paths", "[unit]") {
+    // A ball sees nothing of itself: each path meets it once and carries its reflectance out. Paths that
+    // carry less than a tenth go on by chance, which must be right in the mean.
+    for (const double reflectance : {0.05, 0.02}) {
+        MaterialSettings material = test::material_of(MaterialKind::diffuse);
+        material.reflectance = {reflectance, reflectance, reflectance};
+        const FurnaceResult dark = furnace(test::ball({0.0, 0.0, 0.0}, 50.0), material, 256);
+        CHECK(dark.lit > 300);
+        CHECK(dark.mean == Approx(reflectance).epsilon(0.02));
+    }
+}
+
 TEST_CASE("a clear coat on a metal that reflects all light loses next to nothing and adds nothing",
           "[unit]") {
     const test::WhiteMetal white;

@@ -5,6 +5,7 @@
 
 #include "experiment/base/error.h"
 #include "render/bake/eye_rays.h"
+#include "render/bake/film.h"
 #include "render/bake/pixel_sampling.h"
 #include "tests/render/bake/bake_support.h"
 
@@ -114,6 +115,37 @@ TEST_CASE("with a target of error pixels stop when they reach it, and the frame 
     CHECK(frame.error_de.size() == frame.alpha.size());
 }
 
+TEST_CASE("the error that a frame states is the error it has", "[unit]") {
+    // A target that no pixel reaches: each gets all its samples, and its error is estimated in the last
+    // round.
+    const BakeScene scene = rough_bust();
+    const SceneView view = test::front_view(test::bust(), 40);
+    BakeSettings settings{.samples = 4096};
+    settings.seed = 7;
+    const LinearImage reference = to_xyz(test::baked(scene, sky(), view, settings));
+    const auto lab = [](glm::vec4 xyz) { return lab_of_xyz(glm::dvec3(xyz)); };
+    double is_squared = 0.0, said_squared = 0.0;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        BakeSettings few{.samples = 32};
+        few.seed = seed;
+        few.target_error_de = 1e-6;
+        const SpectralFrame frame = test::baked(scene, sky(), view, few);
+        const LinearImage picture = to_xyz(frame);
+        for (std::size_t pixel = 0; pixel < picture.pixels.size(); ++pixel) {
+            if (frame.alpha[pixel] < 0.999f)
+                continue;
+            is_squared +=
+                std::pow(glm::distance(lab(picture.pixels[pixel]), lab(reference.pixels[pixel])), 2.0);
+            said_squared += std::pow(static_cast<double>(frame.error_de[pixel]), 2.0);
+        }
+    }
+    // Samples that are spread by plan err less than independent ones, as which the estimate takes them.
+    const double ratio = std::sqrt(said_squared / is_squared);
+    CAPTURE(ratio);
+    CHECK(ratio > 0.7);
+    CHECK(ratio < 1.6);
+}
+
 TEST_CASE("the samples of a pixel are spread as its filter says", "[unit]") {
     const auto deviation = [](PixelFilter filter, double width) {
         const PixelSampling sampling(filter, width);
@@ -164,4 +196,26 @@ TEST_CASE("impossible settings of a bake are refused, and a stopped frame is not
     CHECK_FALSE(bake_frame(scene, sky(), view, {0.0}, covered, {.samples = 4}, stop).is_complete);
     CHECK(furthest > 0.0);
     CHECK(furthest <= 1.0);
+}
+
+TEST_CASE("a pixel of a preview stands for the middle of its four pixels of the picture", "[unit]") {
+    // Light that rises by 1 from pixel to pixel of the film: in the picture it must rise evenly, and be the
+    // film's own where the middles meet, a quarter of a film's pixel to each side of it.
+    constexpr int size = 16;
+    const std::vector<std::uint8_t> covered(size * size, 1);
+    Film film({size, size}, 2, covered);
+    REQUIRE(film.count() == size * size / 4);
+    for (std::size_t i = 0; i < film.count(); ++i) {
+        film.pixel(i).samples = film.pixel(i).met = 1;
+        film.pixel(i).light = Bins::filled(static_cast<float>(1 + film.place(i).x + 10 * film.place(i).y));
+    }
+    const SpectralFrame frame = film.develop(covered);
+    for (int y = 1; y < size - 1; ++y) {
+        for (int x = 1; x < size - 1; ++x) {
+            const auto pixel = static_cast<std::size_t>(y * size + x);
+            REQUIRE(frame.radiance[pixel * spectral_bins] ==
+                    Approx(1.0 + (x + 0.5) / 2.0 - 0.5 + 10.0 * ((y + 0.5) / 2.0 - 0.5)).epsilon(1e-5));
+            REQUIRE(frame.alpha[pixel] == Approx(1.0));
+        }
+    }
 }

@@ -147,6 +147,11 @@ TEST_CASE("a frame store too small for two stimuli holds one, and refuses what i
     Store one(page_bytes * (pages_each + 3));
     one.store.load({1, 0});
     one.store.expect({2, 0});
+    // Pages would be read in the background.
+    for (int i = 0; i < 200; ++i) {
+        one.store.use_spare_time();
+        std::this_thread::sleep_for(std::chrono::microseconds(50));
+    }
     CHECK(one.pages.read == pages_each);
     CHECK(one.greys(one.store.load({2, 0})) == truth({2, 0}));
     CHECK(one.greys(one.store.load({3, 0})) == truth({3, 0}));

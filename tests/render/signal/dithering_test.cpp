@@ -150,3 +150,19 @@ TEST_CASE("each tile holds every rank once, and blue noise has little of the coa
             REQUIRE(ranks[i] == i);
     }
 }
+
+TEST_CASE("the ordered tile is Bayer's, and each tile has each rank once", "[unit]") {
+    for (const Dithering kind : {Dithering::ordered, Dithering::blue_noise}) {
+        std::vector<std::uint32_t> ranks = make_dither_tile(kind);
+        REQUIRE(ranks.size() == dither_ranks);
+        std::sort(ranks.begin(), ranks.end());
+        for (std::size_t i = 0; i < ranks.size(); ++i)
+            REQUIRE(ranks[i] == i);
+    }
+    // Bayer's pattern of 4 x 4 is the coarse part of each rank, all over the tile.
+    constexpr std::uint32_t bayer[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+    const std::vector<std::uint32_t> tile = make_dither_tile(Dithering::ordered);
+    for (std::size_t y = 0; y < dither_tile_px; ++y)
+        for (std::size_t x = 0; x < dither_tile_px; ++x)
+            REQUIRE(tile[y * dither_tile_px + x] / (dither_ranks / 16) == bayer[y % 4][x % 4]);
+}

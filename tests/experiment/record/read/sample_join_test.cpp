@@ -113,6 +113,30 @@ TEST_CASE("the samples that the plan puts on another frame are counted exactly, 
     }
 }
 
+TEST_CASE("nothing of the samples before is left in rows that are used again", "[unit]") {
+    const Presentation presentation(43, 40);
+    const CastScene ball = one_ball();
+    const CoordinateMaps maps = ball.maps();
+    const SampleJoin join = presentation.join(&maps);
+    std::vector<JoinedSample> fresh(presentation.samples.size()), used(presentation.samples.size());
+    join.join(presentation.samples, fresh);
+    std::vector<GazeSample> reversed(presentation.samples.rbegin(), presentation.samples.rend());
+    join.join(reversed, used);
+    join.join(presentation.samples, used);
+    int off_plan = 0;
+    for (std::size_t i = 0; i < fresh.size(); ++i) {
+        off_plan += fresh[i].off_plan;
+        REQUIRE(used[i].off_plan == fresh[i].off_plan);
+        REQUIRE(used[i].at.has_value() == fresh[i].at.has_value());
+        REQUIRE(used[i].image_px == fresh[i].image_px);
+        REQUIRE(used[i].shown.has_value() == fresh[i].shown.has_value());
+        REQUIRE(used[i].sight.surface.has_value() == fresh[i].sight.surface.has_value());
+        REQUIRE(used[i].sight.outline_px == fresh[i].sight.outline_px);
+        REQUIRE(used[i].outline_distance.has_value() == fresh[i].outline_distance.has_value());
+    }
+    CHECK(off_plan > 100);
+}
+
 TEST_CASE("a joined sample has the surface of the frame that was lit", "[unit]") {
     const CastScene balls(test::two_balls(), {{0.0}, {25.0}, {-25.0}}, image_px);
     const CoordinateMaps maps = balls.maps();

@@ -97,3 +97,10 @@ TEST_CASE(
 TEST_CASE("a text that is no UTF-8 is still a line of JSON", "[unit]") {
     CHECK(json::parse(text_cell("caf\xe9", TableFormat::jsonl)) == "caf\xef\xbf\xbd");
 }
+
+TEST_CASE("a cell of a csv with any end of line, comma or quote stands in quotes", "[unit]") {
+    CHECK(text_cell("a b", TableFormat::csv) == "a b");
+    for (const char* const text : {"a,b", "a\nb", "a\rb", "a\r\nb", "\r"})
+        CHECK(text_cell(text, TableFormat::csv) == "\"" + std::string(text) + "\"");
+    CHECK(text_cell("a\"b", TableFormat::csv) == "\"a\"\"b\"");
+}
