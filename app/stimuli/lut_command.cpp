@@ -183,9 +183,10 @@ int run_lut(const LutOptions& options) {
             for (const std::filesystem::path& file : files.files_of(frame))
                 written.push_back(file.string());
         }
-        writing = std::async(std::launch::async, [&files, image = std::move(image), description, &numbers] {
-            files.write(image, description, numbers);
-        });
+        writing = std::async(std::launch::async,
+                             [&files, image = std::move(image), description, &of_image = numbers] {
+                                 files.write(image, description, of_image);
+                             });
     }
     if (writing.valid())
         writing.get();
