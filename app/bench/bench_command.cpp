@@ -31,14 +31,17 @@ constexpr Benchmark benchmarks[] = {
     {"bake",
      "a frame of each material, its time beside that of its rays, its errors, and the hours of a whole bake",
      bench_bake},
-    {"export", "exports and imports, their speed, and their memory as sessions grow", bench_export}};
+    {"export", "exports and imports, their speed, and their memory as sessions grow", bench_export},
+    {"events", "fixations and saccades against those of a tracker, of people, or planted ones; its speed",
+     bench_events}};
 
 void add_bench(CLI::App& app, ChosenCommand& chosen) {
     const auto given = std::make_shared<BenchOptions>();
     BenchOptions& options = *given;
     CLI::App& command = add_command(app, "bench", "The program's own benchmarks",
                                     "overt bench lut --json\n"
-                                    "  overt bench lut --mesh statue.ply --up y");
+                                    "  overt bench lut --mesh statue.ply --up y\n"
+                                    "  overt bench events recordings --json");
     std::vector<std::string> names, lines;
     for (const Benchmark& one : benchmarks) {
         names.emplace_back(one.name);
@@ -47,6 +50,10 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
     command.add_option("WHICH", options.what, fmt::format("{}", fmt::join(lines, "; ")))
         ->required()
         ->check(CLI::IsMember(names));
+    command.add_option(
+        "FILE", options.files,
+        "events: EyeLink recordings (.asc) with the tracker's own events, tables of samples that "
+        "people labelled (.tsv), or folders of them; without any, gaze with planted events");
     command
         .add_option("--mesh", options.mesh,
                     "Measure on this mesh (PLY, OBJ, STL) instead of the shipped sculptures")

@@ -33,5 +33,7 @@ BenchFigures bench_frames(const BenchOptions& options);
 BenchFigures bench_bake(const BenchOptions& options);
 /// Exports and imports: their speed, and their memory on a session and on one four times as long.
 BenchFigures bench_export(const BenchOptions& options);
+/// Fixations and saccades against a tracker's own, people's labels, or planted ones.
+BenchFigures bench_events(const BenchOptions& options);
 
 } // namespace overt

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "app/cli/chosen_command.h"
 #include "app/cli/context_choice.h"
@@ -14,13 +15,14 @@ namespace overt {
 void add_bench_commands(CLI::App& app, ChosenCommand& chosen);
 
 struct BenchOptions {
-    std::string what;            ///< which benchmark
-    std::filesystem::path mesh;  ///< measure on this one instead of the shipped sculptures
-    std::string up = "z";        ///< axis of the mesh file that points up
-    int size_px = 1024;          ///< width and height of the picture
-    std::filesystem::path probe; ///< bake: surroundings other than the overcast sky
-    int samples = 16;            ///< bake: of a pixel, of the frames whose time is taken
-    int reference_size_px = 128; ///< bake: of the pictures whose errors are measured
+    std::string what;                         ///< which benchmark
+    std::vector<std::filesystem::path> files; ///< events: recordings with events, or folders of them
+    std::filesystem::path mesh;               ///< measure on this one instead of the shipped sculptures
+    std::string up = "z";                     ///< axis of the mesh file that points up
+    int size_px = 1024;                       ///< width and height of the picture
+    std::filesystem::path probe;              ///< bake: surroundings other than the overcast sky
+    int samples = 16;                         ///< bake: of a pixel, of the frames whose time is taken
+    int reference_size_px = 128;              ///< bake: of the pictures whose errors are measured
     ContextChoice context;
     bool json = false;
 };

@@ -11,10 +11,10 @@ namespace {
 class Asc final : public ExportFormat {
   public:
     void add_options(CLI::App& command) override {
-        command.add_flag(
-            "--fractional-times", fractional_times_,
-            "Samples' times with their microseconds, for MNE above 1000 Hz; PyGazeAnalyser reads whole "
-            "milliseconds only; in asc");
+        command.add_flag("--fractional-times", fractional_times_,
+                         "Times of samples and eye events with their microseconds, for MNE above 1000 Hz; "
+                         "PyGazeAnalyser reads whole "
+                         "milliseconds only; in asc");
     }
 
     std::string write(const ExportRequest& request) const override {

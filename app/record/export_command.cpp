@@ -21,6 +21,7 @@ struct ExportOptions {
     std::string format = "tsv"; ///< by its name
     std::filesystem::path out;
     bool overwrite = false;
+    bool detect_events = false;
 
     struct Format {
         const ExportFormatEntry* entry;
@@ -57,7 +58,9 @@ int run_export(const ExportOptions& options) {
     const Interruption interruption;
     const auto& [entry, format] = options.formats.at(options.format);
     for (const std::filesystem::path& session : options.sessions) {
-        const SessionRecord record(session);
+        SessionRecord record(session);
+        if (options.detect_events)
+            record.detect_events_of_imports();
         ProgressBar bar;
         const std::string title = "exporting " + folder_at(record.directory()).filename().string();
         const std::string said = format->write({record, options.format, folder_of(options, *entry, record),
@@ -105,6 +108,10 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
         ->type_name("DIR");
     for (const auto& format : formats)
         format->add_options(command);
+    command.add_flag(
+        "--detect-events", options.detect_events,
+        "Find fixations, saccades and blinks also in recordings that were imported without any; sessions of "
+        "the program have them anyway");
     command.add_flag("--overwrite", options.overwrite, "Replace an export that is there");
     run_when_chosen(command, chosen, [given] { return run_export(*given); });
 }

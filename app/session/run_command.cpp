@@ -156,14 +156,22 @@ SessionFolder open_folder(const RunOptions& options, const SessionPlace& place, 
     return {directory.path(), std::move(now), started_utc};
 }
 
+/// No tracker of today tells events: where its own are wanted, the program's stand in for them.
+std::optional<SittingDetection> detection_of(const Protocol& protocol, const EyeTracker& tracker) {
+    if (protocol.events.method == EventMethod::none || !tracker.measures_gaze())
+        return std::nullopt;
+    return SittingDetection{protocol.events, screen_geometry_of(protocol)};
+}
+
 SessionStore::Options store_options(const RunOptions& options, const SessionPlan& plan,
-                                    const SessionFolder& folder) {
+                                    const SessionFolder& folder, std::optional<SittingDetection> detection) {
     return {.wait_when_full = options.virtual_time,
             .ring_capacity = 65536,
             .started_utc = folder.started_utc,
             .program_version = this_program().version,
             .program_sha256 = this_program().sha256,
-            .resumption = plan.resumed ? std::optional(plan.resumed->resumption) : std::nullopt};
+            .resumption = plan.resumed ? std::optional(plan.resumed->resumption) : std::nullopt,
+            .detection = detection};
 }
 
 /// What the record must know of the machine before the first trial.
@@ -212,7 +220,8 @@ int run_session(const RunOptions& options) {
     fmt::print("spoken answers: {}\n", answers.description());
 
     const SessionFolder folder = open_folder(options, place, experiment, plan, rig);
-    SessionStore store(folder.path / session_file_name, store_options(options, plan, folder));
+    SessionStore store(folder.path / session_file_name,
+                       store_options(options, plan, folder, detection_of(protocol, rig.tracker())));
     box.write_beginning(store);
     note_circumstances(options, protocol, plan.schedule, rig, store);
     answers.keep_in(folder.path);

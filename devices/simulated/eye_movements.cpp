@@ -13,13 +13,6 @@ constexpr double shortest_blink_s = 0.1, longest_blink_s = 0.2;
 
 } // namespace
 
-SessionDuration saccade_duration(Degrees amplitude) { return from_seconds(0.021 + 0.0022 * amplitude.value); }
-
-double saccade_progress(double share) {
-    const double s = std::clamp(share, 0.0, 1.0);
-    return s * s * s * (10.0 + s * (-15.0 + 6.0 * s));
-}
-
 double log_normal_within(RandomStream& random, double median, double log_sd, double low, double high) {
     for (int tries = 0; tries < 1000; ++tries) {
         const double value = median * std::exp(log_sd * random.normal());

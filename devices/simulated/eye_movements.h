@@ -12,13 +12,6 @@
 
 namespace overt {
 
-/// 21 ms + 2.2 ms for each degree: Carpenter, "Movements of the Eyes", 2nd edition 1988.
-SessionDuration saccade_duration(Degrees amplitude);
-
-/// Share of the way done after a share (0 … 1) of a saccade's duration: the path of least jerk, with a peak
-/// velocity of 1.875 times the mean. Flash and Hogan, J. Neurosci. 5(7), 1985.
-double saccade_progress(double share);
-
 /// exp(normal) with the given median and standard deviation of the logarithm, drawn again until it lies
 /// within low … high.
 double log_normal_within(RandomStream& random, double median, double log_sd, double low, double high);

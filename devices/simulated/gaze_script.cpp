@@ -5,6 +5,7 @@
 
 #include "devices/simulated/eye_movements.h"
 #include "experiment/base/error.h"
+#include "experiment/events/main_sequence.h"
 
 namespace overt {
 

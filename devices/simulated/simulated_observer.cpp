@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "experiment/base/error.h"
+#include "experiment/events/main_sequence.h"
 
 namespace overt {
 

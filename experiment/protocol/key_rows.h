@@ -8,6 +8,7 @@ namespace overt::key_rows {
 // What the experiment runs on (rig_keys.cpp).
 Section display();
 Section tracker();
+Section events();
 Section screens();
 
 // What is shown (stimulus_keys.cpp).

@@ -15,6 +15,7 @@
 #include "experiment/animation.h"
 #include "experiment/base/enum_names.h"
 #include "experiment/colour/display_characterisation.h"
+#include "experiment/events/event_settings.h"
 #include "experiment/keys/key_places.h"
 #include "experiment/ports/observer_field.h"
 #include "experiment/protocol/design_settings.h"
@@ -83,6 +84,19 @@ struct TrackerSettings {
     double simulated_noise_deg = 0.05;       ///< standard deviation of each sample
     double simulated_accuracy_deg = 0.3;     ///< standard deviation of a trial's constant offset
     double simulated_clock_drift_ppm = 40.0; ///< rate of its clock against the session's
+};
+
+/// Who says when the eye rested, jumped and was closed.
+enum class EventMethod : std::uint8_t {
+    tracker, ///< the eye tracker, where it says so; else the program
+    overt,   ///< the program
+    none
+};
+template <> inline constexpr auto names_of<EventMethod> = enum_names<EventMethod>("tracker", "overt", "none");
+
+/// [events]: with the thresholds by which the program tells them apart.
+struct EventDetectionSettings : EventSettings {
+    EventMethod method = EventMethod::tracker;
 };
 
 /// [view]: image and camera, the same for all stimuli.
@@ -224,6 +238,7 @@ struct Protocol {
     std::string title;
     DisplaySettings display;
     TrackerSettings tracker;
+    EventDetectionSettings events;
     ViewSettings view;
     LightSettings light;
     BakingSettings bake;

@@ -6,15 +6,33 @@
 namespace overt {
 
 const KeyTable& protocol_keys() {
-    static const KeyTable table(
-        {key_rows::protocol(),  key_rows::display(),  key_rows::tracker(),      key_rows::view(),
-         key_rows::light(),     key_rows::bake(),     key_rows::animation(),    key_rows::schedule(),
-         key_rows::screens(),   key_rows::consent(),  key_rows::instructions(), key_rows::observer_fields(),
-         key_rows::operators(), key_rows::answers(),  key_rows::task(),         key_rows::block(),
-         key_rows::group(),     key_rows::practice(), key_rows::breaks(),       key_rows::repeat(),
-         key_rows::sculpture(), key_rows::material(), key_rows::frames(),       key_rows::words(),
-         key_rows::dataset()},
-        "include");
+    static const KeyTable table({key_rows::protocol(),
+                                 key_rows::display(),
+                                 key_rows::tracker(),
+                                 key_rows::events(),
+                                 key_rows::view(),
+                                 key_rows::light(),
+                                 key_rows::bake(),
+                                 key_rows::animation(),
+                                 key_rows::schedule(),
+                                 key_rows::screens(),
+                                 key_rows::consent(),
+                                 key_rows::instructions(),
+                                 key_rows::observer_fields(),
+                                 key_rows::operators(),
+                                 key_rows::answers(),
+                                 key_rows::task(),
+                                 key_rows::block(),
+                                 key_rows::group(),
+                                 key_rows::practice(),
+                                 key_rows::breaks(),
+                                 key_rows::repeat(),
+                                 key_rows::sculpture(),
+                                 key_rows::material(),
+                                 key_rows::frames(),
+                                 key_rows::words(),
+                                 key_rows::dataset()},
+                                "include");
     return table;
 }
 

@@ -197,6 +197,73 @@ Section tracker() {
         .home = &Protocol::tracker};
 }
 
+Section events() {
+    using E = EventDetectionSettings;
+    // The thresholds are members of its base.
+    const auto of = [](double EventSettings::*threshold) -> double E::* { return threshold; };
+    return {
+        .name = "events",
+        .explanation =
+            "Fixations, saccades and blinks in the record, and by which thresholds the program tells them "
+            "apart; see [events.md](events.md).",
+        .keys =
+            {
+                {{.name = "method",
+                  .explanation =
+                      "Who says what the eye did. `tracker`: the eye tracker where it does, else the "
+                      "program. `overt`: the program. `none`: nobody while the session runs; exports "
+                      "then find them with the default thresholds, and say so."},
+                 &E::method},
+                {{.name = "velocity_deg_s",
+                  .unit = "deg/s",
+                  .low = 1,
+                  .high = 1000,
+                  .explanation = "An eye that is faster makes a saccade."},
+                 of(&E::velocity_deg_s)},
+                {{.name = "acceleration_deg_s2",
+                  .unit = "deg/s2",
+                  .low = 0,
+                  .high = 1e6,
+                  .explanation =
+                      "Or one whose velocity changes faster; 0: velocity alone decides, which ends "
+                      "saccades where people who label raw gaze end them."},
+                 of(&E::acceleration_deg_s2)},
+                {{.name = "motion_deg",
+                  .unit = "deg",
+                  .low = 0,
+                  .high = 10,
+                  .explanation = "What moves the eye less far is no saccade."},
+                 of(&E::motion_deg)},
+                {{.name = "pursuit_deg_s",
+                  .unit = "deg/s",
+                  .low = 0,
+                  .high = 1000,
+                  .explanation =
+                      "By so much at most `velocity_deg_s` is raised while the eye moves anyway: by its "
+                      "mean speed of the last 40 ms. 0: it stays as it is."},
+                 of(&E::pursuit_deg_s)},
+                {{.name = "onset_verify_ms",
+                  .unit = "ms",
+                  .low = 0,
+                  .high = 1000,
+                  .explanation = "For so long the eye has to be fast for a saccade."},
+                 of(&E::onset_verify_ms)},
+                {{.name = "offset_verify_ms",
+                  .unit = "ms",
+                  .low = 0,
+                  .high = 1000,
+                  .explanation = "For so long it has to be slow for the saccade's end."},
+                 of(&E::offset_verify_ms)},
+                {{.name = "blink_verify_ms",
+                  .unit = "ms",
+                  .low = 0,
+                  .high = 1000,
+                  .explanation = "For so long the pupil has to be there for the end of a blink."},
+                 of(&E::blink_verify_ms)},
+            },
+        .home = &Protocol::events};
+}
+
 Section screens() {
     using S = ScreenSettings;
     return {

@@ -82,6 +82,23 @@ void GazeRows::source(int sitting, const GazeSource& source) {
                   source.px_per_deg_y, source.skipped_lines);
 }
 
+void GazeRows::detection(int sitting, const EventDetection& detection) {
+    SQLite::Statement insert(database_, "INSERT OR REPLACE INTO event_detection VALUES (?,?,?,?)");
+    run_statement(insert, sitting, detection.name, detection.version, detection.parameters);
+}
+
+std::optional<EventDetection> read_event_detection(const SQLite::Database& database, int sitting) {
+    Query row(database, "SELECT name, version, parameters FROM event_detection WHERE sitting = ?");
+    row.bind(1, sitting);
+    if (!row.step())
+        return std::nullopt;
+    EventDetection detection;
+    detection.name = row.text();
+    detection.version = row.small();
+    detection.parameters = row.text();
+    return detection;
+}
+
 void read_gaze_events(const SQLite::Database& database, std::int64_t trial_id,
                       const std::function<void(const GazeEvent&)>& take) {
     Query row(database, "SELECT kind, eye, start_us, end_us, duration_us, x_px, y_px, arrival_x_px, "

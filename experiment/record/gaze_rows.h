@@ -1,4 +1,4 @@
-/// A tracker's samples, its own events and its file as rows of a session's tables, there and back.
+/// A tracker's samples, its events and its file as rows of a session's tables, there and back.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include "experiment/events/event_settings.h"
 #include "experiment/gaze_event.h"
 
 namespace overt {
@@ -26,6 +27,8 @@ class GazeRows {
     /// session's begin, for nobody knows when it was.
     void line_left_out(int sitting, const std::string& detail);
     void source(int sitting, const GazeSource& source);
+    /// Who tells the events of that sitting, if it is not its tracker.
+    void detection(int sitting, const EventDetection& detection);
 
   private:
     SQLite::Database& database_;
@@ -36,6 +39,9 @@ class GazeRows {
 /// In the order in which they were written. Throws SQLite::Exception.
 void read_gaze_events(const SQLite::Database& database, std::int64_t trial_id,
                       const std::function<void(const GazeEvent&)>& take);
+
+/// Nothing if nobody but the tracker tells the sitting's events. Throws SQLite::Exception.
+std::optional<EventDetection> read_event_detection(const SQLite::Database& database, int sitting);
 
 /// Nothing if the sitting's gaze came from no file. Throws SQLite::Exception.
 std::optional<GazeSource> read_gaze_source(const SQLite::Database& database, int sitting);

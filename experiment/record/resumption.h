@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "experiment/events/event_settings.h"
 #include "experiment/ports/session_history.h"
+#include "experiment/screen_geometry.h"
 
 namespace overt {
 
@@ -18,11 +20,18 @@ struct Resumption {
     std::vector<int> restarted;           ///< its trials: none of them is skipped any more
 };
 
+/// By which thresholds the events of a sitting are found while it runs, and in front of which screen.
+struct SittingDetection {
+    EventSettings settings;
+    ScreenGeometry screen;
+};
+
 /// Who begins a sitting, and when.
 struct Sitting {
     std::string started_utc; ///< wall clock, ISO 8601
     std::string program_version, program_sha256;
-    std::optional<Resumption> resumption; ///< nothing for the first
+    std::optional<Resumption> resumption;      ///< nothing for the first
+    std::optional<SittingDetection> detection; ///< nothing: nobody looks for events
 };
 
 } // namespace overt

@@ -132,6 +132,10 @@ CREATE TABLE IF NOT EXISTS gaze_event (
     amplitude_deg REAL, peak_velocity_deg_s REAL, text TEXT NOT NULL,
     PRIMARY KEY (trial_id, n)
 ) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS event_detection (
+    sitting INTEGER PRIMARY KEY REFERENCES sitting, name TEXT NOT NULL, version INTEGER NOT NULL,
+    parameters TEXT NOT NULL
+) STRICT;
 CREATE TABLE IF NOT EXISTS gaze_source (
     sitting INTEGER PRIMARY KEY REFERENCES sitting, file TEXT NOT NULL, sha256 TEXT NOT NULL,
     header TEXT NOT NULL, pupil TEXT NOT NULL CHECK (pupil IN ('area', 'diameter')), rate_hz REAL NOT NULL,

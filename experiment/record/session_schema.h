@@ -33,7 +33,7 @@ extern const char* const observer_tables_sql;
 /// The same for the ledger's table of missed refreshes.
 extern const char* const ledger_tables_sql;
 
-/// The same for the tables of what a tracker said besides samples.
+/// The same for the tables of what a tracker said besides samples, or the program said of them.
 extern const char* const gaze_tables_sql;
 
 /// Makes all of them in an empty database. Throws SQLite::Exception.

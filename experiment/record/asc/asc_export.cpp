@@ -77,6 +77,8 @@ void write_header(AscWriter& writer, const SessionRecord& record, int sitting) {
         writer.line("** REMARK: overt recorded this with the tracker: " + ascii_of(header.tracker.name));
         writer.line("** REMARK: VERSION and the line that begins with EYELINK are there for readers of "
                     "EyeLink files");
+        if (const std::string origin = record.event_origins(); !origin.empty())
+            writer.line("** REMARK: " + ascii_of(origin));
         writer.line("**");
     }
     if (const std::int64_t base = writer.layout().base_ms; base != 0)

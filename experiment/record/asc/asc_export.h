@@ -11,7 +11,7 @@ namespace overt {
 
 struct AscExportOptions {
     bool overwrite = false;                          ///< replace an earlier export
-    bool fractional_times = false;                   ///< samples' times with their microseconds
+    bool fractional_times = false;                   ///< of samples and eye events: with their microseconds
     std::function<void(int done, int all)> progress; ///< told after each trial; may be empty
 };
 

@@ -197,6 +197,8 @@ AscImportSummary import_asc_into(const fs::path& file, const fs::path& session,
                 delete_gaze(database, trial.id);
         SQLite::Statement forget(database, "DELETE FROM gaze_event WHERE trial_id = 0");
         run_statement(forget);
+        SQLite::Statement forget_detection(database, "DELETE FROM event_detection WHERE sitting = ?");
+        run_statement(forget_detection, match.sitting);
         rows.source(match.sitting, gaze_source_of(file, summary.survey));
         std::vector<ClockPair> pairs;
         AscRows sink(

@@ -75,8 +75,9 @@ void AscTrial::begin_recording(std::int64_t first, const AscLayout& layout) {
                                    [](const Line& line) { return line.event.kind == Kind::started; });
     if (kept != lines_.end() && kept->ms <= first)
         return;
+    // Eye events lie in the recording, from its very first sample on.
     for (Line& line : lines_)
-        line.recording += line.recording > 0 || line.ms > first;
+        line.recording += line.recording > 0 || line.ms > first || is_eye_event(line.event.kind);
     Line start{first, 1, false, false, {}};
     start.event.kind = Kind::started;
     lines_.push_back(start);

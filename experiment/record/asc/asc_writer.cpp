@@ -137,12 +137,15 @@ void AscWriter::eye(const GazeSample* sample) {
     append_number(text, shortest_decimal(sample->pupil_area), pupil_decimals, 1);
 }
 
-void AscWriter::samples(std::span<const GazeSample> samples) {
-    const TrackerTime time = samples.front().sampled_at;
+void AscWriter::append_stamp(TrackerTime time) {
     if (layout_.fractional_times)
         append_scaled(file_.text(), time.time_since_epoch().count() - 1000 * layout_.base_ms, 3);
     else
         append_scaled(file_.text(), written_ms(time), 0);
+}
+
+void AscWriter::samples(std::span<const GazeSample> samples) {
+    append_stamp(samples.front().sampled_at);
     const auto of = [&](Eye eye) -> const GazeSample* {
         for (const GazeSample& sample : samples)
             if (sample.eye == eye)
@@ -159,15 +162,21 @@ void AscWriter::samples(std::span<const GazeSample> samples) {
 
 void AscWriter::event_begin(const GazeEvent& event) {
     append_prefix(file_.text(), event, true);
-    append_scaled(file_.text(), written_ms(event.start), 0);
+    append_stamp(event.start);
     end_line();
 }
 
 void AscWriter::event_end(const GazeEvent& event) {
     std::string& text = file_.text();
     append_prefix(text, event, false);
-    text += fmt::format("{}\t{}\t{}", written_ms(event.start), written_ms(event.end),
-                        event.duration.count() / 1000);
+    append_stamp(event.start);
+    text += '\t';
+    append_stamp(event.end);
+    text += '\t';
+    if (layout_.fractional_times)
+        append_scaled(text, event.duration.count(), 3);
+    else
+        append_scaled(text, event.duration.count() / 1000, 0);
     if (event.kind == GazeEvent::Kind::fixation) {
         append_place(text, event.place);
         append_or_dot(text, event.pupil, 0);

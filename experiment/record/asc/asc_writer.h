@@ -20,7 +20,9 @@ struct AscLayout {
     bool pupil_is_diameter = false;
     std::optional<double> px_per_deg_x, px_per_deg_y; ///< at the middle of the screen
     std::int64_t base_ms = 0;                         ///< taken from every time
-    bool fractional_times = false; ///< samples' times with their microseconds instead of whole milliseconds
+    /// Times of samples, fixations, saccades and blinks with their microseconds instead of whole
+    /// milliseconds.
+    bool fractional_times = false;
 
     std::string_view eyes() const { return has_left ? (has_right ? "LR" : "L") : "R"; }
     std::string_view eye_names() const { return has_left ? (has_right ? "LEFT\tRIGHT" : "LEFT") : "RIGHT"; }
@@ -64,6 +66,7 @@ class AscWriter {
 
   private:
     void eye(const GazeSample* sample);
+    void append_stamp(TrackerTime time);
     std::int64_t written_ms(TrackerTime time) const { return asc_milliseconds(time) - layout_.base_ms; }
     void end_line();
 

@@ -54,7 +54,7 @@ RowLayout<PhysioEvent> physio_events_layout() {
                                : to.integer(0);
              }},
             {{"trial_type",
-              "What the tracker found the eye to do; n/a of messages",
+              "What the eye did; n/a of messages",
               "",
               {{"fixation", "the eye rested"},
                {"saccade", "the eye jumped"},
@@ -150,7 +150,8 @@ void write_bids_gaze_events(const SessionRecord& record, int run, Eye eye,
         std::vector<GazeEvent> events;
         record.read_gaze_events(trial, [&](const GazeEvent& event) { events.push_back(event); });
         if (!is_imported && clock_map)
-            events = begins_of(trial, *clock_map);
+            for (GazeEvent& begin : begins_of(trial, *clock_map))
+                events.push_back(std::move(begin));
         write_events(writer, layout, std::move(events), eye);
     }
     writer.close();
@@ -160,6 +161,8 @@ void write_bids_gaze_events(const SessionRecord& record, int run, Eye eye,
                               ? "Events and messages as the eye tracker recorded them."
                               : "When trials and their screens began, by the tracker's clock: computed from "
                                 "readings of both clocks.";
+    if (const std::string origin = sentence_on(record.event_origin(run)); !origin.empty())
+        json["Description"] = json["Description"].get<std::string>() + " " + origin;
     json["OnsetSource"] = "timestamp";
     nlohmann::ordered_json columns = nlohmann::ordered_json::array();
     for (const TableColumn& column : layout.table().columns)

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
-#include "experiment/record/gaze_rows.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/sql.h"
 
@@ -136,21 +135,6 @@ SessionRecord::sample_span(const TrialRecord& trial) const {
             return std::nullopt;
         const TrackerTime first = row.tracker_time();
         return std::pair{first, row.tracker_time()};
-    });
-}
-
-void SessionRecord::read_gaze_events(const TrialRecord& trial,
-                                     const std::function<void(const GazeEvent&)>& take) const {
-    reading_session(file_, [&] {
-        if (has_table(*database_, "gaze_event"))
-            overt::read_gaze_events(*database_, trial.id, take);
-    });
-}
-
-void SessionRecord::read_gaze_events_outside(const std::function<void(const GazeEvent&)>& take) const {
-    reading_session(file_, [&] {
-        if (has_table(*database_, "gaze_event"))
-            overt::read_gaze_events(*database_, 0, take);
     });
 }
 

@@ -13,6 +13,8 @@
 
 #include "experiment/analysis/flip_history.h"
 #include "experiment/clock_map.h"
+#include "experiment/events/event_settings.h"
+#include "experiment/events/gaze_angles.h"
 #include "experiment/gaze_event.h"
 #include "experiment/ports/observer_field.h"
 #include "experiment/ports/recorded_answer.h"
@@ -102,11 +104,33 @@ class SessionRecord {
     /// Times of the earliest and the latest sample of a trial; nothing if it has none.
     std::optional<std::pair<TrackerTime, TrackerTime>> sample_span(const TrialRecord& trial) const;
 
-    /// What the tracker itself said during a trial; sessions whose gaze came from no tracker's file have
-    /// none.
+    /// What the tracker itself said during a trial, and its fixations, saccades and blinks by whoever
+    /// event_origin() names; those that are found now come last, in the order of their ends.
     void read_gaze_events(const TrialRecord& trial, const std::function<void(const GazeEvent&)>& take) const;
     /// The same outside of trials.
     void read_gaze_events_outside(const std::function<void(const GazeEvent&)>& take) const;
+    /// Where a sitting's fixations, saccades and blinks come from.
+    struct EventOrigin {
+        enum class From : std::uint8_t {
+            nobody,    ///< there are none
+            tracker,   ///< it told them, in the file that was imported
+            recording, ///< the program found them while it recorded
+            reading    ///< they are found now, from the samples, with the default settings
+        };
+        From from = From::nobody;
+        EventDetection detection = {}; ///< the program's
+    };
+    /// Sessions of earlier programs have no events: they are found now. So are those of imported recordings,
+    /// but only after detect_events_of_imports(): what a tracker's file does not say, nobody expects.
+    EventOrigin event_origin(int sitting) const;
+    /// Also where a recording was imported without any fixation, saccade and blink.
+    void detect_events_of_imports() {
+        detects_imports_ = true;
+        event_origins_.clear();
+    }
+    /// The origins of all sittings as sentences, for who reads an export; empty if there are no events.
+    std::string event_origins() const;
+
     /// The file that a sitting's gaze came from; nothing if it came from the tracker itself.
     std::optional<GazeSource> gaze_source(int sitting) const;
     /// Which eyes the samples of a sitting are of. Reads them all.
@@ -175,6 +199,9 @@ class SessionRecord {
 
   private:
     std::optional<KnownInterval> refresh_interval(int sitting) const;
+    /// By the session's screen, else by the imported recording's resolution; nothing if neither is known.
+    std::optional<GazeAngles> gaze_angles(int sitting) const;
+    EventOrigin find_event_origin(int sitting) const;
 
     std::filesystem::path directory_;
     std::filesystem::path file_;
@@ -182,6 +209,11 @@ class SessionRecord {
     SessionHeader header_;
     std::vector<TrialRecord> trials_;
     mutable std::map<int, std::optional<KnownInterval>> intervals_; ///< by sitting, once asked for
+    mutable std::map<int, EventOrigin> event_origins_;              ///< the same
+    bool detects_imports_ = false;
 };
+
+/// A whole sentence; empty if nobody found any.
+std::string sentence_on(const SessionRecord::EventOrigin& origin);
 
 } // namespace overt

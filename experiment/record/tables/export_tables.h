@@ -20,10 +20,11 @@ namespace overt {
 /// All tables of one session's export. Levels name the session's own tasks, sculptures and materials.
 class ExportTables {
   public:
-    /// With the columns of a gaze cone if its accuracy is given.
+    /// With the columns of a gaze cone if its accuracy is given. `event_origins`: see gaze_events_layout().
     /// `header` must outlive it.
-    explicit ExportTables(const SessionHeader& header, std::optional<Degrees> cone_accuracy = {})
-        : ExportTables(header, SharedColumns(header), cone_accuracy) {}
+    explicit ExportTables(const SessionHeader& header, std::optional<Degrees> cone_accuracy = {},
+                          const std::string& event_origins = {})
+        : ExportTables(header, SharedColumns(header), cone_accuracy, event_origins) {}
 
     RowLayout<TrialRow> trials;
     RowLayout<LedgerRow> flips;
@@ -38,7 +39,7 @@ class ExportTables {
 
   private:
     ExportTables(const SessionHeader& header, const SharedColumns& shared,
-                 std::optional<Degrees> cone_accuracy);
+                 std::optional<Degrees> cone_accuracy, const std::string& event_origins);
 };
 
 /// Of each column Description, Units and Levels, as in BIDS side cars.

@@ -20,7 +20,8 @@ class TableExport {
   public:
     TableExport(const SessionRecord& record, const fs::path& directory, const TableExportOptions& options)
         : record_(record), header_(record.header()), format_(options.format),
-          tables_(header_, options.cone_accuracy), trials_(directory, tables_.trials.table(), format_),
+          tables_(header_, options.cone_accuracy, record.event_origins()),
+          trials_(directory, tables_.trials.table(), format_),
           flips_(directory, tables_.flips.table(), format_),
           samples_(directory, tables_.samples.table(), format_),
           gaze_events_(directory, tables_.gaze_events.table(), format_),

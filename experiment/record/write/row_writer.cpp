@@ -96,6 +96,8 @@ void RowWriter::begin_sitting(const Sitting& sitting) {
     run_statement(insert_sitting, sitting_, sitting.started_utc,
                   resumed ? std::optional(std::string(name_of(resumed->policy))) : std::nullopt,
                   sitting.program_version, sitting.program_sha256);
+    if (sitting.detection)
+        events_.emplace(database_, sitting_, *sitting.detection);
     if (resumed) {
         SQLite::Statement supersede(database_, "INSERT OR IGNORE INTO superseded VALUES (?,?,?)");
         for (const std::int64_t attempt_id : resumed->superseded)
@@ -168,6 +170,8 @@ void RowWriter::write(const SampleRow& row) {
                   static_cast<int>(sample.eye), sample.gaze ? Pixels(sample.gaze->x_px) : std::nullopt,
                   sample.gaze ? Pixels(sample.gaze->y_px) : std::nullopt,
                   shortest_decimal(sample.pupil_area));
+    if (events_ && row.trial == open_trial_)
+        events_->sample(sample);
 }
 
 void RowWriter::write(const ClockPair& pair) {
@@ -258,6 +262,8 @@ void RowWriter::write(const TrialStart& start) {
         1 + number(database_, "SELECT COUNT(*) FROM trial WHERE trial = ?1", trial.index);
     run_statement(insert_trial_, trial_counts_.trial_id, sitting_, trial.index, attempt, trial.task,
                   trial.condition.sculpture, trial.condition.material, start.at);
+    if (events_)
+        events_->begin_trial(trial_counts_.trial_id);
 }
 
 void RowWriter::write(const TrialFinish& finish) {
@@ -266,6 +272,8 @@ void RowWriter::write(const TrialFinish& finish) {
     commit();
     database_.exec("PRAGMA synchronous = FULL"); // makes the next commit flush the whole log
     begin();
+    if (events_)
+        events_->finish_trial();
     const std::string_view afterwards = name_of(outcome.afterwards);
     run_statement(
         finish_trial_, outcome.status == TrialOutcome::Status::completed ? "completed" : "aborted",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -10,6 +11,7 @@
 #include "experiment/record/seal_chain.h"
 #include "experiment/record/session_lock.h"
 #include "experiment/record/write/row_kinds.h"
+#include "experiment/record/write/sitting_events.h"
 
 namespace overt {
 
@@ -80,6 +82,7 @@ class RowWriter {
     Counts trial_counts_;
     Counts outside_counts_; ///< of rows that belong to no started trial: trial_id 0
     SealWriter seals_;
+    std::optional<SittingEvents> events_; ///< nothing: nobody looks for them
     bool in_transaction_ = false;
     bool needs_seal_ = false;
     ContentHash file_hash_; ///< to be noted by the next transaction; empty: none

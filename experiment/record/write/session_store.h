@@ -48,6 +48,7 @@ class SessionStore final : public SessionLog {
         std::string started_utc;
         std::string program_version = {}, program_sha256 = {}; ///< of the program that runs this sitting
         std::optional<Resumption> resumption = {};             ///< of an interrupted session
+        std::optional<SittingDetection> detection = {}; ///< of fixations, saccades and blinks; nothing: none
     };
 
     /// Opens a published session's file and begins a sitting: the first, or one that resumes the session. A

@@ -1,5 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include "experiment/events/event_detector.h"
+#include "experiment/events/planted_gaze.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/session_schema.h"
 #include "tests/experiment/record/session_fixture.h"
@@ -7,6 +9,34 @@
 
 using namespace overt;
 using namespace overt::testing;
+
+namespace {
+
+class EventCounter final : public EventListener {
+  public:
+    void detected(const GazeEvent& event) override {
+        ++events;
+        latest = event.end;
+    }
+    int events = 0;
+    TrackerTime latest;
+};
+
+} // namespace
+
+TEST_CASE("detecting events allocates nothing", "[unit]") {
+    const double rate_hz = GENERATE(60.0, 2000.0, 10000.0);
+    const ScreenGeometry screen;
+    const PlantedGaze planted = plant_gaze({.rate_hz = rate_hz, .duration_s = 20.0}, screen);
+    EventCounter counter;
+    EventDetector detector({}, GazeAngles(screen), counter);
+    const long before = test::allocations;
+    for (const GazeSample& sample : planted.samples)
+        detector.push(sample);
+    detector.finish();
+    CHECK(test::allocations == before);
+    CHECK(counter.events > 30);
+}
 
 TEST_CASE("noting flips, samples and clock pairs allocates nothing, with a full ring too", "[unit]") {
     const TemporaryFolder root;
