@@ -10,7 +10,7 @@ namespace overt {
 namespace {
 
 /// There is room for this rate; of a faster tracker the windows are shorter.
-constexpr double highest_rate_hz = 2500.0;
+constexpr double highest_rate_hz = 10'000.0;
 
 std::size_t most_samples_within(double ms) {
     return 8 + static_cast<std::size_t>(1e-3 * ms * highest_rate_hz);

@@ -1,6 +1,7 @@
 /// A session with a tracker without errors, exported and held against what the simulated observer really saw.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <map>
 
 #include "app/inputs/protocol_inputs.h"
@@ -10,12 +11,15 @@
 #include "devices/simulated/simulated_eye_tracker.h"
 #include "devices/simulated/simulated_response_panel.h"
 #include "experiment/design/schedule.h"
+#include "experiment/events/event_agreement.h"
+#include "experiment/events/event_detector.h"
 #include "experiment/record/tables/table_export.h"
 #include "experiment/session/session.h"
 #include "render/gl/headless_context.h"
 #include "render/presenter/page_presenter.h"
 #include "render/vblank/display_surface.h"
 #include "tests/app/small_experiment.h"
+#include "tests/experiment/events/detected_events.h"
 #include "tests/support/tsv_file.h"
 
 using namespace overt;
@@ -55,6 +59,8 @@ class ExactSitting {
     SimulatedEyeTracker tracker{clock, observer, 3, without_errors(protocol.tracker)};
     SimulatedResponsePanel panel{clock, observer};
 
+    std::filesystem::path session; ///< once it has run
+
     /// Runs all trials and exports them; gives the export's folder.
     std::filesystem::path run() {
         library.maps().prepare_maps({});
@@ -66,13 +72,16 @@ class ExactSitting {
         put_files(directory, header, experiment.sculptures, library);
         directory.publish();
         SessionStore store(directory.session_file(),
-                           {.wait_when_full = true, .started_utc = header.started_utc});
+                           {.wait_when_full = true,
+                            .started_utc = header.started_utc,
+                            .detection = SittingDetection{protocol.events, geometry}});
         Session session(protocol, schedule, geometry.centre(),
                         {clock, presenter, tracker, panel, store, {&observer}});
         session.run({});
         store.close();
 
-        const SessionRecord record(directory.path());
+        session = directory.path();
+        const SessionRecord record(session);
         RecordedSurfaces surfaces(record);
         const std::filesystem::path tables = files.folder().path() / "tables";
         export_tables(
@@ -127,6 +136,62 @@ TEST_CASE("each exported gaze sample is where the observer's gaze met the surfac
     CHECK(on_another_frame <= static_cast<int>(samples.size()) / 1000);
     CHECK(farthest_px < 0.0006); // of a pixel, three
     CHECK(latest_s < 2e-5);      // as well as both clocks were read together
+}
+
+TEST_CASE("the fixations of a simulated observer come back from its session", "[session]") {
+    ExactSitting sitting;
+    const TsvFile events(sitting.run() / "gaze_events.tsv");
+    const SessionRecord record(sitting.session);
+    EventAgreement fixations(GazeEvent::Kind::fixation), saccades(GazeEvent::Kind::saccade);
+    std::size_t row = 0;
+    for (const TrialRecord& trial : record.trials()) {
+        const std::vector<GazeSample> samples = record.samples(trial);
+        std::vector<GazeEvent> recorded;
+        record.read_gaze_events(trial, [&](const GazeEvent& event) { recorded.push_back(event); });
+        // What was found while the session ran is what its samples give.
+        testing::EventList again;
+        EventDetector detector(sitting.protocol.events, GazeAngles(sitting.geometry), again);
+        for (const GazeSample& sample : samples)
+            detector.push(sample);
+        detector.finish();
+        CHECK(recorded.size() == again.events.size());
+        for (std::size_t i = 0; i < std::min(recorded.size(), again.events.size()); ++i) {
+            CHECK(recorded[i].kind == again.events[i].kind);
+            CHECK(recorded[i].start == again.events[i].start);
+            CHECK(recorded[i].end == again.events[i].end);
+            REQUIRE(row < events.size());
+            CHECK(events.text(row, "kind") == name_of(recorded[i].kind));
+            CHECK(events.text(row, "detector") == "overt");
+            CHECK(events.integer(row, "tracker_start_us") == recorded[i].start.time_since_epoch().count());
+            ++row;
+        }
+        std::stable_sort(recorded.begin(), recorded.end(),
+                         [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
+        // What the observer did, by the samples that fell into it.
+        std::vector<GazeEvent> done;
+        for (const GazeSample& sample : samples) {
+            const EyeState state =
+                sitting.observer.truth_at(sitting.tracker.session_time_at(sample.sampled_at)).gaze.state;
+            const GazeEvent::Kind kind = state == EyeState::fixation  ? GazeEvent::Kind::fixation
+                                         : state == EyeState::saccade ? GazeEvent::Kind::saccade
+                                                                      : GazeEvent::Kind::blink;
+            if (done.empty() || done.back().kind != kind) {
+                done.emplace_back();
+                done.back().kind = kind;
+                done.back().start = sample.sampled_at;
+            }
+            done.back().end = sample.sampled_at;
+            done.back().duration = done.back().end - done.back().start + TrackerClock::duration(500);
+        }
+        fixations.add(done, recorded);
+        saccades.add(done, recorded);
+    }
+    CHECK(row == events.size());
+    REQUIRE(fixations.in_reference() > 50);
+    CHECK(fixations.f1() > 0.95);
+    CHECK(saccades.f1() > 0.9);
+    CHECK(fixations.median_onset_error_ms() <= 4.0);
+    CHECK(fixations.median_offset_error_ms() <= 4.0);
 }
 
 TEST_CASE("the share of gaze on the head comes back as the tasks had it", "[session]") {

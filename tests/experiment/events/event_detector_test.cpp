@@ -53,11 +53,10 @@ class Trace {
 
   private:
     template <class At> Trace& move(double seconds, const At& at) {
-        const std::size_t begin = samples.size(), steps = count(seconds);
+        const std::size_t steps = count(seconds);
         for (std::size_t i = 0; i < steps; ++i)
             samples.push_back(
                 {next(), Eye::right, at(static_cast<double>(i + 1) / static_cast<double>(steps)), 900.0f});
-        static_cast<void>(begin);
         return *this;
     }
     std::size_t count(double seconds) const {
@@ -347,9 +346,9 @@ TEST_CASE("irregular time stamps change few events", "[unit]") {
 }
 
 TEST_CASE("each setting does what it says", "[unit]") {
-    // 0.3 degrees at 40 deg/s: far and fast enough.
+    // 0.6 degrees at 50 deg/s: far and fast enough.
     Trace small(1000.0);
-    small.rest(0.3, 0.0).glide(0.0075, 0.0, 0.3).rest(0.3, 0.3);
+    small.rest(0.3, 0.0).glide(0.012, 0.0, 0.6).rest(0.3, 0.6);
     const EventSettings plain{.acceleration_deg_s2 = 0.0, .pursuit_deg_s = 0.0};
     const auto saccades = [&](EventSettings settings) {
         return of_kind(detect(small.samples, settings), Kind::saccade).size();
@@ -359,7 +358,7 @@ TEST_CASE("each setting does what it says", "[unit]") {
     changed.velocity_deg_s = 60.0;
     CHECK(saccades(changed) == 0);
     changed = plain;
-    changed.motion_deg = 0.5;
+    changed.motion_deg = 1.0;
     CHECK(saccades(changed) == 0);
     changed = plain;
     changed.onset_verify_ms = 30.0;

@@ -312,7 +312,8 @@ TEST_CASE("commas and JSON hold the same cells as tab-separated tables, with the
     };
     std::int64_t rows = 0, quoted = 0;
     std::map<std::string, bool> holds_numbers; // by column, in all tables alike
-    for (const char* name : {"trials", "flips", "samples", "events", "responses", "stimuli", "display_box"}) {
+    for (const char* name :
+         {"trials", "flips", "samples", "gaze_events", "events", "responses", "stimuli", "display_box"}) {
         auto expected = rows_of(recorded.root.path() / "tsv" / (std::string(name) + ".tsv"));
         for (auto& row : expected)
             for (std::string& cell : row)
