@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <catch2/catch.hpp>
@@ -412,6 +413,16 @@ TEST_CASE("finishing after each trial gives what detecting each trial alone give
         detector.finish();
     }
     CHECK(together.events == alone);
+}
+
+TEST_CASE("times beyond all clocks are left out", "[unit]") {
+    Trace trace(1000.0);
+    trace.rest(0.2, 0.0).glide(0.03, 0.0, 6.0).rest(0.2, 6.0);
+    std::vector<GazeSample> damaged = trace.samples;
+    for (const std::int64_t time :
+         {std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()})
+        damaged.insert(damaged.begin() + 100, {tracker_time(time), Eye::right, place(1.0), 1.0f});
+    CHECK(detect(damaged) == detect(trace.samples));
 }
 
 TEST_CASE("no sample, one sample, and only lost ones", "[unit]") {
