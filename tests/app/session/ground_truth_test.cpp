@@ -75,9 +75,9 @@ class ExactSitting {
                            {.wait_when_full = true,
                             .started_utc = header.started_utc,
                             .detection = SittingDetection{protocol.events, geometry}});
-        Session session(protocol, schedule, geometry.centre(),
+        Session sitting(protocol, schedule, geometry.centre(),
                         {clock, presenter, tracker, panel, store, {&observer}});
-        session.run({});
+        sitting.run({});
         store.close();
 
         session = directory.path();
