@@ -59,7 +59,7 @@ class ExactSitting {
     SimulatedEyeTracker tracker{clock, observer, 3, without_errors(protocol.tracker)};
     SimulatedResponsePanel panel{clock, observer};
 
-    std::filesystem::path session; ///< once it has run
+    std::filesystem::path folder; ///< of the session, once it has run
 
     /// Runs all trials and exports them; gives the export's folder.
     std::filesystem::path run() {
@@ -80,8 +80,8 @@ class ExactSitting {
         sitting.run({});
         store.close();
 
-        session = directory.path();
-        const SessionRecord record(session);
+        folder = directory.path();
+        const SessionRecord record(folder);
         RecordedSurfaces surfaces(record);
         const std::filesystem::path tables = files.folder().path() / "tables";
         export_tables(
@@ -141,7 +141,7 @@ TEST_CASE("each exported gaze sample is where the observer's gaze met the surfac
 TEST_CASE("the fixations of a simulated observer come back from its session", "[session]") {
     ExactSitting sitting;
     const TsvFile events(sitting.run() / "gaze_events.tsv");
-    const SessionRecord record(sitting.session);
+    const SessionRecord record(sitting.folder);
     EventAgreement fixations(GazeEvent::Kind::fixation), saccades(GazeEvent::Kind::saccade);
     std::size_t row = 0;
     for (const TrialRecord& trial : record.trials()) {

@@ -1,5 +1,7 @@
 /// Fixations, saccades and blinks of a session: found while it is recorded, read, exported and imported
 /// again.
+#include <set>
+
 #include <catch2/catch.hpp>
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -85,6 +87,15 @@ std::vector<GazeEvent> expected_events(std::size_t trial, const EventSettings& s
     return detect(planted_samples(trial), settings, GazeAngles(header_with_trials().display.screen));
 }
 
+/// Its other files are not there, which is not what is asked.
+std::set<std::string> damaged_tables(const fs::path& session) {
+    std::set<std::string> tables;
+    for (const Damage& damage : verify_session(session).damages)
+        if (!damage.table.empty())
+            tables.insert(damage.table);
+    return tables;
+}
+
 } // namespace
 
 TEST_CASE("a session records the events of its trials, with who found them and how", "[unit]") {
@@ -105,15 +116,13 @@ TEST_CASE("a session records the events of its trials, with who found them and h
     CHECK(origin.detection == detection_by(strict));
     CHECK_THAT(origin.detection.parameters, Contains("\"velocity_deg_s\":40,"));
     CHECK_THAT(record.event_origins(), Contains("while the session was recorded") && Contains("version 1"));
-    CHECK(verify_session(session).is_sound());
+    CHECK(damaged_tables(session).empty());
     // Each of them is sealed with its trial.
     const auto& [table, sql] = GENERATE(
         std::pair("gaze_event", "UPDATE gaze_event SET end_us = end_us + 1 WHERE trial_id = 2 AND n = 3"),
         std::pair("event_detection", "UPDATE event_detection SET parameters = '{}'"));
     SQLite::Database((session / session_file_name).string(), SQLite::OPEN_READWRITE).exec(sql);
-    const Verification found = verify_session(session);
-    REQUIRE_FALSE(found.is_sound());
-    CHECK(found.damages[0].table == table);
+    CHECK(damaged_tables(session) == std::set<std::string>{table});
 }
 
 TEST_CASE("a session without events has them found when it is read, by the default settings, and says so",
