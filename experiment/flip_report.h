@@ -37,7 +37,6 @@ struct FlipReport {
     SessionTime swapped;        ///< when the swap had been handed over
     SessionTime vertical_blank; ///< when scan-out of this refresh began
     VblankSource source = VblankSource::virtual_display;
-    int missed_refreshes = 0; ///< refreshes that went by with the old picture since the one asked for
     /// How far vertical_blank may be off, as its source has it; 0 where it is exact by construction.
     SessionDuration uncertainty{};
 };
@@ -53,6 +52,9 @@ struct FlipRecord {
     AnimationFrameIndex shown;
     PoseIndex pose;
     FlipReport report;
+    /// Refreshes that went by with the picture before since the one that this was for. The ledger says so while
+    /// it is written, and LedgerFit again where the source of the times counts none.
+    int missed_refreshes = 0;
 };
 
 /// The other kind of row: a refresh within the time of the plan that went by with the picture before it.

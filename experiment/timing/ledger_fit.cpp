@@ -57,15 +57,15 @@ void LedgerFit::find_misses() {
         FlipRecord& flip = flips_[i];
         // A gap without a miss in the record of a counting source is flips that could not be written down.
         if (!counts_refreshes(flip.report.source))
-            flip.report.missed_refreshes = flip.refresh_in_trial - flips_[i - 1].refresh_in_trial - 1;
-        if (flip.report.missed_refreshes <= 0)
+            flip.missed_refreshes = flip.refresh_in_trial - flips_[i - 1].refresh_in_trial - 1;
+        if (flip.missed_refreshes <= 0)
             continue;
-        const int aimed_at = flip.refresh_in_trial - flip.report.missed_refreshes;
+        const int aimed_at = flip.refresh_in_trial - flip.missed_refreshes;
         const SessionTime due = begin_of(aimed_at).time;
         const MissCause cause = flip.report.requested >= due ? MissCause::asked_late
                                 : flip.report.swapped >= due ? MissCause::drawn_late
                                                              : MissCause::shown_late;
-        runs_.push_back({aimed_at, flip.report.missed_refreshes, cause, due - flip.report.swapped});
+        runs_.push_back({aimed_at, flip.missed_refreshes, cause, due - flip.report.swapped});
     }
 }
 

@@ -21,19 +21,18 @@ const FlipRecord& RefreshLedger::enter(const FlipReport& report) noexcept {
     if (shown_ == 0) {
         first_ = report.refresh;
         onset_ = report.vertical_blank;
-        last_.report.missed_refreshes = 0; // what went by before the onset was no part of the presentation
         missed_begin_ = missed_end_ = 0;
     } else {
         const std::int64_t counted = report.refresh.value - first_.value;
         const int next_refresh = before_.refresh_in_trial + 1;
         last_.refresh_in_trial = static_cast<int>(std::clamp<std::int64_t>(counted, next_refresh, 1 << 30));
         last_.planned = planned_at(last_.refresh_in_trial);
-        last_.report.missed_refreshes = last_.refresh_in_trial - next_refresh;
+        last_.missed_refreshes = last_.refresh_in_trial - next_refresh;
         missed_begin_ = std::min(next_refresh, cycle_->total_refreshes);
         missed_end_ = std::min(last_.refresh_in_trial, cycle_->total_refreshes);
     }
     ++shown_;
-    missed_ += last_.report.missed_refreshes;
+    missed_ += last_.missed_refreshes;
     step_ = when_late_ == WhenLate::stretch ? step_ + 1 : last_.refresh_in_trial + 1;
     return last_;
 }

@@ -101,9 +101,6 @@ void VirtualRefresh::stamp(FlipReport& report) noexcept {
     }
     report.source = timing().source;
     report.refresh = {faults_.counts_refreshes ? last_ : count_.at(report.vertical_blank)};
-    report.missed_refreshes =
-        static_cast<int>(std::min<std::int64_t>(report.refresh.value - reported_ - 1, 1 << 30));
-    reported_ = report.refresh.value;
 }
 
 } // namespace overt

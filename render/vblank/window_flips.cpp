@@ -22,7 +22,6 @@ void FlipCount::number(FlipReport& report, std::optional<std::int64_t> count) no
     last_blank_ = report.vertical_blank;
     refresh_ += refreshes;
     report.refresh = {refresh_};
-    report.missed_refreshes = static_cast<int>(std::min<std::int64_t>(refreshes - 1, 1 << 30));
 }
 
 void WindowFlips::begin() noexcept {

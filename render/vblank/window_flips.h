@@ -15,7 +15,7 @@ class FlipCount {
   public:
     explicit FlipCount(double nominal_hz) : nominal_hz_(nominal_hz), by_time_(nominal_hz) {}
 
-    /// Fills in refresh and missed_refreshes of a report whose times and source stand. `count`: the source's
+    /// Fills in the refresh of a report whose times and source stand. `count`: the source's
     /// own number of the refresh; nothing if it has none. A count that the time between the stamps
     /// contradicts (a mode was set, the window changed screens) is not believed, and is followed from there.
     void number(FlipReport& report, std::optional<std::int64_t> count) noexcept;

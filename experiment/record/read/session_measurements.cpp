@@ -20,7 +20,7 @@ FlipRecord read_flip(Query& row, int trial) {
     flip.report.swapped = row.session_time();
     flip.report.vertical_blank = row.session_time();
     flip.report.source = static_cast<VblankSource>(row.small());
-    flip.report.missed_refreshes = row.small();
+    flip.missed_refreshes = row.small();
     flip.report.uncertainty = SessionDuration(row.integer());
     return flip;
 }

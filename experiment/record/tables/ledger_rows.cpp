@@ -90,7 +90,7 @@ std::int64_t write_ledger(TableWriter& writer, const RowLayout<LedgerRow>& layou
     auto run = fit.missed_runs().begin();
     for (std::size_t i = 0; i < recorded.size(); ++i) {
         const FlipRecord& fitted = fit.flips()[i];
-        if (i > 0 && fitted.report.missed_refreshes > 0) {
+        if (i > 0 && fitted.missed_refreshes > 0) {
             // One by one to the plan's end; after it the count in the flip that follows says it.
             for (int k = 0; k < run->count && run->refresh_in_trial + k < plan.total_refreshes; ++k) {
                 const int refresh = run->refresh_in_trial + k;
@@ -107,7 +107,7 @@ std::int64_t write_ledger(TableWriter& writer, const RowLayout<LedgerRow>& layou
                               refresh == recorded[i].refresh_in_trial ? fitted.planned : planned_at(refresh),
                               fitted,
                               {fitted.report.vertical_blank, fitted.report.uncertainty},
-                              fitted.report.missed_refreshes,
+                              fitted.missed_refreshes,
                               std::nullopt});
     }
     return static_cast<std::int64_t>(recorded.size());

@@ -149,7 +149,7 @@ void RowWriter::write(const FlipRecord& flip) {
     const FlipReport& report = flip.report;
     run_statement(insert_flip_, counts.trial_id, counts.flips++, flip.refresh_in_trial, report.refresh.value,
                   flip.planned.value, flip.shown.value, flip.pose.value, report.requested, report.swapped,
-                  report.vertical_blank, static_cast<int>(report.source), report.missed_refreshes,
+                  report.vertical_blank, static_cast<int>(report.source), flip.missed_refreshes,
                   static_cast<std::int64_t>(report.uncertainty.count()));
 }
 

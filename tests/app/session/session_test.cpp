@@ -21,7 +21,7 @@ void check_ledger(const std::vector<FlipRecord>& flips, const Animation& animati
         const FlipRecord& flip = flips[i];
         const int step = static_cast<int>(i) / held;
         const double since_onset_s = to_seconds(flip.report.vertical_blank - flips[0].report.vertical_blank);
-        wrong += flip.refresh_in_trial != static_cast<int>(i) || flip.report.missed_refreshes != 0 ||
+        wrong += flip.refresh_in_trial != static_cast<int>(i) || flip.missed_refreshes != 0 ||
                  flip.report.refresh.value != flips[0].report.refresh.value + static_cast<std::int64_t>(i) ||
                  flip.shown != animation.frame_at_step(step) || flip.planned != flip.shown ||
                  std::abs(since_onset_s - static_cast<double>(i) / refresh_hz) > 2e-9;

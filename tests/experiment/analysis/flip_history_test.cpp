@@ -34,7 +34,7 @@ std::vector<FlipRecord> present(const PageCycle& plan, const std::vector<Miss>& 
         FlipRecord flip{4, lit, {}, entry.frame, entry.pose, {}};
         flip.report.refresh = {1000 + lit};
         flip.report.vertical_blank = onset + lit * refresh_interval;
-        flip.report.missed_refreshes = missed;
+        flip.missed_refreshes = missed;
         flips.push_back(flip);
         refresh = lit + 1;
     }

@@ -82,7 +82,7 @@ inline void require_same(const FlipRecord& a, const FlipRecord& b) {
     REQUIRE(a.report.swapped == b.report.swapped);
     REQUIRE(a.report.vertical_blank == b.report.vertical_blank);
     REQUIRE(a.report.source == b.report.source);
-    REQUIRE(a.report.missed_refreshes == b.report.missed_refreshes);
+    REQUIRE(a.missed_refreshes == b.missed_refreshes);
 }
 
 } // namespace overt::testing

@@ -31,11 +31,11 @@ std::vector<FlipRecord> with_a_late_one(int aimed_at, int missed, SessionDuratio
                                         SessionDuration swapped) {
     std::vector<FlipRecord> flips = steady_flips(60);
     flips.erase(flips.begin() + aimed_at, flips.begin() + aimed_at + missed);
-    FlipReport& late = flips[static_cast<std::size_t>(aimed_at)].report;
+    FlipRecord& late = flips[static_cast<std::size_t>(aimed_at)];
     const SessionTime due = SessionTime(1s) + aimed_at * blank_interval;
     late.missed_refreshes = missed;
-    late.requested = due + requested;
-    late.swapped = due + swapped;
+    late.report.requested = due + requested;
+    late.report.swapped = due + swapped;
     return flips;
 }
 

@@ -76,7 +76,7 @@ TEST_CASE("dropping keeps the time of the plan, stretching keeps its frames", "[
     CHECK(dropped.flips.back().refresh_in_trial == cycle.total_refreshes - 1);
     for (const FlipRecord& flip : dropped.flips) {
         CHECK(flip.planned == cycle.entry_at(flip.refresh_in_trial).frame);
-        if (flip.report.missed_refreshes == 0)
+        if (flip.missed_refreshes == 0)
             CHECK(flip.shown == flip.planned);
     }
     const Book stretched = play(cycle, WhenLate::stretch, three_before_refresh_21);
@@ -164,7 +164,7 @@ TEST_CASE("a ledger that begins again knows nothing of the presentation before",
         CHECK(one.refresh_in_trial == other.refresh_in_trial);
         CHECK(one.shown == other.shown);
         CHECK(one.planned == other.planned);
-        CHECK(one.report.missed_refreshes == other.report.missed_refreshes);
+        CHECK(one.missed_refreshes == other.missed_refreshes);
         CHECK(used.missed_count() == fresh.missed_count());
     }
     CHECK(used.missed_refreshes() == 1);

@@ -88,12 +88,10 @@ TEST_CASE("flips are numbered by the source's count, and what went by is missed 
     FlipReport next = flip_at(1010.0);
     count.number(next, 71);
     CHECK(next.refresh.value == first.refresh.value + 1);
-    CHECK(next.missed_refreshes == 0);
     // The stamp lies nearer to two refreshes on, the count knows better.
     FlipReport late = flip_at(1045.1);
     count.number(late, 74);
     CHECK(late.refresh.value == next.refresh.value + 3);
-    CHECK(late.missed_refreshes == 2);
 }
 
 TEST_CASE("a count that time contradicts is not believed, and is followed from where it jumped to",
@@ -104,7 +102,6 @@ TEST_CASE("a count that time contradicts is not believed, and is followed from w
         count.number(first, 70);
         count.number(jumped, 71 + jump);
         CHECK(jumped.refresh.value == first.refresh.value + 1);
-        CHECK(jumped.missed_refreshes == 0);
         count.number(after, 73 + jump);
         CHECK(after.refresh.value == jumped.refresh.value + 2);
     }
@@ -166,7 +163,6 @@ TEST_CASE("on a server of X the Present extension counts the refreshes of a wind
             const FlipReport report = flips.swap(clock.now());
             CHECK(report.source == VblankSource::present_count);
             CHECK(report.refresh.value > last);
-            CHECK(report.missed_refreshes == std::max<std::int64_t>(0, report.refresh.value - last - 1));
             last = report.refresh.value;
         }
     }

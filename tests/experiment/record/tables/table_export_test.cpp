@@ -58,7 +58,7 @@ void record_trial(SessionStore& store, const PageCycle& plan, const Trial& trial
         FlipRecord flip{trial.index, lit,        plan.entry_at(std::min(lit, plan.total_refreshes - 1)).frame,
                         entry.frame, entry.pose, {}};
         flip.report.vertical_blank = onset + std::chrono::milliseconds(10 * lit);
-        flip.report.missed_refreshes = late;
+        flip.missed_refreshes = late;
         store.flip(flip);
         refresh = lit + 1;
     }
