@@ -19,7 +19,7 @@ struct GazeEvent {
         message, ///< sent to the tracker, or by it
         button,  ///< of its button box: number and state in the text
         input,   ///< of its input port: value in the text
-        started, ///< recording; the eyes in the text
+        started, ///< recording; in the text the eyes, and what its layout says of the tracking
         ended,   ///< recording; px per degree in the text, as the tracker has them
         note,    ///< a line without a time, such as the table of a calibration
     };

@@ -12,17 +12,23 @@ class Asc final : public ExportFormat {
   public:
     void add_options(CLI::App& command) override {
         command.add_flag("--fractional-times", fractional_times_,
-                         "Times of samples and eye events with their microseconds, for MNE above 1000 Hz; "
-                         "PyGazeAnalyser reads whole "
+                         "Times with their microseconds, for MNE above 1000 Hz; PyGazeAnalyser reads whole "
                          "milliseconds only; in asc");
+        command.add_flag(
+            "--opensesame-messages", opensesame_messages_,
+            "Messages start_trial, end_trial, start_phase, end_phase and var, too, which eyelinkparser "
+            "(of OpenSesame) cuts trials by; in asc");
     }
 
     std::string write(const ExportRequest& request) const override {
         const AscExportCounts counts = export_asc(request.record, request.folder,
-                                                  {request.overwrite, fractional_times_, request.progress});
+                                                  {.overwrite = request.overwrite,
+                                                   .fractional_times = fractional_times_,
+                                                   .opensesame_messages = opensesame_messages_,
+                                                   .progress = request.progress});
         std::string said;
         if (counts.sittings_without_samples > 0)
-            said = fmt::format("{} without samples, and without a file\n",
+            said = fmt::format("{} without samples: those whose events were not imported have no file\n",
                                counted(counts.sittings_without_samples, "sitting"));
         return said + fmt::format("{} at trials, {}, {}\nexport: {}\n", counted(counts.trials, "attempt"),
                                   counted(counts.samples, "sample"), counted(counts.files, "file"),
@@ -30,7 +36,7 @@ class Asc final : public ExportFormat {
     }
 
   private:
-    bool fractional_times_ = false;
+    bool fractional_times_ = false, opensesame_messages_ = false;
 };
 
 } // namespace

@@ -61,6 +61,12 @@ int run_export(const ExportOptions& options) {
         SessionRecord record(session);
         if (options.detect_events)
             record.detect_events_of_imports();
+        if (!record.closed_in_order())
+            fmt::print(
+                stderr,
+                "{}: this session is running, or was interrupted: what it has so far is exported. `overt "
+                "verify` tells which.\n",
+                folder_at(record.directory()).string());
         ProgressBar bar;
         const std::string title = "exporting " + folder_at(record.directory()).filename().string();
         const std::string said = format->write({record, options.format, folder_of(options, *entry, record),

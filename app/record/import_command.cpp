@@ -68,9 +68,11 @@ int run_import(const ImportOptions& options) {
     const Interruption interruption;
     ProgressBar bar;
     int reported = 0;
+    const AscFiles files = options.files.size() == 2 ? AscFiles(options.files[0], options.files[1])
+                                                     : AscFiles(options.files.front());
     AscImportOptions request;
     request.place = {options.sessions, options.task,
-                     options.observer.empty() ? label_from(options.file) : options.observer};
+                     options.observer.empty() ? label_from(options.files.front()) : options.observer};
     request.session_number = options.session_number;
     request.out = options.out;
     if (options.screen_mm.size() == 2)
@@ -84,13 +86,12 @@ int run_import(const ImportOptions& options) {
     };
     request.progress = [&](std::int64_t done, std::int64_t all) {
         constexpr std::int64_t kilobyte = 1024;
-        bar.update("importing " + options.file.filename().string() + ", kB",
-                   static_cast<int>(done / kilobyte), static_cast<int>(all / kilobyte));
+        bar.update("importing " + files.name() + ", kB", static_cast<int>(done / kilobyte),
+                   static_cast<int>(all / kilobyte));
         Interruption::check("The import");
     };
-    const AscImportSummary summary = options.into.empty()
-                                         ? import_asc(options.file, request)
-                                         : import_asc_into(options.file, options.into, request);
+    const AscImportSummary summary =
+        options.into.empty() ? import_asc(files, request) : import_asc_into(files, options.into, request);
     bar.finish();
     if (!options.print_session_to.empty())
         write_to(options.print_session_to, summary.session.string() + "\n");

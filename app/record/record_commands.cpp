@@ -13,7 +13,13 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
         app, "import", "Makes an EyeLink recording (ASC) into a session, or its gaze into that of one",
         "overt import p07.asc --observer 07 --screen-mm 698.4 392.9 --distance-mm 1750\n"
         "  overt import p07.asc --into sessions/overt_2019/sub-07_ses-01 --out with_gaze");
-    command.add_option("FILE", options.file, "Recording in the text form that edf2asc writes")->required();
+    command
+        .add_option(
+            "FILE", options.files,
+            "Recording in the text form that edf2asc writes; or two of one recording, its samples and its "
+            "events (edf2asc -s and -e)")
+        ->required()
+        ->expected(1, 2);
     command
         .add_option("--into", options.into,
                     "Make a copy of this session with the gaze of the file, trial by trial as its messages "

@@ -18,7 +18,7 @@ void add_record_commands(CLI::App& app, ChosenCommand& chosen);
 void add_export(CLI::App& app, ChosenCommand& chosen);
 
 struct ImportOptions {
-    std::filesystem::path file;
+    std::vector<std::filesystem::path> files; ///< one, or its samples and its events in two
     std::filesystem::path into; ///< a session whose gaze it becomes; empty: a session of its own
     std::filesystem::path out;
     std::filesystem::path sessions = "sessions";

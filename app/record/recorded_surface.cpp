@@ -1,5 +1,7 @@
 #include "app/record/recorded_surface.h"
 
+#include <malloc.h>
+
 #include <fmt/format.h>
 
 #include "experiment/base/content_hash.h"
@@ -57,6 +59,10 @@ const SurfaceLookup* RecordedSurfaces::lookup_of(int sculpture) {
 const CoordinateMaps* RecordedSurfaces::maps_of(int sculpture) { return surface_of(sculpture).maps.get(); }
 
 RecordedSurfaces::Surface& RecordedSurfaces::surface_of(int sculpture) {
+    if (keep_ == Keep::last && !loaded_.contains(sculpture)) {
+        loaded_.clear();
+        malloc_trim(0); // else the C library keeps it, and the next sculpture's comes on top
+    }
     std::unique_ptr<Surface>& surface = loaded_[sculpture];
     if (surface)
         return *surface;
@@ -86,7 +92,7 @@ void RecordedSurfaces::load_maps(Surface& surface, int sculpture) const {
         *record_, sculpture, RecordedMap::Kind::triangles,
         [&](std::size_t pose, const std::filesystem::path& file) { maps[pose] = read_triangle_map(file); });
     surface.maps =
-        std::make_unique<CoordinateMaps>(surface.mesh, scene, header.poses.angles, std::move(maps));
+        std::make_unique<CoordinateMaps>(surface.mesh, scene, header.poses.angles, std::move(maps), use_);
 }
 
 void RecordedSurfaces::load_images(Surface& surface, int sculpture) const {

@@ -14,8 +14,12 @@ namespace overt {
 /// RecordError for damaged or missing files.
 class RecordedSurfaces {
   public:
-    /// `record` must outlive this.
-    explicit RecordedSurfaces(const SessionRecord& record) : record_(&record) {}
+    enum class Keep : std::uint8_t { all, last };
+    /// `record` must outlive this. What it gives lives as long as this, or until another sculpture is asked
+    /// for, if only the last is kept.
+    explicit RecordedSurfaces(const SessionRecord& record, Keep keep = Keep::all,
+                              CoordinateMaps::Use use = CoordinateMaps::Use::many_lookups)
+        : record_(&record), keep_(keep), use_(use) {}
 
     /// Where gaze on a sculpture goes, be its maps of triangles or of coordinates; null if it has none.
     const SurfaceLookup* lookup_of(int sculpture);
@@ -35,6 +39,8 @@ class RecordedSurfaces {
     void load_images(Surface& surface, int sculpture) const;
 
     const SessionRecord* record_;
+    Keep keep_;
+    CoordinateMaps::Use use_;
     std::map<int, std::unique_ptr<Surface>> loaded_;
 };
 

@@ -24,7 +24,10 @@ class Tables final : public ExportFormat {
     }
 
     std::string write(const ExportRequest& request) const override {
-        RecordedSurfaces surfaces(request.record);
+        // A cone asks for many places around each sample.
+        RecordedSurfaces surfaces(request.record, RecordedSurfaces::Keep::last,
+                                  cone_deg_ ? CoordinateMaps::Use::many_lookups
+                                            : CoordinateMaps::Use::few_lookups);
         TableExportOptions options;
         for (const TableFormat format : {TableFormat::tsv, TableFormat::csv, TableFormat::jsonl})
             if (request.format == ending_of(format))

@@ -37,19 +37,27 @@ void check_maps(const Mesh& mesh, glm::ivec2 image_px, const std::vector<Triangl
 } // namespace
 
 CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene, std::vector<Degrees> angles,
-                               std::vector<TriangleMap> maps)
+                               std::vector<TriangleMap> maps, Use use)
     : mesh_(&mesh), image_px_(scene.view.image_px), walk_(mesh), caster_(mesh) {
     OVERT_EXPECTS(angles.size() == maps.size());
     check_maps(mesh, image_px_, maps);
     for (const Degrees angle : angles)
         sight_lines_.emplace_back(scene, angle);
-    const Contours contours(mesh);
+    std::optional<Contours> contours;
+    if (use == Use::many_lookups)
+        contours.emplace(mesh);
     std::vector<std::optional<PoseCells>> cells(maps.size());
     parallel_for(static_cast<int>(maps.size()), [&](int index) {
         const auto pose = static_cast<std::size_t>(index);
-        PixelFlags contested = contours.touched_pixels(
-            sight_lines_[pose], image_px_, farthest_visible_depths(maps[pose], sight_lines_[pose], walk_));
-        flag_discontinuities(maps[pose], sight_lines_[pose], walk_, contested);
+        PixelFlags contested;
+        if (contours) {
+            contested =
+                contours->touched_pixels(sight_lines_[pose], image_px_,
+                                         farthest_visible_depths(maps[pose], sight_lines_[pose], walk_));
+            flag_discontinuities(maps[pose], sight_lines_[pose], walk_, contested);
+        } else {
+            contested.assign(maps[pose].codes.size(), 1);
+        }
         cells[pose].emplace(maps[pose], contested);
         maps[pose] = {};
     });

@@ -2,6 +2,7 @@
 /// surface.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "experiment/maps/pose_cells.h"
@@ -24,10 +25,14 @@ namespace overt {
 /// centres of neighbouring pixels without showing at either.
 class CoordinateMaps final : public SurfaceLookup {
   public:
+    /// For how many look-ups the maps are made ready. To find where contours touch pixels takes as long as
+    /// about a million rays: for fewer look-ups each is a ray, which gives the same.
+    enum class Use : std::uint8_t { many_lookups, few_lookups };
+
     /// `mesh` must outlive this; `angles` and `maps` by PoseIndex, equally long. Throws InputError if a map
     /// has another size than the view or names a triangle that the mesh does not have.
     CoordinateMaps(const Mesh& mesh, const SceneView& scene, std::vector<Degrees> angles,
-                   std::vector<TriangleMap> maps);
+                   std::vector<TriangleMap> maps, Use use = Use::many_lookups);
 
     std::optional<SurfacePoint> surface_at(PoseIndex pose, glm::dvec2 image_point_px) const override;
     void look(std::span<const ImagePlace> places, std::span<Sight* const> sights) const override;

@@ -12,6 +12,10 @@
 
 namespace overt {
 
+/// The trial_id of rows between a trial's result and the next trial, which belong to no trial: they are kept
+/// by the trial that they come after. Those before the first trial have 0.
+constexpr std::int64_t after_trial(std::int64_t trial_id) { return -trial_id; }
+
 /// Inserts rows of one trial after another, within the caller's transaction. All throw SQLite::Exception.
 class GazeRows {
   public:
@@ -19,7 +23,8 @@ class GazeRows {
     /// database must outlive this.
     explicit GazeRows(SQLite::Database& database);
 
-    /// What follows belongs to this trial, which has no rows yet; 0: to none.
+    /// What follows belongs to this trial, or comes after it (after_trial), and has no rows yet; 0: before
+    /// all.
     void begin_trial(std::int64_t trial_id);
     void sample(const GazeSample& sample);
     void event(const GazeEvent& event);

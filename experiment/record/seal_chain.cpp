@@ -63,7 +63,7 @@ std::vector<SealedTable> tables_to_seal(const SQLite::Database& database) {
 }
 
 RowChoice sealed_choice(const SealedTable& table, SealedRows rows) {
-    constexpr std::array<std::string_view, 4> conditions{"", "trial_id = ?", "trial_id = 0",
+    constexpr std::array<std::string_view, 4> conditions{"", "trial_id = ?", "trial_id <= 0",
                                                          "id > ? AND id <= ?"};
     return {table.name, table.columns, std::string(conditions[static_cast<std::size_t>(rows)]), table.order};
 }

@@ -33,7 +33,7 @@ std::string_view name_of(SealKind kind);
 enum class SealedRows : std::uint8_t {
     all,      ///< as they are now; what an earlier seal says of them is of the past
     of_trial, ///< those with the seal's trial_id
-    of_none,  ///< those with the trial_id 0, which belong to no trial; as "all"
+    of_none,  ///< those with the trial_id 0 or less, which belong to no trial; as "all"
     new_ones  ///< those with an id beyond what earlier seals cover
 };
 std::string_view name_of(SealedRows rows);

@@ -134,8 +134,8 @@ class BidsRules {
 
     void check_tree(const std::filesystem::path& dataset) {
         static const std::regex name(
-            R"(sub-([A-Za-z0-9]+)_ses-([A-Za-z0-9]+)_task-[A-Za-z0-9]+_run-\d+)"
-            R"((_recording-eye[123])?(_desc-[A-Za-z0-9]+)?_(physio|physioevents|events)\.(tsv|tsv\.gz|json))");
+            R"(sub-([A-Za-z0-9]+)_ses-([A-Za-z0-9]+)_task-[A-Za-z0-9]+(_acq-[A-Za-z0-9]+)?_run-\d+)"
+            R"((_recording-eye[123])?_(physio|physioevents|events)\.(tsv|tsv\.gz|json))");
         for (const auto& entry : std::filesystem::recursive_directory_iterator(dataset)) {
             const std::filesystem::path file = entry.path();
             const std::string relative = std::filesystem::relative(file, dataset).string();
@@ -153,7 +153,7 @@ class BidsRules {
             const bool is_packed = ending == "tsv.gz";
             if (suffix == "events" ? is_packed : ending == "tsv")
                 found("FILE_NAME", file);
-            if (suffix != "events" && !match[3].matched)
+            if (suffix != "events" && !match[4].matched)
                 found("RECORDING_MISSING", file);
             if (is_packed && !is_anonymous_gzip(file))
                 found("GZIP_HEADER", file);
@@ -231,9 +231,8 @@ class BidsRules {
                 if (row[i] != "n/a" && !number(row[i]))
                     found("NOT_A_NUMBER", file);
         }
-        if (is_raw)
-            check_stimulus_presentation(file.parent_path() /
-                                        (name.substr(0, name.find("_recording")) + "_events.json"));
+        check_stimulus_presentation(file.parent_path() /
+                                    (name.substr(0, name.find("_recording")) + "_events.json"));
     }
 
     void check_stimulus_presentation(const std::filesystem::path& file) {
@@ -268,6 +267,7 @@ class BidsRules {
         if (std::find(names.begin(), names.end(), json.value("OnsetSource", "")) == names.end())
             found("ONSET_SOURCE", json_file);
         require(json, "Description", "EVENTS_DESCRIPTION", json_file);
+        require(json, "TaskName", "TASK_DESCRIBED", json_file);
         if (json.contains("duration") && json["duration"].value("Units", "s") != "s")
             found("DURATION_UNITS", json_file);
         Rows rows = rows_of(unpacked(file));

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <set>
@@ -15,7 +17,9 @@
 #include "experiment/base/export_folder.h"
 #include "experiment/base/utf8_text.h"
 #include "experiment/record/asc/asc_trial.h"
+#include "experiment/record/asc/asc_words.h"
 #include "experiment/record/asc/recording_date.h"
+#include "experiment/record/read/recorded_validation.h"
 #include "experiment/record/tables/sample_rows.h"
 
 namespace fs = std::filesystem;
@@ -69,7 +73,7 @@ void write_header(AscWriter& writer, const SessionRecord& record, int sitting) {
         writer.line(fmt::format("** CONVERTED FROM sub-{}_ses-{:02} by overt {}",
                                 header.schedule.observer.label, header.session_number,
                                 ascii_of(header.program.version)));
-        writer.line("** DATE: " + ascii_of(asc_date(header.started_utc)));
+        writer.line("** DATE: " + ascii_of(asc_date(record.started_utc(sitting))));
         writer.line("** TYPE: EDF_FILE BINARY EVENT SAMPLE TAGGED");
         writer.line("** VERSION: EYELINK II 1");
         writer.line("** SOURCE: EYELINK CL");
@@ -89,60 +93,101 @@ void write_header(AscWriter& writer, const SessionRecord& record, int sitting) {
 /// Of one sitting.
 class SittingExport {
   public:
-    SittingExport(const SessionRecord& record, int sitting, AscWriter& writer)
-        : record_(record), writer_(writer), clock_map_(record.clock_map(sitting)) {}
+    SittingExport(const SessionRecord& record, int sitting, AscWriter& writer, AscTrial::Messages messages)
+        : record_(record), sitting_(sitting), messages_(messages), clock_map_(record.clock_map(sitting)),
+          is_imported_(record.gaze_source(sitting).has_value()), writer_(writer),
+          recordings_(writer, record.header().display.screen.screen_px) {}
 
-    void write_screen(std::int64_t ms);
+    /// What stands before the first trial: the screen, and what the tracker said.
+    void write_beginning(std::int64_t ms);
     void write_trial(const TrialRecord& trial, AscExportCounts& counts);
+    void finish() { recordings_.finish(); }
 
   private:
+    using ReadSamples =
+        std::function<void(std::size_t most, const std::function<void(std::span<const GazeSample>)>&)>;
+    void write_screen(TrackerTime at, const std::vector<GazeEvent>& said);
+    void write_validations();
+    void write(AscTrial& lines, const ReadSamples& read, AscExportCounts& counts);
+
     const SessionRecord& record_;
-    AscWriter& writer_;
+    int sitting_;
+    AscTrial::Messages messages_;
     std::optional<ClockMap> clock_map_;
+    bool is_imported_;
+    AscWriter& writer_;
+    AscRecordings recordings_;
 };
 
-void SittingExport::write_screen(std::int64_t ms) {
-    std::set<std::string, std::less<>> words;
-    record_.read_gaze_events_outside([&](const GazeEvent& event) {
-        switch (event.kind) {
-        case GazeEvent::Kind::message:
-            writer_.message(asc_milliseconds(event.start), event.text);
-            words.emplace(event.text.substr(0, event.text.find(' ')));
-            break;
-        case GazeEvent::Kind::button:
-        case GazeEvent::Kind::input:
-            writer_.port(event);
-            break;
-        default:
-            writer_.note(event.text);
-        }
-    });
-    const ScreenGeometry& screen = record_.header().display.screen;
-    if (!words.contains("DISPLAY_COORDS"))
-        writer_.message(
-            ms, fmt::format("DISPLAY_COORDS 0 0 {} {}", screen.screen_px.x - 1, screen.screen_px.y - 1));
-    if (screen.viewing_distance_mm <= 0.0 || screen.screen_mm.x <= 0.0)
-        return;
-    if (!words.contains("SCREEN_PHYS_COORDS"))
-        writer_.message(ms, fmt::format("SCREEN_PHYS_COORDS {} {} {} {}", -0.5 * screen.screen_mm.x,
-                                        0.5 * screen.screen_mm.y, 0.5 * screen.screen_mm.x,
-                                        -0.5 * screen.screen_mm.y));
-    if (!words.contains("SCREEN_DISTANCE"))
-        writer_.message(ms, fmt::format("SCREEN_DISTANCE {0} {0}", screen.viewing_distance_mm));
+void SittingExport::write_beginning(std::int64_t ms) {
+    std::vector<GazeEvent> said;
+    if (is_imported_)
+        record_.read_gaze_events_before([&](const GazeEvent& event) { said.push_back(event); });
+    const TrackerTime at{std::chrono::milliseconds(ms)};
+    AscTrial lines(said, writer_.layout());
+    lines.finish(recordings_);
+    write_screen(at, said);
+    if (!is_imported_)
+        write_validations();
 }
 
-void SittingExport::write_trial(const TrialRecord& trial, AscExportCounts& counts) {
-    AscTrial lines(record_, trial, clock_map_, writer_.layout());
+void SittingExport::write_screen(TrackerTime at, const std::vector<GazeEvent>& said) {
+    const auto has = [&](std::string_view word) {
+        return std::any_of(said.begin(), said.end(), [&](const GazeEvent& event) {
+            return event.kind == GazeEvent::Kind::message && Words(event.text).next() == word;
+        });
+    };
+    const ScreenGeometry& screen = record_.header().display.screen;
+    if (!has("DISPLAY_COORDS"))
+        writer_.message(
+            at, fmt::format("DISPLAY_COORDS 0 0 {} {}", screen.screen_px.x - 1, screen.screen_px.y - 1));
+    if (screen.viewing_distance_mm <= 0.0 || screen.screen_mm.x <= 0.0)
+        return;
+    if (!has("SCREEN_PHYS_COORDS"))
+        writer_.message(at, fmt::format("SCREEN_PHYS_COORDS {} {} {} {}", -0.5 * screen.screen_mm.x,
+                                        0.5 * screen.screen_mm.y, 0.5 * screen.screen_mm.x,
+                                        -0.5 * screen.screen_mm.y));
+    if (!has("SCREEN_DISTANCE"))
+        writer_.message(at, fmt::format("SCREEN_DISTANCE {0} {0}", screen.viewing_distance_mm));
+}
+
+/// All of a sitting stand at its begin, with their own times: in the form in which readers look for
+/// calibrations and validations. The session knows the errors, but not those of each target: their number is
+/// given as 0, for MNE reads as many lines of targets as it says.
+void SittingExport::write_validations() {
+    if (!clock_map_)
+        return;
+    const AscLayout& layout = writer_.layout();
+    record_.read_events([&](const RecordedEvent& event) {
+        const auto validation = event.sitting == sitting_ ? validation_of(event) : std::nullopt;
+        if (!validation)
+            return;
+        const TrackerTime at = clock_map_->to_other(event.at);
+        for (const bool left : {true, false}) {
+            if (left ? !layout.has_left : !layout.has_right)
+                continue;
+            const char* const eye = left ? "LEFT" : "RIGHT";
+            writer_.message(at, "!CAL ");
+            writer_.line(fmt::format(">>>>>>> CALIBRATION (HV0,{}) FOR {}: <<<<<<<<<",
+                                     ascii_of(record_.header().tracker.name), eye));
+            writer_.message(at, fmt::format("!CAL VALIDATION HV0 {} {}  ERROR {:.2f} avg. {:.2f} max",
+                                            left ? "L" : "R", eye, validation->mean_error.value,
+                                            validation->max_error.value));
+        }
+    });
+}
+
+void SittingExport::write(AscTrial& lines, const ReadSamples& read, AscExportCounts& counts) {
     std::array<GazeSample, 2> instant;
     std::size_t count = 0;
     const auto write_instant = [&] {
         if (count == 0)
             return;
-        lines.write_until(writer_, std::span(instant).first(count));
-        writer_.samples(std::span(instant).first(count));
+        lines.write_until(recordings_, std::span(instant).first(count));
+        recordings_.samples(std::span(instant).first(count));
         count = 0;
     };
-    record_.read_samples(trial, samples_at_a_time, [&](std::span<const GazeSample> samples) {
+    read(samples_at_a_time, [&](std::span<const GazeSample> samples) {
         for (const GazeSample& sample : samples) {
             const bool is_other_eye =
                 count == 1 && sample.sampled_at == instant[0].sampled_at && sample.eye != instant[0].eye;
@@ -155,8 +200,22 @@ void SittingExport::write_trial(const TrialRecord& trial, AscExportCounts& count
         }
     });
     write_instant();
-    lines.finish(writer_);
+    lines.finish(recordings_);
+}
+
+void SittingExport::write_trial(const TrialRecord& trial, AscExportCounts& counts) {
+    AscTrial lines(record_, trial, clock_map_, writer_.layout(), messages_);
+    write(
+        lines, [&](std::size_t most, const auto& take) { record_.read_samples(trial, most, take); }, counts);
     ++counts.trials;
+    if (!is_imported_)
+        return;
+    std::vector<GazeEvent> said;
+    record_.read_gaze_events_after(trial, [&](const GazeEvent& event) { said.push_back(event); });
+    AscTrial after(std::move(said), writer_.layout());
+    write(
+        after, [&](std::size_t most, const auto& take) { record_.read_samples_after(trial, most, take); },
+        counts);
 }
 
 /// Milliseconds of the sitting's first line.
@@ -172,6 +231,12 @@ std::int64_t first_time(const SessionRecord& record, int sitting) {
         }
         if (span)
             return asc_milliseconds(span->first);
+        std::optional<std::int64_t> of_events;
+        record.read_gaze_events(trial, [&](const GazeEvent& event) {
+            of_events = of_events.value_or(asc_milliseconds(event.start));
+        });
+        if (of_events)
+            return *of_events;
     }
     return 0;
 }
@@ -206,16 +271,16 @@ AscExportCounts export_asc(const SessionRecord& record, const fs::path& director
         const SessionRecord::Eyes eyes = record.eyes(sitting);
         std::optional<AscWriter> writer;
         std::optional<SittingExport> lines;
-        if (eyes.none()) {
-            ++counts.sittings_without_samples;
-        } else {
+        const bool has_events = record.gaze_source(sitting).has_value();
+        counts.sittings_without_samples += eyes.none();
+        if (!eyes.none() || has_events) {
             AscLayout layout = layout_of(record, sitting, eyes);
             layout.base_ms = time_base(record, sitting);
             layout.fractional_times = options.fractional_times;
             writer.emplace(folder.path() / file_name(record.header(), sitting), layout);
             write_header(*writer, record, sitting);
-            lines.emplace(record, sitting, *writer);
-            lines->write_screen(first_time(record, sitting));
+            lines.emplace(record, sitting, *writer, AscTrial::Messages{options.opensesame_messages});
+            lines->write_beginning(first_time(record, sitting));
         }
         for (const TrialRecord& trial : record.trials()) {
             if (trial.sitting != sitting)
@@ -227,13 +292,15 @@ AscExportCounts export_asc(const SessionRecord& record, const fs::path& director
         }
         if (!writer)
             continue;
+        lines->finish();
         ++counts.files;
         counts.lines += writer->lines();
         counts.bytes += writer->bytes();
         writer->close();
     }
     if (counts.files == 0)
-        throw InputError(fmt::format("{}: has no gaze samples: there is nothing to write as ASC. Export its "
+        throw InputError(fmt::format("{}: has neither gaze samples nor a tracker's own events: there is "
+                                     "nothing to write as ASC. Export its "
                                      "tables with --format tsv.",
                                      record.directory().string()));
     folder.publish();

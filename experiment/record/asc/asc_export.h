@@ -11,14 +11,15 @@ namespace overt {
 
 struct AscExportOptions {
     bool overwrite = false;                          ///< replace an earlier export
-    bool fractional_times = false;                   ///< of samples and eye events: with their microseconds
+    bool fractional_times = false;                   ///< times with their microseconds
+    bool opensesame_messages = false;                ///< start_trial, end_trial, phases and variables, too
     std::function<void(int done, int all)> progress; ///< told after each trial; may be empty
 };
 
 /// What was written.
 struct AscExportCounts {
     int files = 0;
-    int sittings_without_samples = 0; ///< they have no file: no reader takes one
+    int sittings_without_samples = 0; ///< they have no file, unless their events were imported
     std::int64_t trials = 0, samples = 0, lines = 0, bytes = 0;
 };
 
@@ -29,8 +30,8 @@ struct AscExportCounts {
 /// the session.
 ///
 /// The directory appears when it is complete. Throws InputError if it exists and is not to be overwritten, or
-/// is no earlier export, or if the session has no samples at all; RecordError for a damaged session or a full
-/// disk.
+/// is no earlier export, or if the session has neither samples nor imported events; RecordError for a damaged
+/// session or a full disk.
 AscExportCounts export_asc(const SessionRecord& record, const std::filesystem::path& directory,
                            const AscExportOptions& options = {});
 

@@ -27,10 +27,10 @@ std::string header_line(const AscSurvey& survey, std::string_view beginning) {
     return survey.header.substr(begin, survey.header.find('\n', begin) - begin);
 }
 
-SessionHeader header_of(const fs::path& file, const AscSurvey& survey, const AscImportOptions& options) {
+SessionHeader header_of(const AscFiles& files, const AscSurvey& survey, const AscImportOptions& options) {
     SessionHeader header;
     header.protocol.name = options.place.protocol_name;
-    header.protocol.title = fmt::format("Imported from {}", file.filename().string());
+    header.protocol.title = "Imported from " + files.name();
     header.protocol.sha256 = hash_of_text("");
     header.schedule.observer = {options.place.observer_label, 1};
     for (int trial = 0; trial < survey.trials; ++trial)
@@ -70,9 +70,12 @@ class SessionClockOf {
 
 void insert_trial(SQLite::Database& database, const AscTrialTimes& times,
                   const SessionClockOf& session_time) {
-    const auto screen = [&](std::string_view word, TrackerTime otherwise) {
+    // Nothing where no message says when it was.
+    const auto screen = [&](std::string_view word) {
         const auto found = times.screens.find(word);
-        return session_time(found == times.screens.end() ? otherwise : found->second);
+        return found == times.screens.end()
+                   ? std::nullopt
+                   : std::optional<std::int64_t>(session_time(found->second).time_since_epoch().count());
     };
     SQLite::Statement insert(
         database, "INSERT INTO trial (trial_id, sitting, trial, attempt, task, sculpture, material, status, "
@@ -80,9 +83,8 @@ void insert_trial(SQLite::Database& database, const AscTrialTimes& times,
                   "response_screen_onset_ns, responded_ns, shown_refreshes, missed_refreshes, answer, "
                   "lost_flips, lost_samples) VALUES (?,1,?,1,0,0,0,?,?,?,?,?,?,?,0,0,'',0,0)");
     run_statement(insert, times.trial + 1, times.trial, times.is_aborted ? "aborted" : "completed",
-                  session_time(times.first), screen(task_screen_message, times.first),
-                  screen(onset_message, times.first), screen(end_message, times.last),
-                  screen(response_screen_message, times.last), screen(response_message, times.last));
+                  session_time(times.first), screen(task_screen_message), screen(onset_message),
+                  screen(end_message), screen(response_screen_message), screen(response_message));
 }
 
 void insert_sitting(SQLite::Database& database, const SessionHeader& header, const AscSurvey& survey,
@@ -136,6 +138,10 @@ void add_asc_remarks(AscImportSummary& summary) {
     if (survey.samples_that_are_no_gaze > 0)
         add(fmt::format("{} samples that were no gaze on a screen (HREF or PUPIL) are left out.",
                         survey.samples_that_are_no_gaze));
+    if (survey.mended_durations > 0)
+        add(fmt::format("{} fixations, saccades or blinks had a duration that cannot be (negative, or longer "
+                        "than from begin to end): it is taken from their begin and end.",
+                        survey.mended_durations));
     if (survey.unfinished_events > 0)
         add(fmt::format("{} fixations, saccades or blinks began and never ended: they are left out.",
                         survey.unfinished_events));
@@ -143,10 +149,10 @@ void add_asc_remarks(AscImportSummary& summary) {
         add(fmt::format("{} texts were no UTF-8 and are taken for Latin-1.", survey.non_ascii_texts));
 }
 
-GazeSource gaze_source_of(const fs::path& file, const AscSurvey& survey) {
+GazeSource gaze_source_of(const AscFiles& files, const AscSurvey& survey) {
     GazeSource source;
-    source.file = file.filename().string();
-    source.sha256 = hash_of_file(file);
+    source.file = files.name();
+    source.sha256 = files.hashes();
     source.header = survey.header;
     source.pupil_is_diameter = survey.format.pupil_is_diameter;
     source.rate_hz = survey.rate_hz;
@@ -160,7 +166,7 @@ GazeSource gaze_source_of(const fs::path& file, const AscSurvey& survey) {
     return source;
 }
 
-AscImportSummary import_asc(const fs::path& file, const AscImportOptions& options) {
+AscImportSummary import_asc(const AscFiles& files, const AscImportOptions& options) {
     if (options.out.empty())
         check_session_place(options.place, options.session_number);
     else if (fs::exists(options.out))
@@ -170,8 +176,8 @@ AscImportSummary import_asc(const fs::path& file, const AscImportOptions& option
         check_observer_label(options.place.observer_label);
 
     AscImportSummary summary;
-    summary.survey = survey_asc(file, options.report, part_of(options.progress, 0));
-    SessionHeader header = header_of(file, summary.survey, options);
+    summary.survey = survey_asc(files, options.report, part_of(options.progress, 0));
+    SessionHeader header = header_of(files, summary.survey, options);
     std::optional<SessionDirectory> by_place;
     std::optional<PartialDirectory> by_name;
     if (options.out.empty()) {
@@ -187,7 +193,7 @@ AscImportSummary import_asc(const fs::path& file, const AscImportOptions& option
         const SessionClockOf session_time(summary.survey);
         insert_sitting(database, header, summary.survey, session_time);
         GazeRows rows(database);
-        rows.source(1, gaze_source_of(file, summary.survey));
+        rows.source(1, gaze_source_of(files, summary.survey));
         AscRows sink(
             rows, 1, summary.survey.cut_by, [](int trial) { return std::optional<std::int64_t>(trial + 1); },
             [&](const AscTrialTimes& times) {
@@ -195,7 +201,7 @@ AscImportSummary import_asc(const fs::path& file, const AscImportOptions& option
                 ++summary.trials;
             });
         AscParser parser(sink);
-        parse_asc_file(file, parser, part_of(options.progress, 1));
+        files.parse(parser, part_of(options.progress, 1));
         sink.end();
     });
     finish_imported_session(session_file.parent_path(), options.program);

@@ -42,7 +42,7 @@ struct AscImportSummary {
 ///
 /// The session's directory appears when it is complete; nothing is overwritten. Throws InputError as
 /// survey_asc() does or if there is a session at that place, RecordError if it cannot be written.
-AscImportSummary import_asc(const std::filesystem::path& file, const AscImportOptions& options);
+AscImportSummary import_asc(const AscFiles& files, const AscImportOptions& options);
 
 /// Makes a copy of a session in which the gaze of one sitting is that of the file: that of the trials which
 /// messages TRIALID name, in the order of their attempts. The sitting is the one that most of them fit. Where
@@ -51,11 +51,11 @@ AscImportSummary import_asc(const std::filesystem::path& file, const AscImportOp
 ///
 /// `options.out` names the copy, or else it lies beside the session as NAME_gaze. Throws InputError as above,
 /// or if no trial fits, or if nothing relates the clocks; RecordError.
-AscImportSummary import_asc_into(const std::filesystem::path& file, const std::filesystem::path& session,
+AscImportSummary import_asc_into(const AscFiles& files, const std::filesystem::path& session,
                                  const AscImportOptions& options);
 
 /// What every import keeps of its file besides rows.
-GazeSource gaze_source_of(const std::filesystem::path& file, const AscSurvey& survey);
+GazeSource gaze_source_of(const AscFiles& files, const AscSurvey& survey);
 /// Remarks on what no import keeps.
 void add_asc_remarks(AscImportSummary& summary);
 

@@ -155,14 +155,16 @@ void add_remarks(AscImportSummary& summary, const SessionRecord& record, const M
 void delete_gaze(SQLite::Database& database, std::int64_t trial_id) {
     for (const char* sql :
          {"DELETE FROM sample WHERE trial_id = ?", "DELETE FROM gaze_event WHERE trial_id = ?"}) {
-        SQLite::Statement statement(database, sql);
-        run_statement(statement, trial_id);
+        for (const std::int64_t id : {trial_id, after_trial(trial_id)}) {
+            SQLite::Statement statement(database, sql);
+            run_statement(statement, id);
+        }
     }
 }
 
 } // namespace
 
-AscImportSummary import_asc_into(const fs::path& file, const fs::path& session,
+AscImportSummary import_asc_into(const AscFiles& files, const fs::path& session,
                                  const AscImportOptions& options) {
     const SessionRecord record(session);
     const fs::path folder = fs::absolute(record.directory()).lexically_normal();
@@ -173,17 +175,17 @@ AscImportSummary import_asc_into(const fs::path& file, const fs::path& session,
         throw InputError(fmt::format(
             "{}: exists already and is not overwritten. Name another folder with --out.", out.string()));
     AscImportSummary summary;
-    summary.survey = survey_asc(file, options.report, part_of(options.progress, 0));
+    summary.survey = survey_asc(files, options.report, part_of(options.progress, 0));
     NumberListener listener;
     AscParser number_parser(listener);
-    parse_asc_file(file, number_parser);
+    files.parse(number_parser);
     const Match match = best_match(record, listener.numbers);
     if (match.attempt_of.empty())
         throw InputError(
             fmt::format("{}: no message TRIALID of this file names a trial of {}. Trials are told by "
                         "messages such as \"TRIALID 3\"; without --into the file becomes a session of "
                         "its own.",
-                        file.string(), record.directory().string()));
+                        files.path(), record.directory().string()));
     const bool keeps_clock = speak_for(record.clock_pairs(match.sitting), summary.survey);
 
     PartialDirectory partial(out);
@@ -199,7 +201,7 @@ AscImportSummary import_asc_into(const fs::path& file, const fs::path& session,
         run_statement(forget);
         SQLite::Statement forget_detection(database, "DELETE FROM event_detection WHERE sitting = ?");
         run_statement(forget_detection, match.sitting);
-        rows.source(match.sitting, gaze_source_of(file, summary.survey));
+        rows.source(match.sitting, gaze_source_of(files, summary.survey));
         std::vector<ClockPair> pairs;
         AscRows sink(
             rows, match.sitting, AscTrialCutter::By::trial_ids,
@@ -217,7 +219,7 @@ AscImportSummary import_asc_into(const fs::path& file, const fs::path& session,
                         pairs.push_back(pair);
             });
         AscParser parser(sink);
-        parse_asc_file(file, parser, part_of(options.progress, 1));
+        files.parse(parser, part_of(options.progress, 1));
         sink.end();
         if (keeps_clock)
             return;
@@ -226,7 +228,7 @@ AscImportSummary import_asc_into(const fs::path& file, const fs::path& session,
                 fmt::format("{}: nothing relates its times to those of the session: its times are "
                             "beyond the session's readings of the tracker's clock, and it has no "
                             "messages such as \"{}\" for the trials' screens.",
-                            file.string(), onset_message));
+                            files.path(), onset_message));
         SQLite::Statement forget_pairs(database, "DELETE FROM clock_pair WHERE sitting = ?");
         run_statement(forget_pairs, match.sitting);
         SQLite::Statement insert(database, "INSERT INTO clock_pair VALUES (NULL,?,?,?,?)");

@@ -20,6 +20,18 @@ std::optional<Eye> eye_of(std::string_view word) {
     return word == "R" ? std::optional(Eye::right) : std::nullopt;
 }
 
+/// What stands after START: how the recording's lines are laid out. The prescalers are those of files of
+/// another kind.
+constexpr std::array<std::string_view, 6> layout_words{"PRESCALER", "VPRESCALER", "FIXUPDATE",
+                                                       "PUPIL",     "EVENTS",     "SAMPLES"};
+
+/// What a layout says of further columns, which are not kept.
+bool is_of_further_columns(std::string_view word) {
+    constexpr std::array<std::string_view, 7> words{"VEL",     "RES",     "HTARGET", "INPUT",
+                                                    "BUTTONS", "HMARKER", "RATE"};
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 std::size_t slot(Kind kind, Eye eye) {
     return 2 * static_cast<std::size_t>(kind) + (eye == Eye::left ? 0u : 1u);
 }
@@ -38,14 +50,19 @@ void AscParser::drop_open_events() {
     open_events_ = {};
 }
 
-void AscParser::line(std::string_view line) {
+void AscParser::line(std::string_view line, std::int64_t number) {
     ++lines_;
+    number_ = number;
     if (!line.empty() && line.back() == '\r')
         line.remove_suffix(1);
     if (line.size() > longest_asc_line)
         return bad("longer than any line of a recording", line.substr(0, 80));
     if (line.find_first_not_of(" \t") == std::string_view::npos)
         return;
+    const std::string_view word = line.substr(0, line.find_first_of(" \t"));
+    if (std::find(layout_words.begin(), layout_words.end(), word) != layout_words.end())
+        return layout_line(word, line);
+    tell_start();
     if (is_digit(line.front()))
         return sample_line(line);
     if (line.starts_with("**")) {
@@ -89,20 +106,6 @@ void AscParser::event_line(std::string_view line) {
         return recording_line(line, word == "START");
     if (word == "BUTTON" || word == "INPUT")
         return port_line(line, word == "BUTTON" ? Kind::button : Kind::input);
-    if (word == "SAMPLES")
-        return samples_layout(line);
-    if (word == "PUPIL") {
-        format_.pupil_is_diameter = words.next() == "DIAMETER";
-        return;
-    }
-    if (word == "EVENTS") {
-        const std::string_view what = words.next();
-        format_.events_are_gaze = what != "HREF" && what != "PUPIL";
-        return;
-    }
-    // The prescalers are those of files of another kind.
-    if (word == "PRESCALER" || word == "VPRESCALER" || word == "FIXUPDATE")
-        return;
     bad("begins with no known word", line);
 }
 
@@ -128,7 +131,7 @@ void AscParser::message_line(std::string_view line) {
         if (eyes == "L" || eyes == "R" || eyes == "LR") {
             format_.has_left = eyes != "R";
             format_.has_right = eyes != "L";
-            format_.eyes_are_known = true;
+            format_.eyes_are_known = format_.eyes_are_declared = true;
         }
     }
     listener_.event(event);
@@ -149,16 +152,18 @@ void AscParser::eye_event_end(std::string_view line, Kind kind) {
     Words words(line);
     words.next();
     const std::optional<Eye> eye = eye_of(words.next());
-    const std::optional<std::int64_t> start = asc_time_us(words.next()), end = asc_time_us(words.next()),
-                                      duration = asc_time_us(words.next());
-    if (!eye || !start || !end || !duration || *end < *start)
+    const std::optional<std::int64_t> start = asc_time_us(words.next()), end = asc_time_us(words.next());
+    const std::string_view duration = words.next();
+    if (eye)
+        open_events_[slot(kind, *eye)] = false; // it ended, whatever becomes of its line
+    if (!eye || !start || !end || !number_of(duration) || *end < *start)
         return bad("an event without eye, begin, end or duration", line);
     GazeEvent event;
     event.kind = kind;
     event.eye = eye;
     event.start = tracker_time(*start);
     event.end = tracker_time(*end);
-    event.duration = TrackerClock::duration(*duration);
+    event.duration = duration_of(duration, event.end - event.start);
     const auto take_place = [&](std::optional<ScreenPoint>& into) {
         const std::string_view x = words.next(), y = words.next();
         const Place place = place_of(x, y);
@@ -179,9 +184,25 @@ void AscParser::eye_event_end(std::string_view line, Kind kind) {
                    take_number(event.peak_velocity_deg_s);
     if (!is_whole)
         return bad("an event without all its values", line);
-    open_events_[slot(kind, *eye)] = false;
     no_gaze_events_ += !format_.events_are_gaze && kind != Kind::blink;
     listener_.event(event);
+}
+
+/// The tracker's counter overflows in some files: a duration is not longer than from begin to end by more
+/// than a sample, nor is it negative. What cannot be is taken from begin and end, the last sample with them.
+TrackerClock::duration AscParser::duration_of(std::string_view word, TrackerClock::duration span) {
+    constexpr std::chrono::milliseconds most_beyond(100);
+    const std::optional<std::int64_t> us = asc_time_us(word);
+    if (us && TrackerClock::duration(*us) <= span + most_beyond)
+        return TrackerClock::duration(*us);
+    ++mended_durations_;
+    const double interval_us = format_.rate_hz > 0.0 ? 1e6 / format_.rate_hz : 0.0;
+    return span + TrackerClock::duration(static_cast<std::int64_t>(interval_us));
+}
+
+void AscParser::tell_start() {
+    if (start_)
+        listener_.event(*std::exchange(start_, std::nullopt));
 }
 
 void AscParser::recording_line(std::string_view line, bool begins) {
@@ -208,15 +229,30 @@ void AscParser::recording_line(std::string_view line, bool begins) {
         if (left || right) {
             format_.has_left = left;
             format_.has_right = right;
-            format_.eyes_are_known = true;
+            format_.eyes_are_known = format_.eyes_are_declared = true;
         }
         event.text = left && right ? "LEFT RIGHT" : left ? "LEFT" : right ? "RIGHT" : "";
+        start_eyes_ = event.text;
         // A new recording may begin with the time of the last one's end.
         last_sample_.reset();
         stamps_ = {};
     }
     recording_start_ = begins ? std::optional(event.start) : std::nullopt;
-    listener_.event(event);
+    if (begins)
+        start_ = std::move(event);
+    else
+        listener_.event(event);
+}
+
+void AscParser::layout_line(std::string_view word, std::string_view line) {
+    in_calibration_ = false;
+    Words words(line);
+    words.next();
+    if (word == "SAMPLES" || word == "EVENTS") {
+        samples_layout(line);
+    } else if (word == "PUPIL") {
+        format_.pupil_is_diameter = words.next() == "DIAMETER";
+    }
 }
 
 void AscParser::port_line(std::string_view line, Kind kind) {
@@ -246,28 +282,38 @@ bool AscParser::take_rate(double rate_hz) {
 
 void AscParser::samples_layout(std::string_view line) {
     Words words(line);
-    words.next();
+    const bool is_of_samples = words.next() == "SAMPLES";
     const std::string_view what = words.next();
-    format_.is_gaze = what == "GAZE";
+    if (is_of_samples)
+        format_.is_gaze = what == "GAZE";
+    else
+        format_.events_are_gaze = what != "HREF" && what != "PUPIL";
     bool left = false, right = false;
+    std::string further;
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+        const bool is_eye = word == "LEFT" || word == "RIGHT";
         left |= word == "LEFT";
         right |= word == "RIGHT";
-        format_.has_head_target |= word == "HTARGET";
+        format_.has_head_target |= is_of_samples && word == "HTARGET";
+        if (!is_eye && !is_of_further_columns(word))
+            further += fmt::format(" {}", ascii_of(word));
         if (word != "RATE")
             continue;
         const std::optional<double> rate_hz = number_of(words.next());
         if (!rate_hz || !take_rate(*rate_hz))
             bad("a sampling rate that is none", line);
     }
+    if (start_)
+        start_->text = start_eyes_ + further; // SAMPLES comes last
     if (left || right) {
         format_.has_left = left;
         format_.has_right = right;
-        format_.eyes_are_known = true;
+        format_.eyes_are_known = format_.eyes_are_declared = true;
     }
 }
 
 void AscParser::end() {
+    tell_start();
     settle_leap(std::nullopt);
     drop_open_events();
 }

@@ -3,8 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,6 +25,7 @@ struct AscFormat {
     bool has_head_target = false;
     bool has_further_numbers = false; ///< in samples, after their pupils: velocity, resolution, input
     bool eyes_are_known = false;      ///< else samples of one eye are taken for the right one's
+    bool eyes_are_declared = false;   ///< by START, SAMPLES, EVENTS or RECCFG, not only by samples of both
 };
 
 /// Told by an AscParser. Texts are valid only during the call.
@@ -53,12 +52,16 @@ class AscParser {
   public:
     explicit AscParser(AscListener& listener) : listener_(listener) {}
 
-    void line(std::string_view line);
+    void line(std::string_view line) { this->line(line, lines_ + 1); }
+    /// The same of the line of this number, where others of its file were left out.
+    void line(std::string_view line, std::int64_t number);
     /// There are no more lines.
     void end();
 
     const AscFormat& format() const { return format_; }
     std::int64_t lines() const { return lines_; }
+    /// Fixations, saccades and blinks whose duration could not be, and was taken from begin and end.
+    std::int64_t mended_durations() const { return mended_durations_; }
     /// Begins of fixations, saccades and blinks whose ends never came.
     std::int64_t unfinished_events() const { return unfinished_; }
     std::int64_t samples_that_are_no_gaze() const { return no_gaze_; }
@@ -77,7 +80,11 @@ class AscParser {
     bool take_rate(double rate_hz);
     void samples_layout(std::string_view line);
     void note(std::string_view line);
-    void bad(std::string_view why, std::string_view line) { listener_.malformed(lines_, why, line); }
+    void layout_line(std::string_view word, std::string_view line);
+    void tell_start();
+    TrackerClock::duration duration_of(std::string_view word, TrackerClock::duration span);
+    void eyes_by_status(std::string_view line);
+    void bad(std::string_view why, std::string_view line) { listener_.malformed(number_, why, line); }
     /// A sample's line: of one eye or both, the left one first.
     struct Samples {
         std::array<GazeSample, 2> of_eyes;
@@ -99,19 +106,17 @@ class AscParser {
 
     AscListener& listener_;
     AscFormat format_;
-    std::int64_t lines_ = 0, unfinished_ = 0, no_gaze_ = 0, no_gaze_events_ = 0, recoded_ = 0;
+    std::int64_t lines_ = 0, number_ = 0, unfinished_ = 0, no_gaze_ = 0, no_gaze_events_ = 0, recoded_ = 0,
+                 mended_durations_ = 0;
     bool in_calibration_ = false;                ///< lines without a time belong to it
     TrackerTime last_time_;                      ///< of any line
     std::optional<TrackerTime> recording_start_; ///< of what goes on; nothing outside of START and END
+    std::optional<GazeEvent> start_;             ///< that was not told yet: its layout is still coming
+    std::string start_eyes_;                     ///< that it names
     std::optional<TrackerTime> last_sample_;
     AscStamps stamps_;
     std::optional<Leap> leap_;
     std::array<bool, 6> open_events_{};
 };
-
-/// Reads a file and gives each line to the parser, then its end; `progress` is told the bytes read and all.
-/// Memory does not grow with the file. Throws InputError if it cannot be read, or what the listener throws.
-void parse_asc_file(const std::filesystem::path& file, AscParser& parser,
-                    const std::function<void(std::int64_t, std::int64_t)>& progress = {});
 
 } // namespace overt

@@ -39,6 +39,8 @@ void AscParser::sample_line(std::string_view line) {
     if (!time)
         return refuse("a sample at this time was there already");
 
+    if (!format_.eyes_are_declared)
+        eyes_by_status(line);
     Samples taken;
     taken.eyes = format_.has_left && format_.has_right ? 2 : 1;
     for (int i = 0; i < taken.eyes; ++i) {
@@ -65,9 +67,23 @@ void AscParser::sample_line(std::string_view line) {
     }
     if (const std::optional<TrackerTime> earlier = last_sample_ ? last_sample_ : recording_start_;
         earlier && recording_start_ && std::chrono::abs(*time - *earlier) > longest_gap)
-        leap_ = Leap{taken, *earlier, before, lines_, std::string(line)};
+        leap_ = Leap{taken, *earlier, before, number_, std::string(line)};
     else
         deliver(taken);
+}
+
+/// Where nothing else says so: a status of five letters after two eyes' values is of both.
+void AscParser::eyes_by_status(std::string_view line) {
+    Words words(line);
+    words.next();
+    int values = 0;
+    std::string_view word = words.next();
+    for (; !word.empty() && (number_of(word) || is_missing(word)); word = words.next())
+        ++values;
+    constexpr int values_of_both = 6;
+    constexpr std::size_t status_of_both = 5;
+    const bool has_both = values >= values_of_both && is_status(word) && word.size() == status_of_both;
+    format_.has_left = format_.has_right = format_.eyes_are_known = has_both;
 }
 
 void AscParser::deliver(const Samples& taken) {

@@ -41,21 +41,28 @@ void AscRows::begin_trial() {
     end();
     times_ = {};
     times_.trial = cutter_.trial();
-    has_time_ = false;
+    has_time_ = is_after_ = false;
     into_ = trial_id_(times_.trial);
     if (into_)
         rows_.begin_trial(*into_);
 }
 
 void AscRows::take_time(TrackerTime time) {
-    times_.first = has_time_ ? std::min(times_.first, time) : time;
-    times_.last = has_time_ ? std::max(times_.last, time) : time;
+    if (!has_time_)
+        times_.first = time;
     has_time_ = true;
 }
 
-void AscRows::samples(std::span<const GazeSample> samples) {
-    if (cutter_.take_sample())
+/// What comes between a trial's result and the next trial is kept beside the trial.
+void AscRows::follow_cutter(bool begins) {
+    if (begins)
         begin_trial();
+    if (cutter_.is_after_trial() && !std::exchange(is_after_, true) && into_)
+        rows_.begin_trial(after_trial(*into_));
+}
+
+void AscRows::samples(std::span<const GazeSample> samples) {
+    follow_cutter(cutter_.take_sample());
     take_time(samples.front().sampled_at);
     if (into_)
         for (const GazeSample& sample : samples)
@@ -63,17 +70,20 @@ void AscRows::samples(std::span<const GazeSample> samples) {
 }
 
 void AscRows::event(const GazeEvent& event) {
-    if (cutter_.take(event))
-        begin_trial();
+    follow_cutter(cutter_.take(event));
     if (event.kind != GazeEvent::Kind::note)
-        take_time(event.start);
-    if (event.kind == GazeEvent::Kind::message) {
-        if (is_trial_id(event))
+        take_time(event.end);
+    if (event.kind == GazeEvent::Kind::message && !is_after_) {
+        if (is_trial_id(event)) {
             times_.number = asc_trial_number(event);
+            times_.first = event.start;
+        }
         const std::string_view text = event.text;
         const std::string_view word = text.substr(0, text.find(' '));
         constexpr std::array words{task_screen_message, onset_message, end_message, response_screen_message,
                                    response_message};
+        if (word == earlier_end_message)
+            times_.screens.emplace(end_message, event.start);
         if (std::find(words.begin(), words.end(), word) != words.end())
             times_.screens.emplace(word, event.start);
         if (const std::optional<TrackerTime> onset = synctime(event))

@@ -14,11 +14,12 @@
 
 namespace overt {
 
-/// One trial of the file, once it is over.
+/// One trial of the file, once it is over. A fixation, saccade or blink that spans its begin counts to it by
+/// its end, and does not make it begin earlier.
 struct AscTrialTimes {
     int trial = -1;                                          ///< in the file, from 0
     std::optional<int> number;                               ///< that its TRIALID names
-    TrackerTime first, last;                                 ///< of its lines
+    TrackerTime first;                                       ///< of its TRIALID, or of its first line
     std::map<std::string, TrackerTime, std::less<>> screens; ///< by the messages of asc_trial.h
     bool is_aborted = false;
 };
@@ -43,6 +44,7 @@ class AscRows final : public AscListener {
 
   private:
     void begin_trial();
+    void follow_cutter(bool begins);
     void take_time(TrackerTime time);
 
     GazeRows& rows_;
@@ -52,7 +54,7 @@ class AscRows final : public AscListener {
     std::function<void(const AscTrialTimes&)> trial_over_;
     std::optional<std::int64_t> into_ = 0; ///< the trial_id of what comes in
     AscTrialTimes times_;
-    bool has_time_ = false;
+    bool has_time_ = false, is_after_ = false;
 };
 
 } // namespace overt

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -25,10 +26,14 @@ std::vector<double> numbers_of(std::string_view text) {
     return numbers;
 }
 
+bool is_trial_result(const GazeEvent& event) {
+    return event.kind == Kind::message && Words(event.text).next() == "TRIAL_RESULT";
+}
+
 class Surveyor final : public AscListener {
   public:
-    Surveyor(AscSurvey& survey, const std::filesystem::path& file, const AscReport& report)
-        : survey_(survey), file_(file), report_(report) {}
+    Surveyor(AscSurvey& survey, const AscFiles& files, const AscReport& report)
+        : survey_(survey), files_(files), report_(report) {}
 
     void header(std::string_view line) override {
         constexpr std::size_t longest_header = 65536;
@@ -52,7 +57,7 @@ class Surveyor final : public AscListener {
     void take_message(const GazeEvent& event);
 
     AscSurvey& survey_;
-    const std::filesystem::path& file_;
+    const AscFiles& files_;
     const AscReport& report_;
     AscTrialCutter by_ids_{AscTrialCutter::By::trial_ids}, by_recordings_{AscTrialCutter::By::recordings};
     bool has_trial_ids_ = false, has_time_ = false, clock_began_anew_ = false;
@@ -137,7 +142,7 @@ void Surveyor::take_message(const GazeEvent& event) {
 void Surveyor::malformed(std::int64_t line, std::string_view why, std::string_view text) {
     ++survey_.skipped_lines;
     if (report_)
-        report_(fmt::format("{}:{}", file_.string(), skipped_line_text(line, why, text)));
+        report_(fmt::format("{}:{}", files_.of_line(text).string(), skipped_line_text(line, why, text)));
 }
 
 } // namespace
@@ -165,40 +170,47 @@ std::optional<int> asc_trial_number(const GazeEvent& event) {
 
 bool AscTrialCutter::begin() {
     ++trial_;
+    is_over_ = is_after_ = false;
     return true;
 }
 
 bool AscTrialCutter::take(const GazeEvent& event) {
+    is_after_ |= std::exchange(is_over_, false);
     if (by_ == By::recordings)
         return event.kind == Kind::started && begin();
     if (event.kind == Kind::started && trial_ < 0) {
         began_early_ = true;
         return begin();
     }
-    if (!is_trial_id(event))
+    if (!is_trial_id(event)) {
+        is_over_ = trial_ >= 0 && is_trial_result(event);
         return false;
+    }
     if (began_early_) {
-        began_early_ = false;
+        began_early_ = is_after_ = false;
         return false;
     }
     return begin();
 }
 
 bool AscTrialCutter::take_sample() {
+    is_after_ |= std::exchange(is_over_, false);
     if (trial_ >= 0)
         return false;
     began_early_ = by_ == By::trial_ids;
     return begin();
 }
 
-AscSurvey survey_asc(const std::filesystem::path& file, const AscReport& report,
+AscSurvey survey_asc(const AscFiles& files, const AscReport& report,
                      const std::function<void(std::int64_t, std::int64_t)>& progress) {
     AscSurvey survey;
-    Surveyor surveyor(survey, file, report);
+    const std::string file = files.path();
+    Surveyor surveyor(survey, files, report);
     AscParser parser(surveyor);
-    parse_asc_file(file, parser, progress);
+    files.parse(parser, progress);
     survey.format = parser.format();
     survey.lines = parser.lines();
+    survey.mended_durations = parser.mended_durations();
     survey.unfinished_events = parser.unfinished_events();
     survey.samples_that_are_no_gaze = parser.samples_that_are_no_gaze();
     survey.events_that_are_no_gaze = parser.events_that_are_no_gaze();
@@ -216,22 +228,22 @@ AscSurvey survey_asc(const std::filesystem::path& file, const AscReport& report,
         throw InputError(
             fmt::format("{}: its samples are of the pupil or in the head's frame (SAMPLES HREF or "
                         "PUPIL), and no places on a screen. Convert the recording again with gaze.",
-                        file.string()));
+                        file));
     if (survey.trials == 0)
         throw InputError(
             fmt::format("{}: no recording of an EyeLink was found in {} lines, {} of them could not "
                         "be read. Give a file that edf2asc has written.",
-                        file.string(), survey.lines, survey.skipped_lines));
+                        file, survey.lines, survey.skipped_lines));
     if (!survey.format.is_eyelinks && !survey.format.eyes_are_known && survey.events == 0)
         throw InputError(fmt::format(
             "{}: is a table of numbers, and nothing in it is as an EyeLink has it: no header, no message, "
             "no event, no status after the values of a sample. Give a file that edf2asc has written.",
-            file.string()));
+            file));
     if (surveyor.clock_began_anew())
         throw InputError(
             fmt::format("{}: the tracker's clock began anew at time stamp {}: this is two recordings "
                         "in one file. Cut it there and import both.",
-                        file.string(), surveyor.began_anew_at().time_since_epoch().count() / 1000));
+                        file, surveyor.began_anew_at().time_since_epoch().count() / 1000));
     return survey;
 }
 

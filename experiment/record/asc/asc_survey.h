@@ -10,13 +10,14 @@
 
 #include <glm/glm.hpp>
 
-#include "experiment/record/asc/asc_parser.h"
+#include "experiment/record/asc/asc_files.h"
 
 namespace overt {
 
-/// Cuts a recording into trials. Where there are messages TRIALID, each begins a trial that lasts until the
-/// next, and what is recorded before the first belongs to the first; else each START begins one. Lines before
-/// all of that belong to none.
+/// Cuts a recording into trials. Where there are messages TRIALID, each begins a trial that lasts until its
+/// TRIAL_RESULT, or without one until the next, and what is recorded before the first belongs to the first;
+/// else each START begins one. Lines before all of that, and between a TRIAL_RESULT and the next TRIALID,
+/// belong to none.
 class AscTrialCutter {
   public:
     enum class By : std::uint8_t { trial_ids, recordings };
@@ -25,6 +26,8 @@ class AscTrialCutter {
     /// Gives true if a trial begins with this.
     bool take(const GazeEvent& event);
     bool take_sample();
+    /// What was taken last came after the result of the last trial.
+    bool is_after_trial() const { return is_after_; }
     /// From 0; -1 before the first.
     int trial() const { return trial_; }
 
@@ -33,6 +36,7 @@ class AscTrialCutter {
     By by_;
     int trial_ = -1;
     bool began_early_ = false; ///< before its TRIALID
+    bool is_over_ = false, is_after_ = false;
 };
 
 /// The number in "TRIALID 12"; nothing if there is none.
@@ -53,6 +57,7 @@ struct AscSurvey {
     std::optional<double> viewing_distance_mm, refresh_hz;
     std::optional<glm::dvec2> px_per_deg;
     std::int64_t lines = 0, skipped_lines = 0;
+    std::int64_t mended_durations = 0; ///< of events, that could not be
     std::int64_t unfinished_events = 0, samples_that_are_no_gaze = 0, events_that_are_no_gaze = 0;
     std::int64_t non_ascii_texts = 0;
 };
@@ -63,12 +68,12 @@ std::string skipped_line_text(std::int64_t line, std::string_view why, std::stri
 /// A line that could not be read: "FILE:LINE: why: the line".
 using AscReport = std::function<void(const std::string&)>;
 
-/// Reads the file; each line that is skipped is reported. Throws InputError if it cannot be read, if it is no
-/// recording of an EyeLink with gaze on a screen, or if the tracker's clock began anew in it.
-AscSurvey survey_asc(const std::filesystem::path& file, const AscReport& report,
+/// Reads the files; each line that is skipped is reported. Throws InputError if it cannot be read, if it is
+/// no recording of an EyeLink with gaze on a screen, or if the tracker's clock began anew in it.
+AscSurvey survey_asc(const AscFiles& files, const AscReport& report,
                      const std::function<void(std::int64_t, std::int64_t)>& progress = {});
 
-/// Progress of the first (0) or second (1) reading of the same file, as part of both.
+/// Progress of the first (0) or second (1) reading of the same files, as part of both.
 using ByteProgress = std::function<void(std::int64_t done, std::int64_t all)>;
 ByteProgress part_of(const ByteProgress& progress, int reading);
 

@@ -1,227 +1,130 @@
 #include "experiment/record/asc/asc_trial.h"
 
 #include <algorithm>
+#include <chrono>
 #include <tuple>
 
 #include <fmt/format.h>
+
+#include "experiment/record/asc/asc_survey.h"
+#include "experiment/record/asc/asc_words.h"
 
 namespace overt {
 namespace {
 
 using Kind = GazeEvent::Kind;
 
-std::string text_at(const auto& list, int index, std::string_view what) {
-    return fmt::format("{}={}", what, list[static_cast<std::size_t>(index)].id);
+/// What a trial is of, as names and values.
+std::vector<std::pair<std::string_view, std::string>> variables_of(const SessionHeader& header,
+                                                                   const Trial& trial) {
+    const auto id = [](const auto& list, int index) { return list[static_cast<std::size_t>(index)].id; };
+    return {{"task", id(header.tasks, trial.task)},
+            {"sculpture", id(header.sculptures, trial.condition.sculpture)},
+            {"material", id(header.materials, trial.condition.material)}};
+}
+
+std::vector<GazeEvent> events_of(const SessionRecord& record, const TrialRecord& trial) {
+    std::vector<GazeEvent> events;
+    record.read_gaze_events(trial, [&](const GazeEvent& event) { events.push_back(event); });
+    return events;
 }
 
 } // namespace
 
+TrackerTime AscTrial::rounded(TrackerTime at) const {
+    return layout_.fractional_times ? at : TrackerTime(std::chrono::milliseconds(asc_milliseconds(at)));
+}
+
+AscTrial::Line AscTrial::line_of(GazeEvent event, bool begins_an_event) const {
+    const bool ends = event.kind == Kind::ended || (is_eye_event(event.kind) && !begins_an_event);
+    const TrackerTime at = is_eye_event(event.kind) && !begins_an_event ? event.end : event.start;
+    return {{rounded(at), ends, begins_an_event}, at, begins_an_event, std::move(event)};
+}
+
+AscTrial::Line AscTrial::message_at(TrackerTime at, std::string text) const {
+    GazeEvent event;
+    event.start = event.end = at;
+    event.text = std::move(text);
+    return line_of(std::move(event));
+}
+
 bool AscTrial::has(std::string_view word) const {
     return std::any_of(lines_.begin(), lines_.end(), [&](const Line& line) {
-        return line.event.kind == Kind::message && line.event.text.starts_with(word);
+        return line.event.kind == Kind::message && Words(line.event.text).next() == word;
     });
 }
 
-int AscTrial::count(Kind kind) const {
-    return static_cast<int>(std::count_if(lines_.begin(), lines_.end(),
-                                          [&](const Line& line) { return line.event.kind == kind; }));
+/// No line stands among samples that are later than a line after it: the file's order is kept.
+void AscTrial::settle_places() {
+    for (std::size_t i = lines_.size(); i-- > 1;)
+        lines_[i - 1].place = std::min(lines_[i - 1].place, lines_[i].place);
 }
 
-void AscTrial::add_message(std::int64_t ms, int recording, std::string text) {
-    Line line{ms, recording, false, false, {}};
-    line.event.text = std::move(text);
-    lines_.push_back(std::move(line));
-}
-
-void AscTrial::add_kept(const SessionRecord& record, const TrialRecord& trial) {
-    int recording = 0;
-    record.read_gaze_events(trial, [&](const GazeEvent& event) {
-        recording += event.kind == Kind::started;
-        if (is_eye_event(event.kind)) {
-            lines_.push_back({asc_milliseconds(event.start), recording, false, true, event});
-            lines_.push_back({asc_milliseconds(event.end), recording, true, false, event});
-        } else {
-            lines_.push_back(
-                {asc_milliseconds(event.start), recording, event.kind == Kind::ended, false, event});
-        }
-    });
-}
-
-/// pymovements takes the screen's size for that of the last RECCFG, and fails if there was none.
-void AscTrial::add_setup(std::int64_t first, glm::ivec2 screen_px, const AscLayout& layout) {
-    const auto coordinates = std::find_if(lines_.begin(), lines_.end(), [](const Line& line) {
-        return line.event.kind == Kind::message && line.event.text.starts_with("GAZE_COORDS");
-    });
-    const bool has_coordinates = coordinates != lines_.end();
-    if (!has("RECCFG")) {
-        Line setup{first, 0, false, false, {}};
-        setup.event.text = fmt::format("RECCFG CR {:.0f} 2 1 {}", layout.rate_hz, layout.eyes());
-        if (has_coordinates) {
-            setup.ms = coordinates->ms;
-            setup.recording = coordinates->recording;
-        }
-        lines_.insert(coordinates, std::move(setup));
-        if (!has("ELCLCFG"))
-            add_message(first, 0, layout.eyes() == "LR" ? "ELCLCFG BTABLER" : "ELCLCFG MTABLER");
-    }
-    if (!has_coordinates)
-        add_message(first, 0,
-                    fmt::format("GAZE_COORDS 0.00 0.00 {}.00 {}.00", screen_px.x - 1, screen_px.y - 1));
-}
-
-/// A trial's first samples may be of a recording that began with a trial before, or in a file without START.
-void AscTrial::begin_recording(std::int64_t first, const AscLayout& layout) {
-    const auto kept = std::find_if(lines_.begin(), lines_.end(),
-                                   [](const Line& line) { return line.event.kind == Kind::started; });
-    if (kept != lines_.end() && kept->ms <= first)
-        return;
-    // Eye events lie in the recording, from its very first sample on.
-    for (Line& line : lines_)
-        line.recording += line.recording > 0 || line.ms > first || is_eye_event(line.event.kind);
-    Line start{first, 1, false, false, {}};
-    start.event.kind = Kind::started;
-    lines_.push_back(start);
-    if (!has("!MODE"))
-        add_message(first, 1, fmt::format("!MODE RECORD CR {:.0f} 2 1 {}", layout.rate_hz, layout.eyes()));
-}
-
-/// Readers pair each START with an END; eyelinker fails on two ENDs after one START.
-void AscTrial::end_recordings(std::int64_t after_last) {
-    const int recordings = count(Kind::started);
-    for (int recording = 1; recording <= recordings; ++recording) {
-        const auto is_of = [&](const Line& line) { return line.recording == recording; };
-        if (std::any_of(lines_.begin(), lines_.end(),
-                        [&](const Line& line) { return is_of(line) && line.event.kind == Kind::ended; }))
-            continue;
-        const auto next = std::find_if(lines_.begin(), lines_.end(), [&](const Line& line) {
-            return line.recording == recording + 1 && line.event.kind == Kind::started;
-        });
-        Line end{after_last, recording, true, false, {}};
-        if (next != lines_.end()) {
-            end.ms = next->ms;
-            end.after_samples = false;
-        } else {
-            for (const Line& line : lines_)
-                end.ms = is_of(line) ? std::max(end.ms, line.ms) : end.ms;
-        }
-        end.event.kind = Kind::ended;
-        lines_.push_back(end);
-    }
-}
-
-void AscTrial::add_condition(const SessionRecord& record, const TrialRecord& trial, std::int64_t ms,
-                             int recording) {
-    const SessionHeader& header = record.header();
-    const std::string task = text_at(header.tasks, trial.trial.task, "task"),
-                      sculpture = text_at(header.sculptures, trial.trial.condition.sculpture, "sculpture"),
-                      material = text_at(header.materials, trial.trial.condition.material, "material");
-    add_message(ms, recording,
-                fmt::format("CONDITION trial={} {} {} {} attempt={}", trial.trial.index + 1, task, sculpture,
-                            material, trial.attempt));
-    for (const std::string& variable : {task, sculpture, material}) {
-        const std::size_t sign = variable.find('=');
-        add_message(ms, recording,
-                    fmt::format("!V TRIAL_VAR {} {}", variable.substr(0, sign), variable.substr(sign + 1)));
-    }
-}
-
-void AscTrial::add_missing(const SessionRecord& record, const TrialRecord& trial,
-                           const std::optional<ClockMap>& clock_map, const AscLayout& layout) {
-    const SessionHeader& header = record.header();
-    const TrialOutcome& outcome = trial.outcome;
-    const auto span = record.sample_span(trial);
-    if (!clock_map && !span && lines_.empty())
-        return; // nothing says when it was
-    const std::int64_t first = span              ? asc_milliseconds(span->first)
-                               : !lines_.empty() ? lines_.front().ms
-                                                 : asc_milliseconds(clock_map->to_other(trial.started));
-    const bool was_presented = !header.stimuli.empty();
-    const auto at = [&](SessionTime time) { return asc_milliseconds(clock_map->to_other(time)); };
-    // A screen that the attempt did not get to has no time.
-    const auto add_screen = [&](std::string_view word, SessionTime time, int recording) {
-        if (was_presented && clock_map && time > trial.started && trial.has_outcome() && !has(word))
-            add_message(at(time), recording, std::string(word));
+/// The lines in the order in which the file had them, and a begin for each fixation, saccade and blink,
+/// before the first line that is later.
+void AscTrial::keep(std::vector<GazeEvent> events) {
+    for (GazeEvent& event : events)
+        lines_.push_back(line_of(std::move(event)));
+    settle_places();
+    struct Begin {
+        std::size_t before;
+        Line line;
     };
-
-    if (span)
-        begin_recording(first, layout);
-    const auto interval_ms = std::max<std::int64_t>(1, static_cast<std::int64_t>(1000.0 / layout.rate_hz));
-    end_recordings(span ? asc_milliseconds(span->second) + interval_ms : first);
-    if (!has("TRIALID"))
-        add_message(was_presented && clock_map ? std::min(at(trial.started), first) : first, 0,
-                    fmt::format("TRIALID {}", trial.trial.index + 1));
-    add_screen(task_screen_message, outcome.task_screen_onset, 0);
-    if (span)
-        add_setup(first, header.display.screen.screen_px, layout);
-    // In the recording, for MNE and eyelinker leave out what stands before START and after END.
-    if (was_presented && !has("CONDITION"))
-        add_condition(record, trial, first, count(Kind::started) > 0 ? 1 : 0);
-    add_screen(onset_message, outcome.presentation_onset, 1);
-    add_screen(end_message, outcome.presentation_end, 1);
-    add_screen(response_screen_message, outcome.response_screen_onset, 1);
-    add_screen(response_message, outcome.responded_at, 1);
-    if (was_presented && !has("TRIAL_RESULT")) {
-        std::int64_t last = first;
-        for (const Line& line : lines_)
-            last = std::max(last, line.ms);
-        add_message(last + 1, 1,
-                    trial.counts          ? "TRIAL_RESULT 0"
-                    : trial.is_superseded ? "TRIAL_RESULT superseded"
-                                          : fmt::format("TRIAL_RESULT {}", name_of(trial.status)));
+    std::vector<Begin> begins;
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+        if (!is_eye_event(lines_[i].event.kind))
+            continue;
+        Line begin = line_of(lines_[i].event, true);
+        const auto end = lines_.begin() + static_cast<std::ptrdiff_t>(i);
+        const auto later =
+            std::upper_bound(lines_.begin(), end, begin.place,
+                             [](const Place& place, const Line& line) { return place < line.place; });
+        begins.push_back({static_cast<std::size_t>(later - lines_.begin()), std::move(begin)});
     }
-}
-
-AscTrial::AscTrial(const SessionRecord& record, const TrialRecord& trial,
-                   const std::optional<ClockMap>& clock_map, const AscLayout& layout) {
-    add_kept(record, trial);
-    add_missing(record, trial, clock_map, layout);
-    std::stable_sort(lines_.begin(), lines_.end(), [](const Line& a, const Line& b) {
-        return std::tuple(a.recording, a.ms, a.after_samples, a.begins_an_event) <
-               std::tuple(b.recording, b.ms, b.after_samples, b.begins_an_event);
+    // A blink lies in a saccade.
+    std::stable_sort(begins.begin(), begins.end(), [](const Begin& a, const Begin& b) {
+        const auto key = [](const Begin& begin) {
+            return std::tuple(begin.before, begin.line.at, begin.line.event.kind != Kind::saccade);
+        };
+        return key(a) < key(b);
     });
-}
-
-void AscTrial::write(AscWriter& writer, const Line& line) {
-    switch (line.event.kind) {
-    case Kind::fixation:
-    case Kind::saccade:
-    case Kind::blink:
-        return line.begins_an_event ? writer.event_begin(line.event) : writer.event_end(line.event);
-    case Kind::message:
-        return writer.message(line.ms, line.event.text);
-    case Kind::button:
-    case Kind::input:
-        return writer.port(line.event);
-    case Kind::started:
-        return writer.start(line.ms, line.event.text);
-    case Kind::ended:
-        return writer.end(line.ms, line.event.text);
-    case Kind::note:
-        return writer.note(line.event.text);
+    std::vector<Line> merged;
+    merged.reserve(lines_.size() + begins.size());
+    auto begin = begins.begin();
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+        for (; begin != begins.end() && begin->before <= i; ++begin)
+            merged.push_back(std::move(begin->line));
+        merged.push_back(std::move(lines_[i]));
     }
+    lines_ = std::move(merged);
+    settle_places();
 }
 
-void AscTrial::write_until(AscWriter& writer, std::span<const GazeSample> instant) {
-    const std::int64_t ms = asc_milliseconds(instant.front().sampled_at);
-    while (written_ < lines_.size()) {
-        Line& line = lines_[written_];
-        if (line.ms > ms || (line.ms == ms && line.after_samples))
-            return;
-        // The file's START may name fewer eyes than its samples have; one that was added names none.
-        if (line.event.kind == Kind::started) {
-            if (line.event.text.empty())
-                line.event.text = writer.layout().eye_names();
-            for (const GazeSample& sample : instant)
-                line.event.text += sample.eye == Eye::left ? " LEFT" : " RIGHT";
-        }
-        write(writer, line);
-        ++written_;
-    }
+/// In the last recording where there is one, for MNE and eyelinker leave out what stands outside of START and
+/// END.
+void AscTrial::insert(Line line) {
+    const auto of = [](Kind kind) { return [kind](const Line& other) { return other.event.kind == kind; }; };
+    const auto started = std::find_if(lines_.begin(), lines_.end(), of(Kind::started));
+    const auto ended = std::find_if(lines_.rbegin(), lines_.rend(), of(Kind::ended));
+    const auto from = started == lines_.end() ? lines_.begin() : started + 1;
+    const auto to = ended == lines_.rend() || ended.base() - 1 < from ? lines_.end() : ended.base() - 1;
+    lines_.insert(std::upper_bound(from, to, line.place,
+                                   [](const Place& place, const Line& other) { return place < other.place; }),
+                  std::move(line));
+    settle_places();
 }
 
-void AscTrial::finish(AscWriter& writer) {
-    while (written_ < lines_.size())
-        write(writer, lines_[written_++]);
+/// Fixations, saccades and blinks that no file had, by their times; a blink lies in a saccade.
+void AscTrial::insert_detected(std::vector<GazeEvent> events) {
+    std::stable_sort(events.begin(), events.end(), [](const GazeEvent& a, const GazeEvent& b) {
+        return std::pair(a.start, a.kind != Kind::saccade) < std::pair(b.start, b.kind != Kind::saccade);
+    });
+    for (const GazeEvent& event : events)
+        insert(line_of(event, true));
+    std::stable_sort(events.begin(), events.end(),
+                     [](const GazeEvent& a, const GazeEvent& b) { return a.end < b.end; });
+    for (const GazeEvent& event : events)
+        insert(line_of(event));
 }
 
 std::vector<std::pair<std::string_view, SessionTime>> screens_of(const TrialRecord& attempt) {
@@ -232,11 +135,228 @@ std::vector<std::pair<std::string_view, SessionTime>> screens_of(const TrialReco
         {end_message, outcome.presentation_end},
         {response_screen_message, outcome.response_screen_onset},
         {response_message, outcome.responded_at}};
-    // Screens that an attempt did not get to have no time.
-    std::erase_if(screens, [&](const auto& screen) {
-        return !attempt.has_outcome() || screen.second <= attempt.started;
-    });
+    std::erase_if(screens, [&](const auto& screen) { return !attempt.reached(screen.second); });
     return screens;
+}
+
+namespace {
+
+std::string condition_text(const SessionHeader& header, const TrialRecord& trial) {
+    std::string text = fmt::format("CONDITION trial={}", trial.trial.index + 1);
+    for (const auto& [name, value] : variables_of(header, trial.trial))
+        text += fmt::format(" {}={}", name, value);
+    return text + fmt::format(" attempt={}", trial.attempt);
+}
+
+std::string result_text(const TrialRecord& trial) {
+    return trial.counts          ? "TRIAL_RESULT 0"
+           : trial.is_superseded ? "TRIAL_RESULT superseded"
+                                 : fmt::format("TRIAL_RESULT {}", name_of(trial.status));
+}
+
+/// What was answered, and how long after the response screen; empty if nothing was.
+std::string answer_text(const TrialRecord& trial) {
+    const TrialOutcome& outcome = trial.outcome;
+    if (!trial.reached(outcome.responded_at) || !trial.reached(outcome.response_screen_onset))
+        return {};
+    const double ms = 1e3 * to_seconds(outcome.responded_at - outcome.response_screen_onset);
+    return fmt::format("ANSWER response_time_ms={:.3f}{}", ms,
+                       outcome.answer.empty() ? "" : " answer=" + outcome.answer);
+}
+
+} // namespace
+
+/// A trial that the session recorded itself.
+void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
+                          const std::optional<ClockMap>& clock_map) {
+    const auto span = record.sample_span(trial);
+    if (!clock_map && !span)
+        return; // nothing says when it was
+    const SessionHeader& header = record.header();
+    const auto at = [&](SessionTime time) { return clock_map->to_other(time); };
+    const TrackerTime first = span ? span->first : at(trial.started);
+    const auto add = [&](TrackerTime time, std::string text) {
+        lines_.push_back(message_at(time, std::move(text)));
+    };
+    if (clock_map)
+        for (const auto& [word, screen] : screens_of(trial))
+            add(at(screen), std::string(word));
+    if (span) {
+        if (const std::string answer = answer_text(trial); !answer.empty())
+            add(span->second, answer);
+    }
+    std::stable_sort(lines_.begin(), lines_.end(),
+                     [](const Line& a, const Line& b) { return a.place < b.place; });
+
+    // Before START what came before the first sample, and within START and END all the rest, even what came
+    // when the tracker had stopped, for readers leave out what stands outside.
+    std::vector<Line> before{message_at(clock_map ? std::min(at(trial.started), first) : first,
+                                        fmt::format("TRIALID {}", trial.trial.index + 1))};
+    std::vector<Line> within;
+    for (Line& line : lines_)
+        (span && line.place.at >= rounded(first) ? within : before).push_back(std::move(line));
+    lines_ = std::move(before);
+    if (span) {
+        add(first, fmt::format("RECCFG CR {:.0f} 2 1 {}", layout_.rate_hz, layout_.eyes()));
+        add(first, layout_.eyes() == "LR" ? "ELCLCFG BTABLER" : "ELCLCFG MTABLER");
+        const glm::ivec2 screen_px = header.display.screen.screen_px;
+        add(first, fmt::format("GAZE_COORDS 0.00 0.00 {}.00 {}.00", screen_px.x - 1, screen_px.y - 1));
+        GazeEvent start;
+        start.kind = Kind::started;
+        start.start = start.end = first;
+        start.text = fmt::format(
+            "{}{}", layout_.has_left ? (layout_.has_right ? "LEFT RIGHT" : "LEFT") : "RIGHT", usual_tracking);
+        lines_.push_back(line_of(std::move(start)));
+        add(first, fmt::format("!MODE RECORD CR {:.0f} 2 1 {}", layout_.rate_hz, layout_.eyes()));
+    }
+    add(first, condition_text(header, trial));
+    for (const auto& [name, value] : variables_of(header, trial.trial))
+        add(first, fmt::format("!V TRIAL_VAR {} {}", name, value));
+    for (Line& line : within)
+        lines_.push_back(std::move(line));
+    if (span) {
+        const auto interval_us = static_cast<std::int64_t>(1e6 / layout_.rate_hz);
+        GazeEvent end;
+        end.kind = Kind::ended;
+        end.start = end.end =
+            rounded(span->second) + std::max(TrackerClock::duration(std::chrono::milliseconds(1)),
+                                             TrackerClock::duration(interval_us));
+        lines_.push_back(line_of(std::move(end)));
+    }
+    TrackerTime last = first;
+    for (const Line& line : lines_)
+        last = std::max(last, line.at);
+    add(last + std::chrono::milliseconds(1), result_text(trial));
+    settle_places();
+}
+
+/// What a file whose gaze became that of a trial does not say of it.
+void AscTrial::add_missing(const SessionRecord& record, const TrialRecord& trial,
+                           const std::optional<ClockMap>& clock_map) {
+    const SessionHeader& header = record.header();
+    const auto span = record.sample_span(trial);
+    if (!span && lines_.empty())
+        return;
+    const TrackerTime first =
+        span && (lines_.empty() || span->first < lines_.front().at) ? span->first : lines_.front().at;
+    const bool is_named =
+        std::any_of(lines_.begin(), lines_.end(), [](const Line& line) { return is_trial_id(line.event); });
+    if (!is_named) {
+        lines_.insert(lines_.begin(), message_at(first, fmt::format("TRIALID {}", trial.trial.index + 1)));
+        settle_places();
+    }
+    if (header.stimuli.empty())
+        return; // nobody but the file knows more
+    if (!has("CONDITION")) {
+        const TrackerTime at = span ? span->first : first;
+        insert(message_at(at, condition_text(header, trial)));
+        for (const auto& [name, value] : variables_of(header, trial.trial))
+            insert(message_at(at, fmt::format("!V TRIAL_VAR {} {}", name, value)));
+    }
+    if (clock_map)
+        for (const auto& [word, screen] : screens_of(trial))
+            if (!has(word) && !(word == end_message && has(earlier_end_message)))
+                insert(message_at(clock_map->to_other(screen), std::string(word)));
+    if (!has("TRIAL_RESULT")) {
+        TrackerTime last = span ? span->second : first;
+        for (const Line& line : lines_)
+            last = std::max(last, line.at);
+        lines_.push_back(message_at(last + std::chrono::milliseconds(1), result_text(trial)));
+    }
+}
+
+/// The parser of OpenSesame's users knows a trial by start_trial and end_trial, and cuts samples by phases.
+void AscTrial::frame_for_opensesame(const SessionRecord& record, const TrialRecord& trial) {
+    if (lines_.empty() || has("start_trial"))
+        return;
+    const auto named =
+        std::find_if(lines_.begin(), lines_.end(), [](const Line& line) { return is_trial_id(line.event); });
+    const TrackerTime begin = named == lines_.end() ? lines_.front().at : named->at;
+    std::vector<Line> first{message_at(begin, fmt::format("start_trial {}", trial.trial.index + 1))};
+    if (!record.header().stimuli.empty())
+        for (const auto& [name, value] : variables_of(record.header(), trial.trial))
+            first.push_back(message_at(begin, fmt::format("var {} {}", name, value)));
+    lines_.insert(named == lines_.end() ? lines_.begin() : named + 1, first.begin(), first.end());
+    for (const auto& [word, phase] : {std::pair{onset_message, "start_phase presentation"},
+                                      std::pair{end_message, "end_phase presentation"}}) {
+        const auto found = std::find_if(lines_.begin(), lines_.end(), [&](const Line& line) {
+            return line.event.kind == Kind::message && Words(line.event.text).next() == word;
+        });
+        if (found != lines_.end())
+            lines_.insert(found + 1, message_at(found->at, phase));
+    }
+    TrackerTime last = begin;
+    for (const Line& line : lines_)
+        last = std::max(last, line.at);
+    lines_.push_back(message_at(last, "end_trial"));
+    settle_places();
+}
+
+AscTrial::AscTrial(const SessionRecord& record, const TrialRecord& trial,
+                   const std::optional<ClockMap>& clock_map, const AscLayout& layout, Messages messages)
+    : layout_(layout) {
+    if (record.gaze_source(trial.sitting)) {
+        std::vector<GazeEvent> events = events_of(record, trial), detected;
+        if (record.event_origin(trial.sitting).from == SessionRecord::EventOrigin::From::reading) {
+            const auto of_file =
+                std::stable_partition(events.begin(), events.end(),
+                                      [](const GazeEvent& event) { return !is_eye_event(event.kind); });
+            detected.assign(of_file, events.end());
+            events.erase(of_file, events.end());
+        }
+        keep(std::move(events));
+        insert_detected(std::move(detected));
+        add_missing(record, trial, clock_map);
+    } else {
+        write_down(record, trial, clock_map);
+        insert_detected(events_of(record, trial));
+    }
+    if (messages.of_opensesame)
+        frame_for_opensesame(record, trial);
+}
+
+AscTrial::AscTrial(std::vector<GazeEvent> events, const AscLayout& layout) : layout_(layout) {
+    keep(std::move(events));
+}
+
+namespace {
+
+void write_event(AscRecordings& to, const GazeEvent& event, bool begins_an_event,
+                 std::span<const GazeSample> next) {
+    switch (event.kind) {
+    case Kind::fixation:
+    case Kind::saccade:
+    case Kind::blink:
+        return begins_an_event ? to.writer().event_begin(event) : to.writer().event_end(event);
+    case Kind::message:
+        return to.message(event.start, event.text);
+    case Kind::button:
+    case Kind::input:
+        return to.writer().port(event);
+    case Kind::started:
+        return to.start(event.start, event.text, next);
+    case Kind::ended:
+        return to.end(event.start, event.text);
+    case Kind::note:
+        return to.writer().note(event.text);
+    }
+}
+
+} // namespace
+
+void AscTrial::write_until(AscRecordings& to, std::span<const GazeSample> instant) {
+    const TrackerTime now = rounded(instant.front().sampled_at);
+    for (; written_ < lines_.size(); ++written_) {
+        const Line& line = lines_[written_];
+        if (line.place.at > now || (line.place.at == now && line.place.after_samples))
+            return;
+        write_event(to, line.event, line.begins_an_event, instant);
+    }
+}
+
+void AscTrial::finish(AscRecordings& to) {
+    for (; written_ < lines_.size(); ++written_)
+        write_event(to, lines_[written_].event, lines_[written_].begins_an_event, {});
 }
 
 } // namespace overt

@@ -89,32 +89,71 @@ void AscWriter::note(std::string_view text) {
     line(ascii_of(text));
 }
 
-void AscWriter::message(std::int64_t ms, std::string_view text) {
+std::string AscWriter::written(TrackerTime time) const {
+    const TrackerTime from_base = time - std::chrono::milliseconds(layout_.base_ms);
+    if (!layout_.fractional_times)
+        return fmt::format("{}", asc_milliseconds(from_base));
+    return written(from_base.time_since_epoch());
+}
+
+std::string AscWriter::written(TrackerClock::duration duration) const {
+    const std::int64_t us = duration.count();
+    if (!layout_.fractional_times || us % 1000 == 0)
+        return fmt::format("{}", us / 1000);
+    std::string text;
+    append_scaled(text, us, 3);
+    text.resize(text.find_last_not_of('0') + 1);
+    return text;
+}
+
+void AscWriter::message(TrackerTime at, std::string_view text) {
     if (Words words(text); words.next() == "RECCFG") {
         words.next();
         if (const std::optional<double> rate_hz = number_of(words.next()); rate_hz && *rate_hz >= 1.0)
             layout_.rate_hz = *rate_hz;
     }
-    file_.text() += fmt::format("MSG\t{} {}", ms - layout_.base_ms, ascii_of(text));
+    file_.text() += fmt::format("MSG\t{} {}", written(at), ascii_of(text));
     end_line();
 }
 
-void AscWriter::start(std::int64_t ms, std::string_view recorded) {
-    if (!recorded.empty()) {
-        layout_.has_left = recorded.find("LEFT") != std::string_view::npos;
-        layout_.has_right = recorded.find("RIGHT") != std::string_view::npos;
+AscStart asc_start(std::string_view text, const AscLayout& layout) {
+    AscStart start;
+    Words words(text);
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+        if (word == "LEFT")
+            start.left = true;
+        else if (word == "RIGHT")
+            start.right = true;
+        else
+            start.tracking += fmt::format(" {}", word);
     }
+    if (!start.left && !start.right) {
+        start.left = layout.has_left;
+        start.right = layout.has_right;
+    }
+    return start;
+}
+
+void AscWriter::set_eyes(const AscStart& start) {
+    layout_.has_left = start.left;
+    layout_.has_right = start.right;
+    layout_.has_status = start.tracking.find("TRACKING") != std::string::npos;
+}
+
+void AscWriter::start(TrackerTime at, const AscStart& start) {
+    set_eyes(start);
     const std::string_view eyes = layout_.eye_names();
-    line(fmt::format("START\t{} \t{}\tSAMPLES\tEVENTS", ms - layout_.base_ms, eyes));
+    line(fmt::format("START\t{} \t{}\tSAMPLES\tEVENTS", written(at), eyes));
     line("PRESCALER\t1");
     line("VPRESCALER\t1");
     line(layout_.pupil_is_diameter ? "PUPIL\tDIAMETER" : "PUPIL\tAREA");
+    std::string tracking = ascii_of(start.tracking);
+    std::replace(tracking.begin(), tracking.end(), ' ', '\t');
     for (const char* what : {"EVENTS", "SAMPLES"})
-        line(
-            fmt::format("{}\tGAZE\t{}\tRATE\t{:7.2f}\tTRACKING\tCR\tFILTER\t2", what, eyes, layout_.rate_hz));
+        line(fmt::format("{}\tGAZE\t{}\tRATE\t{:7.2f}{}", what, eyes, layout_.rate_hz, tracking));
 }
 
-void AscWriter::end(std::int64_t ms, std::string_view resolution) {
+void AscWriter::end(TrackerTime at, std::string_view resolution) {
     std::string x = ".", y = ".";
     if (const std::size_t blank = resolution.find(' '); blank != std::string_view::npos) {
         x = resolution.substr(0, blank);
@@ -123,7 +162,7 @@ void AscWriter::end(std::int64_t ms, std::string_view resolution) {
         x = fmt::format("{:.2f}", *layout_.px_per_deg_x);
         y = fmt::format("{:.2f}", *layout_.px_per_deg_y);
     }
-    line(fmt::format("END\t{} \tSAMPLES\tEVENTS\tRES\t{:>7}\t{:>7}", ms - layout_.base_ms, x, y));
+    line(fmt::format("END\t{} \tSAMPLES\tEVENTS\tRES\t{:>7}\t{:>7}", written(at), x, y));
 }
 
 void AscWriter::eye(const GazeSample* sample) {
@@ -141,11 +180,7 @@ void AscWriter::append_stamp(TrackerTime time) {
     if (layout_.fractional_times)
         append_scaled(file_.text(), time.time_since_epoch().count() - 1000 * layout_.base_ms, 3);
     else
-        append_scaled(file_.text(), written_ms(time), 0);
-}
-
-void AscWriter::samples(std::span<const GazeSample> samples) {
-    append_stamp(samples.front().sampled_at);
+        append_scaled(file_.text(), asc_milliseconds(time) - layout_.base_ms, 0);
     const auto of = [&](Eye eye) -> const GazeSample* {
         for (const GazeSample& sample : samples)
             if (sample.eye == eye)
@@ -156,27 +191,21 @@ void AscWriter::samples(std::span<const GazeSample> samples) {
         eye(of(Eye::left));
     if (layout_.has_right)
         eye(of(Eye::right));
-    file_.text() += layout_.has_left && layout_.has_right ? "\t....." : "\t...";
+    if (layout_.has_status)
+        file_.text() += layout_.has_left && layout_.has_right ? "\t....." : "\t...";
     end_line();
 }
 
 void AscWriter::event_begin(const GazeEvent& event) {
     append_prefix(file_.text(), event, true);
-    append_stamp(event.start);
+    file_.text() += written(event.start);
     end_line();
 }
 
 void AscWriter::event_end(const GazeEvent& event) {
     std::string& text = file_.text();
     append_prefix(text, event, false);
-    append_stamp(event.start);
-    text += '\t';
-    append_stamp(event.end);
-    text += '\t';
-    if (layout_.fractional_times)
-        append_scaled(text, event.duration.count(), 3);
-    else
-        append_scaled(text, event.duration.count() / 1000, 0);
+    text += fmt::format("{}\t{}\t{}", written(event.start), written(event.end), written(event.duration));
     if (event.kind == GazeEvent::Kind::fixation) {
         append_place(text, event.place);
         append_or_dot(text, event.pupil, 0);
@@ -194,7 +223,7 @@ void AscWriter::port(const GazeEvent& event) {
     for (char& c : values)
         c = c == ' ' ? '\t' : c;
     line(fmt::format("{}\t{}\t{}", event.kind == GazeEvent::Kind::button ? "BUTTON" : "INPUT",
-                     written_ms(event.start), values));
+                     written(event.start), values));
 }
 
 } // namespace overt

@@ -20,13 +20,24 @@ struct AscLayout {
     bool pupil_is_diameter = false;
     std::optional<double> px_per_deg_x, px_per_deg_y; ///< at the middle of the screen
     std::int64_t base_ms = 0;                         ///< taken from every time
-    /// Times of samples, fixations, saccades and blinks with their microseconds instead of whole
-    /// milliseconds.
-    bool fractional_times = false;
+    bool fractional_times = false; ///< times with their microseconds instead of whole milliseconds
+    bool has_status = true;        ///< of each sample, as SAMPLES says with TRACKING
 
     std::string_view eyes() const { return has_left ? (has_right ? "LR" : "L") : "R"; }
     std::string_view eye_names() const { return has_left ? (has_right ? "LEFT\tRIGHT" : "LEFT") : "RIGHT"; }
 };
+
+/// What a START says, besides its time.
+struct AscStart {
+    bool left = false, right = false;
+    std::string tracking; ///< at the end of the layout's lines, such as " TRACKING CR FILTER 2"; may be empty
+};
+
+/// As EyeLinks have it.
+inline constexpr std::string_view usual_tracking = " TRACKING CR FILTER 2";
+
+/// From GazeEvent::Kind::started's text; of one that names no eye the layout's.
+AscStart asc_start(std::string_view text, const AscLayout& layout);
 
 /// Whole milliseconds of the tracker's clock, as ASC has times: fractions are left out, so that at 2000 Hz
 /// each number stands twice.
@@ -45,12 +56,13 @@ class AscWriter {
     void line(std::string_view text);
     /// A line without a time, such as of a calibration's table.
     void note(std::string_view text);
-    void message(std::int64_t ms, std::string_view text);
-    /// START with what is recorded, at the rate that the last message RECCFG named. `recorded`: the eyes
-    /// of this recording, LEFT, RIGHT or both; empty: as before.
-    void start(std::int64_t ms, std::string_view recorded = {});
+    void message(TrackerTime at, std::string_view text);
+    /// The eyes of the recording that is to begin.
+    void set_eyes(const AscStart& start);
+    /// START with what is recorded, at the rate that the last message RECCFG named.
+    void start(TrackerTime at, const AscStart& start);
     /// END; `resolution` as in GazeEvent::Kind::ended, or empty: the layout's.
-    void end(std::int64_t ms, std::string_view resolution);
+    void end(TrackerTime at, std::string_view resolution);
     /// Samples of one instant: one of each recorded eye, at most; an eye without one has no gaze.
     void samples(std::span<const GazeSample> samples);
     /// SFIX, SSACC or SBLINK.
@@ -66,8 +78,9 @@ class AscWriter {
 
   private:
     void eye(const GazeSample* sample);
-    void append_stamp(TrackerTime time);
-    std::int64_t written_ms(TrackerTime time) const { return asc_milliseconds(time) - layout_.base_ms; }
+    /// In milliseconds: whole ones, or with what is left of a fraction.
+    std::string written(TrackerTime time) const;
+    std::string written(TrackerClock::duration duration) const;
     void end_line();
 
     OutputFile file_;

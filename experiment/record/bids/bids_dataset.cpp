@@ -62,16 +62,20 @@ void write_if_missing(const fs::path& file, const std::string& text) {
         write_text_file(file, text);
 }
 
-constexpr const char* readme = "# Eye tracking on animated sculptures\n\n"
-                               "Written by overt in the layout of BIDS with eye tracking. Each sitting of a "
-                               "session is a run. Gaze is raw, as the\n"
-                               "tracker gave it, in pixels and in the time of the tracker's own clock "
-                               "(`timestamp`); `StartTime` and the onsets of\n"
-                               "the events count from the first gaze sample of the run. Where each sample "
-                               "was on the surface of the sculpture\n"
-                               "stands in `derivatives/overt`, row by row as the samples. In texts, tab, "
-                               "newline, carriage return and backslash\n"
-                               "are written as \\t, \\n, \\r and \\\\.\n";
+constexpr const char* readme =
+    "# Eye tracking on animated sculptures\n\n"
+    "Written by overt in the layout of BIDS with eye tracking. Each sitting of a "
+    "session is a run. Gaze is raw, as the\n"
+    "tracker gave it, in pixels and in the time of the tracker's own clock "
+    "(`timestamp`). `onset` of the\n"
+    "events is by the clock of the session, from the first gaze sample of the run: "
+    "the two clocks run apart, by\n"
+    "milliseconds in some minutes. `tracker_onset` gives the same instant by the "
+    "tracker's clock, to go with `timestamp`.\n"
+    "Where each sample was on the surface of the sculpture stands in "
+    "`derivatives/overt`, row by row as the samples.\n"
+    "In texts, tab, newline, carriage return and backslash are written as \\t, "
+    "\\n, \\r and \\\\.\n";
 
 constexpr const char* derivative_readme =
     "# Places on the surface\n\n"

@@ -1,6 +1,8 @@
 #include "experiment/record/bids/bids_events.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,6 +10,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/json_text.h"
+#include "experiment/record/bids/bids_names.h"
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/record/tables/joined_cells.h"
 #include "experiment/record/tables/table_writer.h"
@@ -31,7 +34,7 @@ template <class List> Levels levels_of(const List& list) {
 
 /// An attempt at a trial, or a screen that it got to.
 struct BidsEvent {
-    const TrialRecord& trial;
+    std::reference_wrapper<const TrialRecord> attempt;
     std::string_view what;
     SessionTime from, to; ///< the same where something else ended it
     std::optional<SessionDuration> response_time = {};
@@ -40,7 +43,8 @@ struct BidsEvent {
 };
 
 /// `header` must outlive it.
-RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero) {
+RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero,
+                                   const std::optional<ClockMap>& clock_map) {
     Levels tasks, blocks;
     for (const RecordedTask& task : header.tasks)
         tasks.emplace_back(task.id, task.question.empty() ? task.id : task.question);
@@ -50,7 +54,10 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
         "",
         "",
         {
-            {{"onset", "Begin of the event, from the first gaze sample of the run", "s", {}},
+            {{"onset",
+              "Begin of the event by the session's clock, from the first gaze sample of the run",
+              "s",
+              {}},
              [zero](auto& to, auto& row) { to.seconds(row.from - zero); }},
             {{"duration", "Until it gave way; n/a where it was cut off", "s", {}},
              [](auto& to, auto& row) { row.to > row.from ? to.seconds(row.to - row.from) : to.missing(); }},
@@ -66,10 +73,19 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
              [](auto& to, auto& row) { row.response_time ? to.seconds(*row.response_time) : to.missing(); }},
             {{"stim_file", "First frame of the animated stimulus, in the folder stimuli", "", {}},
              [](auto& to, auto& row) { to.text(row.stimulus_file); }},
+            {{"tracker_onset",
+              "Begin of the event by the tracker's own clock, as the timestamps of the samples; by the line "
+              "through the readings of both clocks. The two clocks run apart: onsets are by the session's",
+              "us",
+              {}},
+             [clock_map](auto& to, auto& row) {
+                 clock_map ? to.integer(clock_map->to_other(row.from).time_since_epoch().count())
+                           : to.missing();
+             }},
             {{"trial", "Position of the trial in the observer's order, from 1", "", {}},
-             [](auto& to, auto& row) { to.integer(row.trial.trial.index + 1); }},
+             [](auto& to, auto& row) { to.integer(row.attempt.get().trial.index + 1); }},
             {{"attempt", "Which attempt at this trial, from 1", "", {}},
-             [](auto& to, auto& row) { to.integer(row.trial.attempt); }},
+             [](auto& to, auto& row) { to.integer(row.attempt.get().attempt); }},
             {{"status",
               "How the attempt ended",
               "",
@@ -77,27 +93,33 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
                {"aborted", "broken off, or failed and to come again"},
                {"interrupted", "cut off when the program was killed, and the session went on later"},
                {"open", "cut off when the program was killed"}}},
-             [](auto& to, auto& row) { to.word(name_of(row.trial.status)); }},
+             [](auto& to, auto& row) { to.word(name_of(row.attempt.get().status)); }},
             {{"counts",
               "Whether this is the attempt that counts",
               "",
               {{"yes", "completed"},
                {"no", "not completed, or its block was begun again later: the attempt there counts"}}},
-             [](auto& to, auto& row) { to.word(row.trial.counts ? "yes" : "no"); }},
+             [](auto& to, auto& row) { to.word(row.attempt.get().counts ? "yes" : "no"); }},
             {{"block", "The block that the trial is of, where there are blocks", "", blocks},
              [&header](auto& to, auto& row) {
-                 const std::string* const block = item_of(header.blocks, row.trial.trial.block);
+                 const std::string* const block = item_of(header.blocks, row.attempt.get().trial.block);
                  block ? to.text(*block) : to.missing();
              }},
-            {{"question", "Which question was asked", "", tasks},
-             [&header](auto& to, auto& row) { to.text(item(header.tasks, row.trial.trial.task).id); }},
+            {{"task", "Which task the trial was of", "", tasks},
+             [&header](auto& to, auto& row) {
+                 to.text(item(header.tasks, row.attempt.get().trial.task).id);
+             }},
+            {{"question", "The question as it was asked", "", {}},
+             [&header](auto& to, auto& row) {
+                 to.text(item(header.tasks, row.attempt.get().trial.task).question);
+             }},
             {{"sculpture", "Which sculpture was shown", "", levels_of(header.sculptures)},
              [&header](auto& to, auto& row) {
-                 to.text(item(header.sculptures, row.trial.trial.condition.sculpture).id);
+                 to.text(item(header.sculptures, row.attempt.get().trial.condition.sculpture).id);
              }},
             {{"material", "In which material it was shown", "", levels_of(header.materials)},
              [&header](auto& to, auto& row) {
-                 to.text(item(header.materials, row.trial.trial.condition.material).id);
+                 to.text(item(header.materials, row.attempt.get().trial.condition.material).id);
              }},
             {{"missed_refreshes", "Refreshes of the display that went by with an old picture", "", {}},
              [](auto& to, auto& row) {
@@ -113,33 +135,52 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
         }};
 }
 
-void write_events(TableWriter& to, const RowLayout<BidsEvent>& layout, const TrialRecord& trial,
-                  const StimulusFile& stimulus_file) {
+/// Until the answer; of an imported trial that tells of none, until its result or its last sample.
+SessionTime end_of(const SessionRecord& record, const TrialRecord& trial,
+                   const std::optional<ClockMap>& clock_map) {
+    if (trial.reached(trial.outcome.responded_at))
+        return trial.outcome.responded_at;
+    if (!clock_map || !record.gaze_source(trial.sitting))
+        return trial.started;
+    std::optional<TrackerTime> end;
+    record.read_gaze_events(trial, [&](const GazeEvent& event) {
+        if (event.kind == GazeEvent::Kind::message && event.text.starts_with("TRIAL_RESULT"))
+            end = event.start;
+    });
+    if (!end)
+        if (const auto span = record.sample_span(trial))
+            end = span->second;
+    return end ? std::max(clock_map->to_session(*end).time, trial.started) : trial.started;
+}
+
+void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTime end,
+                const StimulusFile& stimulus_file) {
     const TrialOutcome& outcome = trial.outcome;
-    // Screens that the attempt did not get to have no time.
-    const auto was = [&](SessionTime time) { return trial.has_outcome() && time > trial.started; };
-    layout.write(to, {.trial = trial,
-                      .what = "trial",
-                      .from = trial.started,
-                      .to = was(outcome.responded_at) ? outcome.responded_at : trial.started,
-                      .outcome = trial.has_outcome() ? &outcome : nullptr});
+    const auto was = [&](SessionTime time) { return trial.reached(time); };
+    to.push_back({.attempt = trial,
+                  .what = "trial",
+                  .from = trial.started,
+                  .to = end,
+                  .outcome = trial.has_outcome() ? &outcome : nullptr});
     if (was(outcome.task_screen_onset))
-        layout.write(to, {trial, "question", outcome.task_screen_onset, outcome.task_screen_onset});
+        to.push_back({trial, "question", outcome.task_screen_onset, outcome.task_screen_onset});
     if (was(outcome.presentation_onset))
-        layout.write(to, {trial,
-                          "presentation",
-                          outcome.presentation_onset,
-                          outcome.presentation_end,
-                          {},
-                          stimulus_file(trial.trial.condition)});
+        to.push_back({trial,
+                      "presentation",
+                      outcome.presentation_onset,
+                      outcome.presentation_end,
+                      {},
+                      stimulus_file(trial.trial.condition)});
     if (was(outcome.response_screen_onset)) {
         std::optional<SessionDuration> response_time;
         if (was(outcome.responded_at))
             response_time = outcome.responded_at - outcome.response_screen_onset;
-        layout.write(to,
-                     {trial, "response", outcome.response_screen_onset, outcome.responded_at, response_time});
+        to.push_back({trial, "response", outcome.response_screen_onset, outcome.responded_at, response_time});
     }
 }
+
+/// To the micrometre, as the nearest number to what is written: 0.3929, and not 0.39289999999999997.
+double metres(double mm) { return std::round(1000.0 * mm) / 1e6; }
 
 Json screen_of(const SessionRecord& record) {
     const RecordedDisplay& display = record.header().display;
@@ -149,10 +190,10 @@ Json screen_of(const SessionRecord& record) {
             fmt::format("{}: the size of the screen or its distance is not known, and BIDS requires "
                         "both. Import the recording again with --screen-mm and --distance-mm.",
                         record.directory().string()));
-    Json json{{"ScreenDistance", 1e-3 * screen.viewing_distance_mm},
+    Json json{{"ScreenDistance", metres(screen.viewing_distance_mm)},
               {"ScreenOrigin", {"top", "left"}},
               {"ScreenResolution", {screen.screen_px.x, screen.screen_px.y}},
-              {"ScreenSize", {1e-3 * screen.screen_mm.x, 1e-3 * screen.screen_mm.y}},
+              {"ScreenSize", {metres(screen.screen_mm.x), metres(screen.screen_mm.y)}},
               {"SoftwareName", "overt"},
               {"SoftwareVersion", record.header().program.version}};
     if (display.refresh_hz > 0.0)
@@ -166,19 +207,25 @@ void write_bids_events(const SessionRecord& record, int run, std::optional<Sessi
                        const StimulusFile& stimulus_file, const std::filesystem::path& stem) {
     const SessionHeader& header = record.header();
     const Json screen = screen_of(record);
-    const RowLayout<BidsEvent> layout = events_layout(header, zero.value_or(SessionTime()));
+    const std::optional<ClockMap> clock_map = record.clock_map(run);
+    const RowLayout<BidsEvent> layout = events_layout(header, zero.value_or(SessionTime()), clock_map);
     TableWriter writer(stem.string() + ".tsv", layout.table(), TableFormat::tsv, Packing::none,
                        TableWriter::Header::names);
+    std::vector<BidsEvent> events;
     for (const TrialRecord& trial : record.trials())
         if (trial.sitting == run)
-            write_events(writer, layout, trial, stimulus_file);
+            add_events(events, trial, end_of(record, trial, clock_map), stimulus_file);
+    std::stable_sort(events.begin(), events.end(),
+                     [](const BidsEvent& a, const BidsEvent& b) { return a.from < b.from; });
+    for (const BidsEvent& event : events)
+        layout.write(writer, event);
     writer.close();
 
     std::string questions;
     for (const RecordedTask& task : header.tasks)
         questions += (questions.empty() ? "" : "\n") + task.question;
     Json json;
-    json["TaskName"] = header.protocol.title.empty() ? header.protocol.name : header.protocol.title;
+    json["TaskName"] = bids_task_name(header);
     json["TaskDescription"] = "Questions about animated sculptures, each asked before its presentation and "
                               "answered after it";
     json["Instructions"] = questions.empty() ? "none" : questions;

@@ -91,6 +91,11 @@ BidsExportCounts export_bids(const SessionRecord& record, const LookupFor& looku
         write_bids_events(
             record, run, zero, [&](const Condition& condition) { return stimuli.file_of(condition); },
             raw / (names.run_stem(run) + "_events"));
+        // The derivative is to be valid on its own: its gaze needs a screen, too. It has no stimuli.
+        if (!record.header().stimuli.empty() && !record.eyes(run).none())
+            write_bids_events(
+                record, run, zero, [](const Condition&) { return std::string(); },
+                derived / (names.surface_run_stem(run) + "_events"));
         const BidsGazeCounts gaze = write_bids_gaze(record, run, lookup_for, raw, derived);
         if (gaze.samples == 0)
             counts.remarks.push_back(fmt::format("Run {} has no gaze samples, only events.", run));

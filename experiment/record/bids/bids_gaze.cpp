@@ -64,15 +64,15 @@ class EyeFiles {
   public:
     EyeFiles(const SessionRecord& record, Eye eye, int number, int run, bool pupil_is_diameter,
              const fs::path& raw, const fs::path& derived)
-        : record_(record), eye_(eye), stem_(BidsNames(record.header()).eye_stem(run, number)), raw_(raw),
-          derived_(derived), physio_(physio_layout(pupil_is_diameter)),
-          surface_(surface_layout(record.header())),
+        : record_(record), eye_(eye), stem_(BidsNames(record.header()).eye_stem(run, number)),
+          surface_stem_(BidsNames(record.header()).surface_stem(run, number)), raw_(raw), derived_(derived),
+          physio_(physio_layout(pupil_is_diameter)), surface_(surface_layout(record.header())),
           samples_(raw / (stem_ + "_physio.tsv.gz"), physio_.table(), TableFormat::tsv, Packing::gzip,
                    TableWriter::Header::none) {
         if (!record.header().stimuli.empty())
-            places_ = std::make_unique<TableWriter>(derived / (stem_ + "_desc-surface_physio.tsv.gz"),
-                                                    surface_.table(), TableFormat::tsv, Packing::gzip,
-                                                    TableWriter::Header::none);
+            places_ =
+                std::make_unique<TableWriter>(derived / (surface_stem_ + "_physio.tsv.gz"), surface_.table(),
+                                              TableFormat::tsv, Packing::gzip, TableWriter::Header::none);
     }
 
     Eye eye() const { return eye_; }
@@ -94,7 +94,7 @@ class EyeFiles {
 
     const SessionRecord& record_;
     Eye eye_;
-    std::string stem_;
+    std::string stem_, surface_stem_;
     fs::path raw_, derived_;
     RowLayout<JoinedRow> physio_, surface_;
     TableWriter samples_;
@@ -103,7 +103,7 @@ class EyeFiles {
 };
 
 Json EyeFiles::side_car(const Table& table, double start_s, int run) const {
-    Json json = bids_tracker(record_, run);
+    Json json = bids_tracker(record_, run, eye_);
     json["StartTime"] = start_s;
     json["PhysioType"] = "eyetrack";
     json["RecordedEye"] = eye_ == Eye::left ? "left" : "right";
@@ -129,7 +129,7 @@ void EyeFiles::close(const std::optional<ClockMap>& clock_map, std::optional<Ses
     }
     write_text_file(raw_ / (stem_ + "_physio.json"), json_text(side_car(physio_.table(), start_s, run)));
     if (places_)
-        write_text_file(derived_ / (stem_ + "_desc-surface_physio.json"),
+        write_text_file(derived_ / (surface_stem_ + "_physio.json"),
                         json_text(side_car(surface_.table(), start_s, run)));
     counts.samples += samples_.rows();
     ++counts.recordings;
@@ -167,7 +167,7 @@ BidsGazeCounts write_bids_gaze(const SessionRecord& record, int run, const Looku
         const bool has_places = files.front()->has_places();
         const SampleJoin join(record, trial, has_places ? lookup_for(sculpture) : nullptr);
         const std::vector<std::string> parts = part_cells_of(record.header(), sculpture, TableFormat::tsv);
-        record.read_samples(trial, samples_at_a_time, [&](std::span<const GazeSample> samples) {
+        const auto take = [&](std::span<const GazeSample> samples) {
             joined.resize(samples.size());
             if (has_places)
                 join.join(samples, joined);
@@ -182,7 +182,9 @@ BidsGazeCounts write_bids_gaze(const SessionRecord& record, int run, const Looku
                                     record.directory().string()));
                 (*of_eye)->sample({samples[i], joined[i], parts});
             }
-        });
+        };
+        record.read_samples(trial, samples_at_a_time, take);
+        record.read_samples_after(trial, samples_at_a_time, take);
     }
     BidsGazeCounts counts;
     const std::optional<ClockMap> clock_map = record.clock_map(run);

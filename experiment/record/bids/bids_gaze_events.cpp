@@ -8,7 +8,9 @@
 
 #include "experiment/base/json_text.h"
 #include "experiment/record/asc/asc_trial.h"
+#include "experiment/record/bids/bids_names.h"
 #include "experiment/record/tables/export_tables.h"
+#include "experiment/record/tables/gaze_event_rows.h"
 #include "experiment/record/tables/joined_cells.h"
 #include "experiment/record/tables/table_writer.h"
 
@@ -17,8 +19,7 @@ namespace {
 
 using Kind = GazeEvent::Kind;
 
-struct PhysioEvent {
-    const GazeEvent& event;
+struct PhysioEvent : EventRow {
     bool is_of_eye;
     std::optional<bool> has_blink; ///< of a saccade: whether a blink lies in it
 };
@@ -39,7 +40,7 @@ std::string message_of(const GazeEvent& event) {
 }
 
 RowLayout<PhysioEvent> physio_events_layout() {
-    return {
+    RowLayout<PhysioEvent> layout{
         "",
         "",
         {
@@ -64,36 +65,9 @@ RowLayout<PhysioEvent> physio_events_layout() {
              [](auto& to, auto& row) { row.has_blink ? to.integer(*row.has_blink) : to.missing(); }},
             {{"message", "Text sent to the tracker or by it; BUTTON and INPUT are its own ports", "", {}},
              [](auto& to, auto& row) { row.is_of_eye ? to.missing() : to.text(message_of(row.event)); }},
-            {{"x_px", "Mean place of a fixation, start of a saccade", "pixel", {}},
-             [](auto& to, auto& row) {
-                 row.event.place ? to.fixed(row.event.place->x_px, pixel_decimals) : to.missing();
-             }},
-            {{"y_px", "The same, downwards", "pixel", {}},
-             [](auto& to, auto& row) {
-                 row.event.place ? to.fixed(row.event.place->y_px, pixel_decimals) : to.missing();
-             }},
-            {{"end_x_px", "End of a saccade", "pixel", {}},
-             [](auto& to, auto& row) {
-                 row.event.arrival ? to.fixed(row.event.arrival->x_px, pixel_decimals) : to.missing();
-             }},
-            {{"end_y_px", "The same, downwards", "pixel", {}},
-             [](auto& to, auto& row) {
-                 row.event.arrival ? to.fixed(row.event.arrival->y_px, pixel_decimals) : to.missing();
-             }},
-            {{"pupil", "Mean pupil size of a fixation", "arbitrary", {}},
-             [](auto& to, auto& row) {
-                 row.event.pupil ? to.fixed(*row.event.pupil, pupil_decimals) : to.missing();
-             }},
-            {{"amplitude_deg", "Size of a saccade", "deg", {}},
-             [](auto& to, auto& row) {
-                 row.event.amplitude_deg ? to.fixed(*row.event.amplitude_deg, pixel_decimals) : to.missing();
-             }},
-            {{"peak_velocity_deg_s", "Peak velocity of a saccade", "deg/s", {}},
-             [](auto& to, auto& row) {
-                 row.event.peak_velocity_deg_s ? to.fixed(*row.event.peak_velocity_deg_s, pixel_decimals)
-                                               : to.missing();
-             }},
         }};
+    layout.add<EventRow>(event_value_columns("pixel", "arbitrary"));
+    return layout;
 }
 
 /// When the trial and its screens began, in the tracker's time.
@@ -114,21 +88,24 @@ std::vector<GazeEvent> begins_of(const TrialRecord& trial, const ClockMap& clock
 /// In the order of their begins.
 void write_events(TableWriter& to, const RowLayout<PhysioEvent>& layout, std::vector<GazeEvent> events,
                   Eye eye) {
+    std::erase_if(events, [&](const GazeEvent& event) {
+        return event.kind == Kind::note || (is_eye_event(event.kind) && event.eye != eye);
+    });
     std::stable_sort(events.begin(), events.end(),
                      [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
     const auto has_blink = [&](const GazeEvent& saccade) {
-        return std::any_of(events.begin(), events.end(), [&](const GazeEvent& other) {
-            return other.kind == Kind::blink && other.eye == saccade.eye && other.start >= saccade.start &&
-                   other.end <= saccade.end;
-        });
+        const auto from =
+            std::lower_bound(events.begin(), events.end(), saccade.start,
+                             [](const GazeEvent& event, TrackerTime time) { return event.start < time; });
+        for (auto other = from; other != events.end() && other->start <= saccade.end; ++other)
+            if (other->kind == Kind::blink && other->end <= saccade.end)
+                return true;
+        return false;
     };
-    for (const GazeEvent& event : events) {
-        const bool is_of_eye = is_eye_event(event.kind);
-        if (event.kind == Kind::note || (is_of_eye && event.eye != eye))
-            continue;
-        layout.write(to, {event, is_of_eye,
+    for (const GazeEvent& event : events)
+        layout.write(to, {{event},
+                          is_eye_event(event.kind),
                           event.kind == Kind::saccade ? std::optional(has_blink(event)) : std::nullopt});
-    }
 }
 
 } // namespace
@@ -140,23 +117,26 @@ void write_bids_gaze_events(const SessionRecord& record, int run, Eye eye,
                        TableWriter::Header::none);
     const bool is_imported = record.gaze_source(run).has_value();
     const std::optional<ClockMap> clock_map = record.clock_map(run);
-    std::vector<GazeEvent> outside;
-    record.read_gaze_events_outside([&](const GazeEvent& event) { outside.push_back(event); });
+    std::vector<GazeEvent> events;
+    const auto take = [&](const GazeEvent& event) { events.push_back(event); };
     if (is_imported)
-        write_events(writer, layout, std::move(outside), eye);
+        record.read_gaze_events_before(take);
     for (const TrialRecord& trial : record.trials()) {
         if (trial.sitting != run)
             continue;
-        std::vector<GazeEvent> events;
-        record.read_gaze_events(trial, [&](const GazeEvent& event) { events.push_back(event); });
-        if (!is_imported && clock_map)
+        record.read_gaze_events(trial, take);
+        if (is_imported) {
+            record.read_gaze_events_after(trial, take);
+        } else if (clock_map) {
             for (GazeEvent& begin : begins_of(trial, *clock_map))
                 events.push_back(std::move(begin));
-        write_events(writer, layout, std::move(events), eye);
+        }
     }
+    write_events(writer, layout, std::move(events), eye);
     writer.close();
 
     nlohmann::ordered_json json;
+    json["TaskName"] = bids_task_name(record.header());
     json["Description"] = is_imported
                               ? "Events and messages as the eye tracker recorded them."
                               : "When trials and their screens began, by the tracker's clock: computed from "

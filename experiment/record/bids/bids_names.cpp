@@ -6,6 +6,10 @@
 
 namespace overt {
 
+std::string bids_task_name(const SessionHeader& header) {
+    return header.protocol.title.empty() ? header.protocol.name : header.protocol.title;
+}
+
 BidsNames::BidsNames(const SessionHeader& header)
     : subject(header.schedule.observer.label), session(fmt::format("{:02}", header.session_number)) {
     for (const char c : header.protocol.name)
@@ -24,6 +28,14 @@ std::string BidsNames::task_stem() const {
 }
 
 std::string BidsNames::run_stem(int run) const { return fmt::format("{}run-{:02}", task_stem(), run); }
+
+std::string BidsNames::surface_run_stem(int run) const {
+    return fmt::format("{}acq-surface_run-{:02}", task_stem(), run);
+}
+
+std::string BidsNames::surface_stem(int run, int eye) const {
+    return fmt::format("{}_recording-eye{}", surface_run_stem(run), eye);
+}
 
 std::string BidsNames::eye_stem(int run, int eye) const {
     return fmt::format("{}_recording-eye{}", run_stem(run), eye);

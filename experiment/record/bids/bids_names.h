@@ -11,6 +11,9 @@ namespace overt {
 
 inline constexpr std::string_view bids_version = "1.11.1";
 
+/// What was done, in words.
+std::string bids_task_name(const SessionHeader& header);
+
 /// One sitting of a session: a run, for the tracker's clock may have begun anew with it.
 struct BidsNames {
     std::string subject; ///< "07" of sub-07
@@ -27,6 +30,10 @@ struct BidsNames {
     std::string run_stem(int run) const;
     /// The same with _recording-eye1; eyes count from 1.
     std::string eye_stem(int run, int eye) const;
+    /// Of the derivative, whose files have other names than the raw ones:
+    /// sub-07_ses-01_task-name_acq-surface_run-01_recording-eye1. BIDS 1.11 allows no desc- for beh.
+    std::string surface_stem(int run, int eye) const;
+    std::string surface_run_stem(int run) const;
 };
 
 } // namespace overt

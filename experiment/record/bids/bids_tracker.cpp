@@ -4,16 +4,18 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiment/ports/event_kinds.h"
 #include "experiment/record/asc/asc_words.h"
+#include "experiment/record/bids/bids_names.h"
+#include "experiment/record/read/recorded_validation.h"
 
 namespace overt {
 namespace {
 
-struct Validations {
+/// Of one eye, in one run.
+struct Calibrations {
     int count = 0;
-    double mean_deg = 0.0, max_deg = 0.0; ///< of the last
-    std::string type;                     ///< such as HV9
+    std::optional<ValidationResult> validation; ///< the last
+    std::string type;                           ///< such as HV9
 };
 
 /// The number before a word: 0.31 of "ERROR 0.31 avg.".
@@ -26,42 +28,53 @@ std::optional<double> number_before(std::string_view text, std::string_view word
     return blank == std::string_view::npos ? std::nullopt : number_of(text.substr(blank + 1, last - blank));
 }
 
-void take(Validations& validations, std::string_view text, std::string_view mean, std::string_view max) {
-    const auto mean_deg = number_before(text, mean), max_deg = number_before(text, max);
-    if (!mean_deg || !max_deg)
+/// ">>>>>>> CALIBRATION (HV9,P-CR) FOR LEFT: <<<<<<<<<" and
+/// "!CAL VALIDATION HV9 L LEFT  GOOD ERROR 0.31 avg. 0.75 max ..."
+void take_line(Calibrations& calibrations, const GazeEvent& event, std::string_view eye) {
+    const std::string_view text = event.text;
+    if (event.kind == GazeEvent::Kind::note && text.starts_with(">>>") &&
+        text.find(" CALIBRATION (") != std::string_view::npos)
+        calibrations.count +=
+            text.find(eye) != std::string_view::npos || text.find("BINOCULAR") != std::string_view::npos;
+    Words words(text);
+    if (event.kind != GazeEvent::Kind::message || words.next() != "!CAL" || words.next() != "VALIDATION")
         return;
-    ++validations.count;
-    validations.mean_deg = *mean_deg;
-    validations.max_deg = *max_deg;
+    const std::string_view type = words.next();
+    words.next();
+    const auto mean_deg = number_before(text, "avg."), max_deg = number_before(text, "max");
+    if (words.next() != eye || !mean_deg || !max_deg)
+        return;
+    calibrations.validation = {Degrees{*mean_deg}, Degrees{*max_deg}};
+    // No targets are named where a session of our own was exported.
+    calibrations.type = type == "HV0" ? "" : type;
 }
 
-Validations validations_of(const SessionRecord& record, int run, bool is_imported) {
-    Validations validations;
+Calibrations calibrations_of(const SessionRecord& record, int run, Eye eye, bool is_imported) {
+    Calibrations calibrations;
     if (!is_imported) {
         record.read_events([&](const RecordedEvent& event) {
-            // "mean error 0.312 deg, largest 0.754 deg"
-            if (event.sitting == run && event.kind == validation_event)
-                take(validations, event.detail, "deg,", "deg");
+            if (const auto validation = event.sitting == run ? validation_of(event) : std::nullopt) {
+                ++calibrations.count; // each ends with a validation
+                calibrations.validation = validation;
+            }
         });
-        return validations;
+        return calibrations;
     }
-    const auto take_message = [&](const GazeEvent& event) {
-        constexpr std::string_view beginning = "!CAL VALIDATION ";
-        if (event.kind != GazeEvent::Kind::message || !event.text.starts_with(beginning))
-            return;
-        take(validations, event.text, "avg.", "max");
-        validations.type = Words(std::string_view(event.text).substr(beginning.size())).next();
+    const auto take = [&](const GazeEvent& event) {
+        take_line(calibrations, event, eye == Eye::left ? "LEFT" : "RIGHT");
     };
-    record.read_gaze_events_outside(take_message);
+    record.read_gaze_events_before(take);
     for (const TrialRecord& trial : record.trials())
-        if (trial.sitting == run)
-            record.read_gaze_events(trial, take_message);
-    return validations;
+        if (trial.sitting == run) {
+            record.read_gaze_events(trial, take);
+            record.read_gaze_events_after(trial, take);
+        }
+    return calibrations;
 }
 
 } // namespace
 
-nlohmann::ordered_json bids_tracker(const SessionRecord& record, int run) {
+nlohmann::ordered_json bids_tracker(const SessionRecord& record, int run, Eye eye) {
     const SessionHeader& header = record.header();
     const std::optional<GazeSource> source = record.gaze_source(run);
     nlohmann::ordered_json json;
@@ -72,15 +85,16 @@ nlohmann::ordered_json bids_tracker(const SessionRecord& record, int run) {
         json["Manufacturer"] = "SR Research";
         json["EyeTrackingMethod"] = "P-CR";
     }
-    const Validations validations = validations_of(record, run, source.has_value());
-    if (validations.count > 0) {
-        json["CalibrationCount"] = validations.count;
-        json["AverageCalibrationError"] = validations.mean_deg;
-        json["MaximalCalibrationError"] = validations.max_deg;
+    const Calibrations calibrations = calibrations_of(record, run, eye, source.has_value());
+    if (calibrations.count > 0)
+        json["CalibrationCount"] = calibrations.count;
+    if (calibrations.validation) {
+        json["AverageCalibrationError"] = calibrations.validation->mean_error.value;
+        json["MaximalCalibrationError"] = calibrations.validation->max_error.value;
     }
-    if (!validations.type.empty())
-        json["CalibrationType"] = validations.type;
-    json["TaskName"] = header.protocol.title.empty() ? header.protocol.name : header.protocol.title;
+    if (!calibrations.type.empty())
+        json["CalibrationType"] = calibrations.type;
+    json["TaskName"] = bids_task_name(header);
     return json;
 }
 

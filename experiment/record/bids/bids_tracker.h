@@ -7,8 +7,9 @@
 
 namespace overt {
 
-/// Sampling rate, tracker, and what the run's validations gave: of an imported recording by the tracker's own
-/// messages, else by the session's events. Throws RecordError.
-nlohmann::ordered_json bids_tracker(const SessionRecord& record, int run);
+/// Sampling rate, tracker, how often it was calibrated for this eye in the run and what the last validation
+/// gave: of an imported recording by the tracker's own messages, else by the session's events. Throws
+/// RecordError.
+nlohmann::ordered_json bids_tracker(const SessionRecord& record, int run, Eye eye);
 
 } // namespace overt

@@ -40,10 +40,7 @@ std::string sentence_on(const SessionRecord::EventOrigin& origin) {
 
 void SessionRecord::read_gaze_events(const TrialRecord& trial,
                                      const std::function<void(const GazeEvent&)>& take) const {
-    reading_session(file_, [&] {
-        if (has_table(*database_, "gaze_event"))
-            overt::read_gaze_events(*database_, trial.id, take);
-    });
+    read_gaze_events_of(trial.id, take);
     if (event_origin(trial.sitting).from != EventOrigin::From::reading)
         return;
     EventTaker taker(take);
@@ -55,11 +52,27 @@ void SessionRecord::read_gaze_events(const TrialRecord& trial,
     detector.finish();
 }
 
-void SessionRecord::read_gaze_events_outside(const std::function<void(const GazeEvent&)>& take) const {
+void SessionRecord::read_gaze_events_of(std::int64_t trial_id,
+                                        const std::function<void(const GazeEvent&)>& take) const {
     reading_session(file_, [&] {
         if (has_table(*database_, "gaze_event"))
-            overt::read_gaze_events(*database_, 0, take);
+            overt::read_gaze_events(*database_, trial_id, take);
     });
+}
+
+void SessionRecord::read_gaze_events_before(const std::function<void(const GazeEvent&)>& take) const {
+    read_gaze_events_of(0, take);
+}
+
+void SessionRecord::read_gaze_events_after(const TrialRecord& trial,
+                                           const std::function<void(const GazeEvent&)>& take) const {
+    read_gaze_events_of(after_trial(trial.id), take);
+}
+
+void SessionRecord::read_gaze_events_outside(const std::function<void(const GazeEvent&)>& take) const {
+    read_gaze_events_before(take);
+    for (const TrialRecord& trial : trials_)
+        read_gaze_events_after(trial, take);
 }
 
 SessionRecord::EventOrigin SessionRecord::event_origin(int sitting) const {

@@ -108,11 +108,21 @@ std::vector<GazeSample> SessionRecord::samples(const TrialRecord& trial) const {
 
 void SessionRecord::read_samples(const TrialRecord& trial, std::size_t most,
                                  const std::function<void(std::span<const GazeSample>)>& take) const {
+    read_samples_of(trial.id, most, take);
+}
+
+void SessionRecord::read_samples_after(const TrialRecord& trial, std::size_t most,
+                                       const std::function<void(std::span<const GazeSample>)>& take) const {
+    read_samples_of(after_trial(trial.id), most, take);
+}
+
+void SessionRecord::read_samples_of(std::int64_t trial_id, std::size_t most,
+                                    const std::function<void(std::span<const GazeSample>)>& take) const {
     reading_session(file_, [&] {
         std::vector<GazeSample> piece;
         Query row(*database_,
                   "SELECT tracker_us, eye, x_px, y_px, pupil_area FROM sample WHERE trial_id = ? ORDER BY n");
-        row.bind(1, trial.id);
+        row.bind(1, trial_id);
         while (row.step()) {
             piece.push_back(read_sample(row));
             if (piece.size() == most) {
@@ -142,8 +152,8 @@ SessionRecord::Eyes SessionRecord::eyes(int sitting) const {
     return reading_session(file_, [&] {
         Query row(
             *database_,
-            "SELECT COALESCE(MAX(eye = 0), 0), COALESCE(MAX(eye <> 0), 0) FROM sample WHERE trial_id IN "
-            "(SELECT trial_id FROM trial WHERE sitting = ?)");
+            "SELECT COALESCE(MAX(eye = 0), 0), COALESCE(MAX(eye <> 0), 0) FROM sample WHERE ABS(trial_id) "
+            "IN (SELECT trial_id FROM trial WHERE sitting = ?)");
         row.bind(1, sitting);
         row.step();
         Eyes eyes;

@@ -47,12 +47,15 @@ struct TrialRecord {
     bool is_superseded = false; ///< its block was restarted later
     bool counts = false;        ///< completed, and not superseded
     SessionTime started;
-    TrialOutcome outcome; ///< meaningless while open, or interrupted
+    TrialOutcome outcome; ///< meaningless while open, or interrupted; its times: see reached()
     std::int64_t lost_flips = 0;
     std::int64_t lost_samples = 0;
 
     /// It came to its end, in order or not.
     bool has_outcome() const { return status == Status::completed || status == Status::aborted; }
+    /// It got to the screen, or the answer, that its outcome has at this time: those that it did not get to,
+    /// or that an imported recording does not tell of, are before its begin.
+    bool reached(SessionTime screen) const { return has_outcome() && screen >= started; }
 };
 std::string_view name_of(TrialRecord::Status status);
 
@@ -101,13 +104,23 @@ class SessionRecord {
     void read_samples(const TrialRecord& trial, std::size_t most,
                       const std::function<void(std::span<const GazeSample>)>& take) const;
 
+    /// The same of samples between a trial's result and the next trial, which belong to no trial: only
+    /// imported recordings have such.
+    void read_samples_after(const TrialRecord& trial, std::size_t most,
+                            const std::function<void(std::span<const GazeSample>)>& take) const;
+
     /// Times of the earliest and the latest sample of a trial; nothing if it has none.
     std::optional<std::pair<TrackerTime, TrackerTime>> sample_span(const TrialRecord& trial) const;
 
     /// What the tracker itself said during a trial, and its fixations, saccades and blinks by whoever
     /// event_origin() names; those that are found now come last, in the order of their ends.
     void read_gaze_events(const TrialRecord& trial, const std::function<void(const GazeEvent&)>& take) const;
-    /// The same outside of trials.
+    /// The same before the first trial.
+    void read_gaze_events_before(const std::function<void(const GazeEvent&)>& take) const;
+    /// The same between a trial's result and the next trial.
+    void read_gaze_events_after(const TrialRecord& trial,
+                                const std::function<void(const GazeEvent&)>& take) const;
+    /// The same outside of trials: before the first and between them.
     void read_gaze_events_outside(const std::function<void(const GazeEvent&)>& take) const;
     /// Where a sitting's fixations, saccades and blinks come from.
     struct EventOrigin {
@@ -153,6 +166,9 @@ class SessionRecord {
 
     /// What the observer filled in, in the order of the form. Sessions of earlier programs have nothing.
     std::vector<RecordedObserverField> observer_fields() const;
+
+    /// When a sitting began, by the wall clock, ISO 8601; empty if there is no such sitting.
+    std::string started_utc(int sitting) const;
 
     /// Readings of both clocks in one sitting: between sittings the tracker may have been restarted.
     std::vector<ClockPair> clock_pairs(int sitting) const;
@@ -202,6 +218,9 @@ class SessionRecord {
     /// By the session's screen, else by the imported recording's resolution; nothing if neither is known.
     std::optional<GazeAngles> gaze_angles(int sitting) const;
     EventOrigin find_event_origin(int sitting) const;
+    void read_samples_of(std::int64_t trial_id, std::size_t most,
+                         const std::function<void(std::span<const GazeSample>)>& take) const;
+    void read_gaze_events_of(std::int64_t trial_id, const std::function<void(const GazeEvent&)>& take) const;
 
     std::filesystem::path directory_;
     std::filesystem::path file_;

@@ -46,6 +46,14 @@ std::optional<GazeSource> SessionRecord::gaze_source(int sitting) const {
     });
 }
 
+std::string SessionRecord::started_utc(int sitting) const {
+    return reading_session(file_, [&] {
+        Query row(*database_, "SELECT started_utc FROM sitting WHERE sitting = ?");
+        row.bind(1, sitting);
+        return row.step() ? row.text() : std::string();
+    });
+}
+
 std::vector<ClockPair> SessionRecord::clock_pairs(int sitting) const {
     return reading_session(file_, [&] {
         return read_rows(

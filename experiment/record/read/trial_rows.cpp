@@ -64,14 +64,16 @@ std::string_view name_of(TrialOutcome::Afterwards afterwards) {
 }
 
 std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
-    // Sessions of earlier programs know of nothing that was completed and does not count.
+    // Screens without a time are before every session: see TrialRecord::reached. Sessions of earlier programs
+    // know of nothing that was completed and does not count.
     const bool tells_fates = has_column(database, "trial", "comes_again");
     return read_rows(
         database,
         fmt::format(
             "SELECT trial_id, sitting, trial, attempt, task, sculpture, material, status, started_ns, "
-            "task_screen_onset_ns, presentation_onset_ns, presentation_end_ns, "
-            "response_screen_onset_ns, responded_ns, shown_refreshes, missed_refreshes, drift_deg, "
+            "COALESCE(task_screen_onset_ns, -1), COALESCE(presentation_onset_ns, -1), "
+            "COALESCE(presentation_end_ns, -1), COALESCE(response_screen_onset_ns, -1), "
+            "COALESCE(responded_ns, -1), shown_refreshes, missed_refreshes, drift_deg, "
             "answer, lost_flips, lost_samples, {} FROM trial ORDER BY trial_id",
             tells_fates ? "failure, comes_again, trial_id IN (SELECT attempt_id FROM superseded)"
                         : "NULL, NULL, 0"),

@@ -5,7 +5,7 @@
 namespace overt {
 namespace {
 
-void write_time(TableWriter& to, const GazeEventRow& row, TrackerTime time) {
+void write_time(TableCells& to, const GazeEventRow& row, TrackerTime time) {
     row.clock_map ? to.seconds(row.clock_map->to_session(time).time) : to.missing();
 }
 
@@ -18,94 +18,100 @@ std::string_view detector_of(const GazeEventRow& row) {
 
 } // namespace
 
+std::vector<RowLayout<EventRow>::Column> event_value_columns(const std::string& pixels,
+                                                             const std::string& of_pupil) {
+    using Place = std::optional<ScreenPoint> GazeEvent::*;
+    using Number = std::optional<double> GazeEvent::*;
+    const auto coordinate = [](Place place, double ScreenPoint::*axis) {
+        return [=](TableCells& to, const EventRow& row) {
+            const auto& of_row = row.event.*place;
+            of_row ? to.fixed(*of_row.*axis, pixel_decimals) : to.missing();
+        };
+    };
+    const auto number = [](Number value, int decimals) {
+        return [=](TableCells& to, const EventRow& row) {
+            const auto& of_row = row.event.*value;
+            of_row ? to.fixed(*of_row, decimals) : to.missing();
+        };
+    };
+    return {
+        {{"x_px", "Mean place of a fixation, start of a saccade, to the right", pixels, {}},
+         coordinate(&GazeEvent::place, &ScreenPoint::x_px)},
+        {{"y_px", "The same, downwards", pixels, {}}, coordinate(&GazeEvent::place, &ScreenPoint::y_px)},
+        {{"end_x_px", "End of a saccade, to the right", pixels, {}},
+         coordinate(&GazeEvent::arrival, &ScreenPoint::x_px)},
+        {{"end_y_px", "The same, downwards", pixels, {}},
+         coordinate(&GazeEvent::arrival, &ScreenPoint::y_px)},
+        {{"pupil", "Mean pupil size of a fixation", of_pupil, {}}, number(&GazeEvent::pupil, pupil_decimals)},
+        {{"amplitude_deg", "Size of a saccade", "deg", {}},
+         number(&GazeEvent::amplitude_deg, pixel_decimals)},
+        {{"peak_velocity_deg_s", "Peak velocity of a saccade", "deg/s", {}},
+         number(&GazeEvent::peak_velocity_deg_s, pixel_decimals)},
+    };
+}
+
 RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins) {
-    const std::string description =
-        "Fixations, saccades and blinks in the completed trials, and what the tracker's "
-        "file said besides them, where gaze was imported from one. " +
-        origins;
-    return {"gaze_events",
-            description,
-            {
-                {{"trial",
-                  "Position of the trial in the observer's order, from 1; n/a outside of trials",
-                  "",
-                  {}},
-                 [](auto& to, auto& row) { row.trial > 0 ? to.integer(row.trial) : to.missing(); }},
-                {{"kind",
-                  "What it was",
-                  "",
-                  {{"fixation", "the eye rested"},
-                   {"saccade", "the eye jumped"},
-                   {"blink", "there was no pupil"},
-                   {"message", "a message to the tracker, or by it"},
-                   {"button", "a button of the tracker's own box: number and state"},
-                   {"input", "the tracker's own input port: value"},
-                   {"started", "a recording began: its eyes"},
-                   {"ended", "a recording ended: pixels per degree, to the right and downwards"},
-                   {"note", "a line without a time, which stands after the line of that time"}}},
-                 [](auto& to, auto& row) { to.word(name_of(row.event.kind)); }},
-                {{"detector",
-                  "Who found a fixation, saccade or blink; n/a of all else",
-                  "",
-                  {{"tracker", "the eye tracker itself"},
-                   {"overt", "the program, while it recorded the session"},
-                   {"overt at export", "the program, from the recorded samples"}}},
-                 [](auto& to, auto& row) {
-                     is_eye_event(row.event.kind) ? to.text(detector_of(row)) : to.missing();
-                 }},
-                {{"eye", "Which eye", "", {{"left", "left eye"}, {"right", "right eye"}}},
-                 [](auto& to, auto& row) {
-                     row.event.eye ? to.word(*row.event.eye == Eye::left ? "left" : "right") : to.missing();
-                 }},
-                {{"start_s", "When it began; session clock, nine decimals keep each nanosecond", "s", {}},
-                 [](auto& to, auto& row) { write_time(to, row, row.event.start); }},
-                {{"end_s", "When its last sample was taken; of what does not last, start_s", "s", {}},
-                 [](auto& to, auto& row) { write_time(to, row, row.event.end); }},
-                {{"duration_s",
-                  "From its begin to the end of its last sample, as its detector gives it",
-                  "s",
-                  {}},
-                 [](auto& to, auto& row) {
-                     is_eye_event(row.event.kind) ? to.seconds(SessionDuration(row.event.duration))
-                                                  : to.missing();
-                 }},
-                {{"tracker_start_us", "start_s by the tracker's own clock", "us", {}},
-                 [](auto& to, auto& row) { to.integer(row.event.start.time_since_epoch().count()); }},
-                {{"tracker_end_us", "end_s by the tracker's own clock", "us", {}},
-                 [](auto& to, auto& row) { to.integer(row.event.end.time_since_epoch().count()); }},
-                {{"x_px", "Mean place of a fixation, start of a saccade, to the right", "px", {}},
-                 [](auto& to, auto& row) {
-                     row.event.place ? to.fixed(row.event.place->x_px, pixel_decimals) : to.missing();
-                 }},
-                {{"y_px", "The same, downwards", "px", {}},
-                 [](auto& to, auto& row) {
-                     row.event.place ? to.fixed(row.event.place->y_px, pixel_decimals) : to.missing();
-                 }},
-                {{"end_x_px", "End of a saccade, to the right", "px", {}},
-                 [](auto& to, auto& row) {
-                     row.event.arrival ? to.fixed(row.event.arrival->x_px, pixel_decimals) : to.missing();
-                 }},
-                {{"end_y_px", "The same, downwards", "px", {}},
-                 [](auto& to, auto& row) {
-                     row.event.arrival ? to.fixed(row.event.arrival->y_px, pixel_decimals) : to.missing();
-                 }},
-                {{"pupil", "Mean pupil size of a fixation", "the tracker's own unit", {}},
-                 [](auto& to, auto& row) {
-                     row.event.pupil ? to.fixed(*row.event.pupil, pupil_decimals) : to.missing();
-                 }},
-                {{"amplitude_deg", "Size of a saccade", "deg", {}},
-                 [](auto& to, auto& row) {
-                     row.event.amplitude_deg ? to.fixed(*row.event.amplitude_deg, pixel_decimals)
-                                             : to.missing();
-                 }},
-                {{"peak_velocity_deg_s", "Peak velocity of a saccade", "deg/s", {}},
-                 [](auto& to, auto& row) {
-                     row.event.peak_velocity_deg_s ? to.fixed(*row.event.peak_velocity_deg_s, pixel_decimals)
-                                                   : to.missing();
-                 }},
-                {{"text", "Words and numbers of what is no fixation, saccade or blink", "", {}},
-                 [](auto& to, auto& row) { to.text(row.event.text); }},
-            }};
+    RowLayout<GazeEventRow> layout{
+        "gaze_events",
+        "Fixations, saccades and blinks in the completed trials, and what the tracker's file said besides "
+        "them, "
+        "where gaze was imported from one. " +
+            origins,
+        {
+            {{"trial",
+              "Position of the trial in the observer's order, from 1; n/a outside of trials",
+              "",
+              {}},
+             [](auto& to, auto& row) { row.trial > 0 ? to.integer(row.trial) : to.missing(); }},
+            {{"kind",
+              "What it was",
+              "",
+              {{"fixation", "the eye rested"},
+               {"saccade", "the eye jumped"},
+               {"blink", "there was no pupil"},
+               {"message", "a message to the tracker, or by it"},
+               {"button", "a button of the tracker's own box: number and state"},
+               {"input", "the tracker's own input port: value"},
+               {"started", "a recording began: its eyes"},
+               {"ended", "a recording ended: pixels per degree, to the right and downwards"},
+               {"note", "a line without a time, which stands after the line of that time"}}},
+             [](auto& to, auto& row) { to.word(name_of(row.event.kind)); }},
+            {{"detector",
+              "Who found a fixation, saccade or blink; n/a of all else",
+              "",
+              {{"tracker", "the eye tracker itself"},
+               {"overt", "the program, while it recorded the session"},
+               {"overt at export", "the program, from the recorded samples"}}},
+             [](auto& to, auto& row) {
+                 is_eye_event(row.event.kind) ? to.text(detector_of(row)) : to.missing();
+             }},
+            {{"eye", "Which eye", "", {{"left", "left eye"}, {"right", "right eye"}}},
+             [](auto& to, auto& row) {
+                 row.event.eye ? to.word(*row.event.eye == Eye::left ? "left" : "right") : to.missing();
+             }},
+            {{"start_s", "When it began; session clock, nine decimals keep each nanosecond", "s", {}},
+             [](auto& to, auto& row) { write_time(to, row, row.event.start); }},
+            {{"end_s", "When its last sample was taken; of what does not last, start_s", "s", {}},
+             [](auto& to, auto& row) { write_time(to, row, row.event.end); }},
+            {{"duration_s",
+              "From its begin to the end of its last sample, as its detector gives it",
+              "s",
+              {}},
+             [](auto& to, auto& row) {
+                 is_eye_event(row.event.kind) ? to.seconds(SessionDuration(row.event.duration))
+                                              : to.missing();
+             }},
+            {{"tracker_start_us", "start_s by the tracker's own clock", "us", {}},
+             [](auto& to, auto& row) { to.integer(row.event.start.time_since_epoch().count()); }},
+            {{"tracker_end_us", "end_s by the tracker's own clock", "us", {}},
+             [](auto& to, auto& row) { to.integer(row.event.end.time_since_epoch().count()); }},
+        }};
+    layout.add<EventRow>(event_value_columns("px", "the tracker's own unit"));
+    layout.add<GazeEventRow>({
+        {{"text", "Words and numbers of what is no fixation, saccade or blink", "", {}},
+         [](auto& to, auto& row) { to.text(row.event.text); }},
+    });
+    return layout;
 }
 
 void write_gaze_events(TableWriter& writer, const RowLayout<GazeEventRow>& layout,
@@ -113,7 +119,7 @@ void write_gaze_events(TableWriter& writer, const RowLayout<GazeEventRow>& layou
     const std::optional<ClockMap> clock_map = record.clock_map(trial.sitting);
     const SessionRecord::EventOrigin::From origin = record.event_origin(trial.sitting).from;
     record.read_gaze_events(trial, [&](const GazeEvent& event) {
-        layout.write(writer, {event, trial.trial.index + 1, clock_map, origin});
+        layout.write(writer, {{event}, trial.trial.index + 1, clock_map, origin});
     });
 }
 
@@ -126,7 +132,7 @@ void write_gaze_events_outside(TableWriter& writer, const RowLayout<GazeEventRow
             sitting = trial.sitting;
     const std::optional<ClockMap> clock_map = record.clock_map(sitting);
     record.read_gaze_events_outside([&](const GazeEvent& event) {
-        layout.write(writer, {event, 0, clock_map, SessionRecord::EventOrigin::From::tracker});
+        layout.write(writer, {{event}, 0, clock_map, SessionRecord::EventOrigin::From::tracker});
     });
 }
 

@@ -1,16 +1,25 @@
-/// What the tracker itself said besides samples, and fixations, saccades and blinks, as rows of a table.
+/// What the tracker itself said besides samples, as rows of a table.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/tables/row_layout.h"
 
 namespace overt {
 
-struct GazeEventRow {
+/// A row that is of an event of the tracker's.
+struct EventRow {
     const GazeEvent& event;
+};
+
+/// Its places, pupil, size and speed; the same in each kind of export, but for the words of its units.
+std::vector<RowLayout<EventRow>::Column> event_value_columns(const std::string& pixels,
+                                                             const std::string& of_pupil);
+
+struct GazeEventRow : EventRow {
     int trial; ///< from 1; 0: outside of trials
     const std::optional<ClockMap>& clock_map;
     SessionRecord::EventOrigin::From origin; ///< of fixations, saccades and blinks

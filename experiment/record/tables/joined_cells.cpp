@@ -17,20 +17,20 @@ constexpr int silhouette_decimals = 4; // a hundredth of a pixel
 
 } // namespace
 
-void write_angle(TableWriter& to, const SessionHeader& header, PoseIndex pose) {
+void write_angle(TableCells& to, const SessionHeader& header, PoseIndex pose) {
     const Degrees* const angle = item_of(header.poses.angles, pose.value);
     angle ? to.fixed(angle->value, angle_decimals) : to.missing();
 }
 
-void write_gaze_x(TableWriter& to, const GazeSample& sample) {
+void write_gaze_x(TableCells& to, const GazeSample& sample) {
     sample.gaze ? to.fixed(sample.gaze->x_px, pixel_decimals) : to.missing();
 }
 
-void write_gaze_y(TableWriter& to, const GazeSample& sample) {
+void write_gaze_y(TableCells& to, const GazeSample& sample) {
     sample.gaze ? to.fixed(sample.gaze->y_px, pixel_decimals) : to.missing();
 }
 
-void write_pupil(TableWriter& to, const GazeSample& sample) {
+void write_pupil(TableCells& to, const GazeSample& sample) {
     sample.pupil_area > 0.0f ? to.fixed(shortest_decimal(sample.pupil_area), pupil_decimals) : to.missing();
 }
 

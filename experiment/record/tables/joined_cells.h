@@ -31,12 +31,12 @@ JoinedColumns time_columns();
 JoinedColumns place_columns(const SessionHeader& header);
 
 // Cells of a sample itself.
-void write_gaze_x(TableWriter& to, const GazeSample& sample);
-void write_gaze_y(TableWriter& to, const GazeSample& sample);
-void write_pupil(TableWriter& to, const GazeSample& sample);
+void write_gaze_x(TableCells& to, const GazeSample& sample);
+void write_gaze_y(TableCells& to, const GazeSample& sample);
+void write_pupil(TableCells& to, const GazeSample& sample);
 
 /// A frame's angle; n/a if the session knows no such pose.
-void write_angle(TableWriter& to, const SessionHeader& header, PoseIndex pose);
+void write_angle(TableCells& to, const SessionHeader& header, PoseIndex pose);
 
 /// The parts of all sculptures, each name once.
 std::vector<std::string> all_part_names(const SessionHeader& header);

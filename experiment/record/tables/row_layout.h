@@ -15,7 +15,7 @@ template <class Row> class RowLayout {
   public:
     struct Column {
         TableColumn what;
-        std::function<void(TableWriter&, const Row&)> cell; ///< writes one cell
+        std::function<void(TableCells&, const Row&)> cell; ///< writes one cell
     };
 
     RowLayout(std::string name, std::string description, std::vector<Column> columns)
@@ -34,8 +34,8 @@ template <class Row> class RowLayout {
     /// For the line of names and the dictionary.
     const Table& table() const { return table_; }
 
-    /// Throws RecordError.
-    void write(TableWriter& to, const Row& row) const {
+    /// Into a TableWriter or a TableText. Throws RecordError.
+    template <class To> void write(To& to, const Row& row) const {
         for (const auto& cell : cells_)
             cell(to, row);
         to.end_row();
@@ -43,7 +43,7 @@ template <class Row> class RowLayout {
 
   private:
     Table table_;
-    std::vector<std::function<void(TableWriter&, const Row&)>> cells_;
+    std::vector<std::function<void(TableCells&, const Row&)>> cells_;
 };
 
 } // namespace overt

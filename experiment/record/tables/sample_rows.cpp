@@ -1,6 +1,7 @@
 #include "experiment/record/tables/sample_rows.h"
 
 #include <algorithm>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -17,10 +18,11 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
                                       std::optional<Degrees> cone_accuracy) {
     RowLayout<SampleCells> layout{
         "samples",
-        "One row for each gaze sample of the completed trials, joined with the frame that was lit on its row "
+        "One row for each gaze sample of the completed trials, and of an imported recording also for those "
+        "between a trial's result and the next trial, joined with the frame that was lit on its row "
         "when it was taken. Pixels: origin at the top left corner, y down, pixel centres at 0.5.",
         {
-            {shared.trial, [](auto& to, auto& row) { to.integer(row.trial); }},
+            {shared.trial, [](auto& to, auto& row) { row.trial ? to.integer(*row.trial) : to.missing(); }},
             {shared.task, [](auto& to, auto& row) { to.ready(row.task); }},
             {shared.sculpture, [](auto& to, auto& row) { to.ready(row.sculpture); }},
             {shared.material, [](auto& to, auto& row) { to.ready(row.material); }},
@@ -76,66 +78,99 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
     return layout;
 }
 
-SampleRows::SampleRows(TableWriter& writer, const RowLayout<SampleCells>& layout, const SessionRecord& record,
+SampleCounts& SampleCounts::operator+=(const SampleCounts& more) {
+    samples += more.samples;
+    without_gaze += more.without_gaze;
+    on_object += more.on_object;
+    off_plan += more.off_plan;
+    return *this;
+}
+
+SampleRows::SampleRows(const RowLayout<SampleCells>& layout, const SessionRecord& record, TableFormat format,
                        std::optional<Degrees> cone_accuracy)
-    : row_(writer), layout_(layout), record_(record), header_(record.header()) {
+    : layout_(layout), record_(record), header_(record.header()), format_(format) {
     if (cone_accuracy)
         cone_.emplace(header_.display.screen, *cone_accuracy);
 }
 
-SampleCounts SampleRows::write(const TrialRecord& trial, const std::optional<TrialLedger>& ledger,
-                               const SurfaceLookup* lookup) {
-    const SampleJoin join(record_, trial, ledger, lookup);
-    counts_ = {};
-    record_.read_samples(trial, samples_at_a_time, [&](std::span<const GazeSample> samples) {
-        write_piece(samples, trial, join, lookup);
-    });
-    return counts_;
+SampleCounts SampleRows::write(TableWriter& to, const TrialRecord& trial,
+                               const std::optional<TrialLedger>& ledger, const SurfaceLookup* lookup) {
+    return write_all(to, trial, SampleJoin(record_, trial, ledger, lookup), lookup, false);
 }
 
-void SampleRows::write_piece(std::span<const GazeSample> samples, const TrialRecord& trial,
-                             const SampleJoin& join, const SurfaceLookup* lookup) {
-    const Condition condition = trial.trial.condition;
-    const TableFormat format = row_.format();
-    const std::string task = text_cell(item(header_.tasks, trial.trial.task).id, format);
-    const std::string sculpture = text_cell(item(header_.sculptures, condition.sculpture).id, format);
-    const std::string material = text_cell(item(header_.materials, condition.material).id, format);
-    const std::vector<std::string> parts = part_cells_of(header_, condition.sculpture, format);
-    const std::vector<std::string>& own_parts = item(header_.sculptures, condition.sculpture).part_names;
-    joined_.resize(samples.size());
-    join.join(samples, joined_);
-    std::vector<GazeCone::Shares> shares;
-    if (cone_ && lookup)
-        shares = cone_shares(*lookup, samples, own_parts.size());
+SampleCounts SampleRows::write_after(TableWriter& to, const TrialRecord& trial) {
+    const SampleJoin join(header_.display.screen, record_.clock_map(trial.sitting),
+                          record_.flip_history(std::nullopt), nullptr);
+    return write_all(to, trial, join, nullptr, true);
+}
 
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        layout_.write(row_, {{samples[i], joined_[i], parts},
-                             trial.trial.index + 1,
-                             task,
-                             sculpture,
-                             material,
-                             own_parts,
-                             shares.empty() ? nullptr : &shares[i]});
-        counts_.without_gaze += !samples[i].gaze;
-        counts_.on_object += joined_[i].sight.surface.has_value();
-        counts_.off_plan += joined_[i].off_plan;
+SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, const SampleJoin& join,
+                                   const SurfaceLookup* lookup, bool is_after) const {
+    constexpr std::size_t batch = 1024;
+    const Condition condition = trial.trial.condition;
+    const std::string task = text_cell(is_after ? "" : item(header_.tasks, trial.trial.task).id, format_);
+    const std::string sculpture =
+        text_cell(is_after ? "" : item(header_.sculptures, condition.sculpture).id, format_);
+    const std::string material =
+        text_cell(is_after ? "" : item(header_.materials, condition.material).id, format_);
+    const std::vector<std::string> parts = part_cells_of(header_, condition.sculpture, format_);
+    const std::vector<std::string>& own_parts = item(header_.sculptures, condition.sculpture).part_names;
+    const auto number = is_after ? std::nullopt : std::optional(trial.trial.index + 1);
+    SampleCounts counts;
+    const auto take = [&](std::span<const GazeSample> samples) {
+        const std::size_t batches = (samples.size() + batch - 1) / batch;
+        std::vector<std::unique_ptr<TableText>> texts(batches);
+        std::vector<SampleCounts> of_batch(batches);
+        parallel_for(static_cast<int>(batches), [&](int index) {
+            const auto i = static_cast<std::size_t>(index);
+            const auto piece = samples.subspan(i * batch, std::min(batch, samples.size() - i * batch));
+            texts[i] = std::make_unique<TableText>(layout_.table(), format_);
+            of_batch[i] = write_batch(
+                *texts[i], {piece, number, join, lookup, task, sculpture, material, parts, own_parts});
+        });
+        for (std::size_t i = 0; i < batches; ++i) {
+            to.take(*texts[i]);
+            counts += of_batch[i];
+        }
+    };
+    if (is_after)
+        record_.read_samples_after(trial, samples_at_a_time, take);
+    else
+        record_.read_samples(trial, samples_at_a_time, take);
+    return counts;
+}
+
+SampleCounts SampleRows::write_batch(TableText& to, const Piece& piece) const {
+    std::vector<JoinedSample> joined(piece.samples.size());
+    piece.join.join(piece.samples, joined);
+    const std::vector<GazeCone::Shares> shares = cone_shares(piece, joined);
+    SampleCounts counts;
+    for (std::size_t i = 0; i < piece.samples.size(); ++i) {
+        layout_.write(to, {{piece.samples[i], joined[i], piece.parts},
+                           piece.trial,
+                           piece.task,
+                           piece.sculpture,
+                           piece.material,
+                           piece.own_parts,
+                           shares.empty() ? nullptr : &shares[i]});
+        counts.without_gaze += !piece.samples[i].gaze;
+        counts.on_object += joined[i].sight.surface.has_value();
+        counts.off_plan += joined[i].off_plan;
     }
-    counts_.samples += static_cast<std::int64_t>(samples.size());
+    counts.samples = static_cast<std::int64_t>(piece.samples.size());
+    return counts;
 }
 
 /// Of each sample that fell on a lit frame; the others' shares are empty.
-std::vector<GazeCone::Shares> SampleRows::cone_shares(const SurfaceLookup& lookup,
-                                                      std::span<const GazeSample> samples,
-                                                      std::size_t parts) const {
-    std::vector<GazeCone::Shares> shares(samples.size());
-    constexpr std::size_t batch = 256;
-    parallel_for(static_cast<int>((samples.size() + batch - 1) / batch), [&](int index) {
-        const std::size_t begin = static_cast<std::size_t>(index) * batch;
-        for (std::size_t i = begin; i < std::min(begin + batch, samples.size()); ++i) {
-            if (joined_[i].shown)
-                shares[i] = cone_->shares(lookup, joined_[i].shown->pose, *samples[i].gaze, parts);
-        }
-    });
+std::vector<GazeCone::Shares> SampleRows::cone_shares(const Piece& piece,
+                                                      std::span<const JoinedSample> joined) const {
+    if (!cone_ || !piece.lookup)
+        return {};
+    std::vector<GazeCone::Shares> shares(joined.size());
+    for (std::size_t i = 0; i < joined.size(); ++i)
+        if (joined[i].shown)
+            shares[i] = cone_->shares(*piece.lookup, joined[i].shown->pose, *piece.samples[i].gaze,
+                                      piece.own_parts.size());
     return shares;
 }
 

@@ -18,10 +18,11 @@ inline constexpr std::size_t samples_at_a_time = 16384;
 /// Of one trial.
 struct SampleCounts {
     std::int64_t samples = 0, without_gaze = 0, on_object = 0, off_plan = 0;
+    SampleCounts& operator+=(const SampleCounts& more);
 };
 
 struct SampleCells : JoinedRow {
-    int trial;                                      ///< from 1
+    std::optional<int> trial;                       ///< from 1; nothing: of no trial
     const std::string &task, &sculpture, &material; ///< as cells
     const std::vector<std::string>& own_parts;      ///< of the sculpture, by PartIndex
     const GazeCone::Shares* shares;                 ///< null without a cone; empty beside lit frames
@@ -34,26 +35,35 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
 class SampleRows {
   public:
     /// `layout` and `record` must outlive this. With a cone, `layout` must have its columns.
-    SampleRows(TableWriter& writer, const RowLayout<SampleCells>& layout, const SessionRecord& record,
+    SampleRows(const RowLayout<SampleCells>& layout, const SessionRecord& record, TableFormat format,
                std::optional<Degrees> cone_accuracy);
 
-    /// Writes the samples of a trial; `lookup` is null if its sculpture has no surface. Throws RecordError.
-    SampleCounts write(const TrialRecord& trial, const std::optional<TrialLedger>& ledger,
+    /// Writes the samples of a trial, made on all processors; `lookup` is null if its sculpture has no
+    /// surface. Throws RecordError.
+    SampleCounts write(TableWriter& to, const TrialRecord& trial, const std::optional<TrialLedger>& ledger,
                        const SurfaceLookup* lookup);
+    /// The same of those between the trial's result and the next trial, which are of none.
+    SampleCounts write_after(TableWriter& to, const TrialRecord& trial);
 
   private:
-    void write_piece(std::span<const GazeSample> samples, const TrialRecord& trial, const SampleJoin& join,
-                     const SurfaceLookup* lookup);
-    std::vector<GazeCone::Shares> cone_shares(const SurfaceLookup& lookup,
-                                              std::span<const GazeSample> samples, std::size_t parts) const;
+    struct Piece {
+        std::span<const GazeSample> samples;
+        std::optional<int> trial; ///< from 1; nothing: of none
+        const SampleJoin& join;
+        const SurfaceLookup* lookup;
+        const std::string &task, &sculpture, &material; ///< as cells
+        const std::vector<std::string>&parts, &own_parts;
+    };
+    SampleCounts write_batch(TableText& to, const Piece& piece) const;
+    SampleCounts write_all(TableWriter& to, const TrialRecord& trial, const SampleJoin& join,
+                           const SurfaceLookup* lookup, bool is_after) const;
+    std::vector<GazeCone::Shares> cone_shares(const Piece& piece, std::span<const JoinedSample> joined) const;
 
-    TableWriter& row_;
     const RowLayout<SampleCells>& layout_;
     const SessionRecord& record_;
     const SessionHeader& header_;
+    TableFormat format_;
     std::optional<GazeCone> cone_;
-    std::vector<JoinedSample> joined_; ///< of the piece being written
-    SampleCounts counts_;
 };
 
 } // namespace overt

@@ -1,6 +1,8 @@
 #include "experiment/record/tables/table_export.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,12 +17,18 @@ namespace overt {
 namespace {
 
 constexpr const char* dictionary_file = "dictionary.json";
+
+ExportTables with_words(ExportTables tables, const TrialWords& words) {
+    tables.trials.add<TrialRow>(trial_word_columns(words));
+    return tables;
+}
+
 /// Writes one session's tables into a directory.
 class TableExport {
   public:
     TableExport(const SessionRecord& record, const fs::path& directory, const TableExportOptions& options)
-        : record_(record), header_(record.header()), format_(options.format),
-          tables_(header_, options.cone_accuracy, record.event_origins()),
+        : record_(record), header_(record.header()), format_(options.format), words_(trial_words(record)),
+          tables_(with_words(ExportTables(header_, options.cone_accuracy, record.event_origins()), words_)),
           trials_(directory, tables_.trials.table(), format_),
           flips_(directory, tables_.flips.table(), format_),
           samples_(directory, tables_.samples.table(), format_),
@@ -29,9 +37,12 @@ class TableExport {
           responses_(directory, tables_.responses.table(), format_),
           stimuli_(directory, tables_.stimuli.table(), format_),
           display_box_(directory, tables_.display_box.table(), format_), directory_(directory),
-          sample_rows_(samples_, tables_.samples, record, options.cone_accuracy) {}
+          sample_rows_(tables_.samples, record, format_, options.cone_accuracy) {}
 
-    void write_trial(const TrialRecord& trial, const SurfaceLookup* lookup);
+    /// Puts the samples of the trial aside: those of trials of one sculpture come one after another.
+    void join_samples(const TrialRecord& trial, const SurfaceLookup* lookup);
+    /// With the samples that were put aside.
+    void write_trial(const TrialRecord& trial);
     /// One that has no rows in the other tables.
     void write_other_attempt(const TrialRecord& trial) { tables_.trials.write(trials_, {trial, nullptr}); }
     void write_what_belongs_to_no_trial();
@@ -42,17 +53,33 @@ class TableExport {
     const SessionRecord& record_;
     const SessionHeader& header_;
     const TableFormat format_;
+    const TrialWords words_;
     const ExportTables tables_;
     TableWriter trials_, flips_, samples_, gaze_events_, events_, responses_, stimuli_, display_box_;
     const fs::path directory_;
     SampleRows sample_rows_;
     TableExportCounts counts_;
+    std::map<std::int64_t, SampleCounts> aside_; ///< by the trial's id
+    fs::path aside_file(const TrialRecord& trial) const {
+        return directory_ / fmt::format("samples_{}.part", trial.id);
+    }
 };
 
-void TableExport::write_trial(const TrialRecord& trial, const SurfaceLookup* lookup) {
-    const std::optional<TrialLedger> ledger = record_.ledger(trial);
-    counts_.flips += write_ledger(flips_, tables_.flips, header_, trial, ledger);
-    const SampleCounts of_trial = sample_rows_.write(trial, ledger, lookup);
+void TableExport::join_samples(const TrialRecord& trial, const SurfaceLookup* lookup) {
+    TableWriter aside(aside_file(trial), tables_.samples.table(), format_, Packing::none,
+                      TableWriter::Header::none);
+    aside_[trial.id] = sample_rows_.write(aside, trial, record_.ledger(trial), lookup);
+    aside.close();
+}
+
+void TableExport::write_trial(const TrialRecord& trial) {
+    counts_.flips += write_ledger(flips_, tables_.flips, header_, trial, record_.ledger(trial));
+    const SampleCounts of_trial = aside_.at(trial.id);
+    samples_.take(aside_file(trial), of_trial.samples);
+    fs::remove(aside_file(trial));
+    const SampleCounts after = sample_rows_.write_after(samples_, trial);
+    counts_.samples += after.samples;
+    counts_.samples_without_gaze += after.without_gaze;
     write_gaze_events(gaze_events_, tables_.gaze_events, record_, trial);
     tables_.responses.write(responses_, trial);
     tables_.trials.write(trials_, {trial, &of_trial});
@@ -106,11 +133,27 @@ TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lo
     TableExport tables(record, folder.path(), options);
     const int all = static_cast<int>(record.trials().size());
     int done = 0;
-    for (const TrialRecord& trial : record.trials()) {
+    // Sculpture by sculpture, for the maps of one take much memory, and making them ready much time.
+    std::set<int> sculptures;
+    for (const TrialRecord& trial : record.trials())
         if (trial.counts)
-            tables.write_trial(trial, lookup_for(trial.trial.condition.sculpture));
-        else
-            tables.write_other_attempt(trial);
+            sculptures.insert(trial.trial.condition.sculpture);
+    for (const int sculpture : sculptures) {
+        const SurfaceLookup* const lookup = lookup_for(sculpture);
+        for (const TrialRecord& trial : record.trials()) {
+            if (!trial.counts || trial.trial.condition.sculpture != sculpture)
+                continue;
+            tables.join_samples(trial, lookup);
+            if (options.progress)
+                options.progress(++done, all);
+        }
+    }
+    for (const TrialRecord& trial : record.trials()) {
+        if (trial.counts) {
+            tables.write_trial(trial);
+            continue;
+        }
+        tables.write_other_attempt(trial);
         if (options.progress)
             options.progress(++done, all);
     }

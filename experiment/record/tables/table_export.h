@@ -31,7 +31,8 @@ struct TableExportCounts {
     std::int64_t rows = 0, bytes = 0;  ///< of all tables
 };
 
-/// Gives the lookup for a sculpture, or null if there is none. Called once for each trial.
+/// Gives the lookup for a sculpture, or null if there is none. What it gave is used until the next call:
+/// tables ask once for each sculpture, other exports for each trial.
 using LookupFor = std::function<const SurfaceLookup*(int sculpture)>;
 
 /// Writes trials, flips, samples, the tracker's own events, events, responses and stimuli with a

@@ -1,6 +1,7 @@
 #include "experiment/record/tables/table_writer.h"
 
 #include <cmath>
+#include <fstream>
 
 #include <fmt/format.h>
 
@@ -88,37 +89,25 @@ std::string text_cell(std::string_view text, TableFormat format) {
     return json_quoted(text);
 }
 
-TableWriter::TableWriter(const std::filesystem::path& directory, const Table& table, TableFormat format)
-    : TableWriter(directory / fmt::format("{}.{}", table.name, ending_of(format)), table, format,
-                  Packing::none, format == TableFormat::jsonl ? Header::none : Header::names) {}
+TableCells::TableCells(const Table& table, TableFormat format, std::string& into)
+    : into_(into), format_(format), before_(befores(table, format)) {}
 
-TableWriter::TableWriter(const std::filesystem::path& file, const Table& table, TableFormat format,
-                         Packing packing, Header header)
-    : file_(file, packing), format_(format), before_(befores(table, format)) {
-    if (header == Header::none)
-        return;
-    for (const TableColumn& column : table.columns)
-        text(column.name);
-    end_row();
-    rows_ = 0;
-}
-
-std::string& TableWriter::begin_cell() {
+std::string& TableCells::begin_cell() {
     OVERT_EXPECTS(cells_ < before_.size());
-    return file_.text() += before_[cells_++];
+    return into_ += before_[cells_++];
 }
 
-TableWriter& TableWriter::text(std::string_view text) {
+TableCells& TableCells::text(std::string_view text) {
     begin_cell() += text_cell(text, format_);
     return *this;
 }
 
-TableWriter& TableWriter::ready(std::string_view cell) {
+TableCells& TableCells::ready(std::string_view cell) {
     begin_cell() += cell;
     return *this;
 }
 
-TableWriter& TableWriter::word(std::string_view word) {
+TableCells& TableCells::word(std::string_view word) {
     std::string& text = begin_cell();
     if (format_ != TableFormat::jsonl) {
         text += word;
@@ -130,34 +119,68 @@ TableWriter& TableWriter::word(std::string_view word) {
     return *this;
 }
 
-TableWriter& TableWriter::integer(std::int64_t number) {
+TableCells& TableCells::integer(std::int64_t number) {
     append_scaled(begin_cell(), number, 0);
     return *this;
 }
 
-TableWriter& TableWriter::fixed(double number, int decimals) {
+TableCells& TableCells::fixed(double number, int decimals) {
     if (!std::isfinite(number))
         return missing();
     append_fixed(begin_cell(), number, decimals);
     return *this;
 }
 
-TableWriter& TableWriter::seconds(SessionDuration duration) {
+TableCells& TableCells::seconds(SessionDuration duration) {
     append_scaled(begin_cell(), duration.count(), 9);
     return *this;
 }
 
-TableWriter& TableWriter::missing() {
+TableCells& TableCells::missing() {
     begin_cell() += missing_in(format_);
     return *this;
 }
 
-void TableWriter::end_row() {
+void TableCells::end_row() {
     OVERT_EXPECTS(cells_ == before_.size());
-    file_.text() += format_ == TableFormat::jsonl ? "}\n" : "\n";
+    into_ += format_ == TableFormat::jsonl ? "}\n" : "\n";
     cells_ = 0;
     ++rows_;
+}
+
+TableWriter::TableWriter(const std::filesystem::path& directory, const Table& table, TableFormat format)
+    : TableWriter(directory / fmt::format("{}.{}", table.name, ending_of(format)), table, format,
+                  Packing::none, format == TableFormat::jsonl ? Header::none : Header::names) {}
+
+TableWriter::TableWriter(const std::filesystem::path& file, const Table& table, TableFormat format,
+                         Packing packing, Header header)
+    : TableCells(table, format, file_.text()), file_(file, packing) {
+    if (header == Header::none)
+        return;
+    for (const TableColumn& column : table.columns)
+        text(column.name);
+    end_row();
+    rows_ = 0;
+}
+
+void TableWriter::take(const TableText& rows) {
+    file_.text() += rows.all();
+    rows_ += rows.rows();
     file_.flush_if_full();
+}
+
+void TableWriter::take(const std::filesystem::path& file, std::int64_t rows) {
+    std::ifstream from(file, std::ios::binary);
+    std::vector<char> piece(std::size_t{1} << 18);
+    std::int64_t taken = 0;
+    while (from.read(piece.data(), static_cast<std::streamsize>(piece.size())) || from.gcount() > 0) {
+        file_.text().append(piece.data(), static_cast<std::size_t>(from.gcount()));
+        taken += from.gcount();
+        file_.flush_if_full();
+    }
+    if (taken != static_cast<std::int64_t>(std::filesystem::file_size(file)))
+        throw RecordError(fmt::format("{}: cannot be read again. Check the disk.", file.string()));
+    rows_ += rows;
 }
 
 } // namespace overt

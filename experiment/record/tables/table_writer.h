@@ -41,8 +41,59 @@ std::string_view ending_of(TableFormat format);
 /// A text as a cell: see TableWriter::ready().
 std::string text_cell(std::string_view text, TableFormat format);
 
-/// Writes the rows of one table, cell by cell from left to right. Nothing depends on a locale.
-class TableWriter {
+/// Makes the rows of one table, cell by cell from left to right. Nothing depends on a locale.
+class TableCells {
+  public:
+    TableCells& text(std::string_view text);
+    /// One that text_cell() made, for many rows.
+    TableCells& ready(std::string_view cell);
+    /// A word that needs no escaping in any format.
+    TableCells& word(std::string_view word);
+    TableCells& integer(std::int64_t number);
+    /// With that many decimals (0 … 9), half away from zero; missing if it is no finite number.
+    TableCells& fixed(double number, int decimals);
+    /// Seconds with nine decimals: each nanosecond is kept.
+    TableCells& seconds(SessionDuration duration);
+    TableCells& seconds(SessionTime time) { return seconds(time.time_since_epoch()); }
+    TableCells& missing();
+
+    /// Each column must have got its cell.
+    void end_row();
+
+    TableFormat format() const { return format_; }
+    std::int64_t rows() const { return rows_; }
+
+    TableCells(const TableCells&) = delete;
+    TableCells& operator=(const TableCells&) = delete;
+
+  protected:
+    /// `into` must outlive this; it is not touched before the first cell.
+    TableCells(const Table& table, TableFormat format, std::string& into);
+    ~TableCells() = default;
+    std::int64_t rows_ = 0;
+
+  private:
+    /// The text, with all that stands before the cell.
+    std::string& begin_cell();
+
+    std::string& into_;
+    TableFormat format_;
+    std::vector<std::string> before_; ///< what stands before the cell of each column
+    std::size_t cells_ = 0;           ///< in the row so far
+};
+
+/// Rows in memory, for a TableWriter to take.
+class TableText : public TableCells {
+  public:
+    TableText(const Table& table, TableFormat format) : TableCells(table, format, text_) {}
+    const std::string& all() const { return text_; }
+
+  private:
+    std::string text_;
+};
+
+/// Writes the rows of one table into a file.
+class TableWriter : public TableCells {
   public:
     enum class Header : std::uint8_t { names, none };
 
@@ -54,38 +105,23 @@ class TableWriter {
     TableWriter(const std::filesystem::path& file, const Table& table, TableFormat format, Packing packing,
                 Header header);
 
-    TableWriter& text(std::string_view text);
-    /// One that text_cell() made, for many rows.
-    TableWriter& ready(std::string_view cell);
-    /// A word that needs no escaping in any format.
-    TableWriter& word(std::string_view word);
-    TableWriter& integer(std::int64_t number);
-    /// With that many decimals (0 … 9), half away from zero; missing if it is no finite number.
-    TableWriter& fixed(double number, int decimals);
-    /// Seconds with nine decimals: each nanosecond is kept.
-    TableWriter& seconds(SessionDuration duration);
-    TableWriter& seconds(SessionTime time) { return seconds(time.time_since_epoch()); }
-    TableWriter& missing();
-
     /// Each column must have got its cell. Throws RecordError.
-    void end_row();
+    void end_row() {
+        TableCells::end_row();
+        file_.flush_if_full();
+    }
+    /// Rows of the same table and format. Throws RecordError.
+    void take(const TableText& rows);
+    /// The same of a file that a TableWriter without a header has closed. Throws RecordError.
+    void take(const std::filesystem::path& file, std::int64_t rows);
 
-    TableFormat format() const { return format_; }
-    std::int64_t rows() const { return rows_; }
     std::int64_t bytes() const { return file_.size(); } ///< of text, before packing
 
     /// Brings the rest to the file. Throws RecordError.
     void close() { file_.close(); }
 
   private:
-    /// The file's text, with all that stands before the cell.
-    std::string& begin_cell();
-
     OutputFile file_;
-    TableFormat format_;
-    std::vector<std::string> before_; ///< what stands before the cell of each column
-    std::size_t cells_ = 0;           ///< in the row so far
-    std::int64_t rows_ = 0;
 };
 
 } // namespace overt

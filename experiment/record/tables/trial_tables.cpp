@@ -1,5 +1,11 @@
 #include "experiment/record/tables/trial_tables.h"
 
+#include <algorithm>
+#include <sstream>
+#include <string_view>
+
+#include <fmt/format.h>
+
 #include "experiment/record/read/trial_rows.h"
 #include "experiment/record/tables/joined_cells.h"
 
@@ -7,8 +13,8 @@ namespace overt {
 namespace {
 
 /// An attempt that something ended has no times of what it did not get to.
-void write_reached(TableWriter& to, const TrialRecord& trial, SessionTime at) {
-    trial.has_outcome() && at >= trial.started ? to.seconds(at) : to.missing();
+void write_reached(TableCells& to, const TrialRecord& trial, SessionTime at) {
+    trial.reached(at) ? to.seconds(at) : to.missing();
 }
 
 } // namespace
@@ -121,6 +127,43 @@ RowLayout<TrialRow> trials_layout(const SharedColumns& shared, const SessionHead
         }};
 }
 
+TrialWords trial_words(const SessionRecord& record) {
+    constexpr std::string_view beginning = "TRIALID";
+    TrialWords words;
+    for (const TrialRecord& trial : record.trials()) {
+        if (!record.gaze_source(trial.sitting))
+            continue;
+        record.read_gaze_events(trial, [&](const GazeEvent& event) {
+            if (event.kind != GazeEvent::Kind::message || !event.text.starts_with(beginning))
+                return;
+            std::vector<std::string>& of_trial = words[trial.id];
+            of_trial.clear();
+            std::istringstream text(event.text.substr(beginning.size()));
+            for (std::string word; text >> word;)
+                of_trial.push_back(word);
+        });
+    }
+    return words;
+}
+
+std::vector<RowLayout<TrialRow>::Column> trial_word_columns(const TrialWords& words) {
+    std::size_t most = 0;
+    for (const auto& [id, of_trial] : words)
+        most = std::max(most, of_trial.size());
+    std::vector<RowLayout<TrialRow>::Column> columns;
+    for (std::size_t n = 0; n < most; ++n)
+        columns.push_back(
+            {{fmt::format("trialid_{}", n + 1),
+              fmt::format("Word {} after TRIALID in the trial's message of the imported recording", n + 1),
+              "",
+              {}},
+             [&words, n](auto& to, auto& row) {
+                 const auto found = words.find(row.trial.id);
+                 found != words.end() && n < found->second.size() ? to.text(found->second[n]) : to.missing();
+             }});
+    return columns;
+}
+
 RowLayout<TrialRecord> responses_layout(const SharedColumns& shared, const SessionHeader& header) {
     return {
         "responses",
@@ -139,12 +182,15 @@ RowLayout<TrialRecord> responses_layout(const SharedColumns& shared, const Sessi
             {{"question", "The question as it was shown", "", {}},
              [&header](auto& to, auto& row) { to.text(item(header.tasks, row.trial.task).question); }},
             {session_seconds("response_screen_onset_s", "Onset of the response screen"),
-             [](auto& to, auto& row) { to.seconds(row.outcome.response_screen_onset); }},
+             [](auto& to, auto& row) { write_reached(to, row, row.outcome.response_screen_onset); }},
             {session_seconds("responded_s", "End of the answer"),
-             [](auto& to, auto& row) { to.seconds(row.outcome.responded_at); }},
+             [](auto& to, auto& row) { write_reached(to, row, row.outcome.responded_at); }},
             {{"response_time_s", "From the onset of the response screen to the end of the answer", "s", {}},
              [](auto& to, auto& row) {
-                 to.seconds(row.outcome.responded_at - row.outcome.response_screen_onset);
+                 const TrialOutcome& outcome = row.outcome;
+                 row.reached(outcome.responded_at) && row.reached(outcome.response_screen_onset)
+                     ? to.seconds(outcome.responded_at - outcome.response_screen_onset)
+                     : to.missing();
              }},
             {{"answer", "The answer, where the response panel took it down", "", {}},
              [](auto& to, auto& row) { to.text(row.outcome.answer); }},

@@ -244,9 +244,9 @@ class SealCheck {
              row.step();) {
             const std::int64_t trial_id = row.integer(), count = row.integer();
             const std::string status = row.text();
-            if (trial_id == 0 && !has_outside_seal_.contains(table.name))
+            if (trial_id <= 0 && !has_outside_seal_.contains(table.name))
                 unsealed(table.name, {}, count, is_closed_);
-            else if (trial_id != 0 && !sealed_trials_.contains(trial_id))
+            else if (trial_id > 0 && !sealed_trials_.contains(trial_id))
                 unsealed(table.name, trial_id, count, status != "open");
         }
     }

@@ -96,7 +96,7 @@ TEST_CASE("where the tracker's clock was never read, the messages of the screens
 
     // Without those messages nothing relates them.
     std::string silent = shifted;
-    for (const char* word : {"TASK_SCREEN_ONSET", "PRESENTATION_ONSET", "PRESENTATION_END",
+    for (const char* word : {"TASK_SCREEN_ONSET", "PRESENTATION_ONSET", "PRESENTATION_OFFSET",
                              "RESPONSE_SCREEN_ONSET", "RESPONSE\n"})
         for (std::size_t at = silent.find(word); at != std::string::npos; at = silent.find(word))
             silent.replace(at, 4, "none");

@@ -201,11 +201,14 @@ TEST_CASE("the samples of a dataset are those of the session, in the tracker's o
     CHECK((samples == expected));
     const std::string places =
         unpacked(dataset.path / "derivatives" / "overt" / "sub-AB7" / "ses-01" / "beh" /
-                 "sub-AB7_ses-01_task-tiny_run-01_recording-eye1_desc-surface_physio.tsv.gz");
+                 "sub-AB7_ses-01_task-tiny_acq-surface_run-01_recording-eye1_physio.tsv.gz");
     CHECK(std::count(places.begin(), places.end(), '\n') == std::count(samples.begin(), samples.end(), '\n'));
     CHECK(places.substr(0, samples.find('\t', samples.find('\t') + 1)) ==
           samples.substr(0, samples.find('\t', samples.find('\t') + 1)));
     CHECK(dataset.json(dataset.beh(physio + ".json"))["AverageCalibrationError"] == 0.312);
+    CHECK(dataset.json(dataset.beh(physio + ".json"))["MaximalCalibrationError"] == 0.754);
+    CHECK(dataset.json(dataset.beh(physio + ".json"))["CalibrationCount"] == 1);
+    CHECK_THAT(bytes_of(dataset.beh(events + ".tsv")), Contains("\tSchauen Sie sich um; ganz frei\t"));
     CHECK(dataset.json(dataset.beh(physio + ".json"))["StartTime"] == 0.0);
     // The first sample was taken 900.137 ms after its trial's begin: so the trial's onset is that much
     // earlier.
