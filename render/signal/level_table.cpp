@@ -7,15 +7,6 @@
 
 namespace overt {
 
-namespace {
-
-constexpr int ranges = 65536;
-
-/// Also for what is not a number.
-double clipped(double light) { return light > 0.0 ? (light < 1.0 ? light : 1.0) : 0.0; }
-
-} // namespace
-
 LevelTable::LevelTable(int levels, double gamma) : levels_(levels), linear_(gamma == 1.0) {
     OVERT_EXPECTS(levels >= 1 && levels <= 65535 && gamma > 0.0);
     if (!linear_)
@@ -35,24 +26,32 @@ void LevelTable::tabulate(const std::function<double(double)>& curve) {
     };
     for (int level = 0; level <= levels_; ++level)
         add(lights_, curve(static_cast<double>(level) / levels_));
+    std::vector<double> borders;
     for (int level = 1; level <= levels_; ++level)
-        add(borders_, curve((level - half) / levels_));
-    for (int range = 0; range <= ranges; ++range) {
-        const double begin = static_cast<double>(range) / ranges;
-        first_of_range_.push_back(
-            static_cast<int>(std::lower_bound(borders_.begin(), borders_.end(), begin) - borders_.begin()));
+        add(borders, curve((level - half) / levels_));
+    const auto number_of = [](double light) { return std::bit_cast<std::uint64_t>(light) >> below_bucket; };
+    // A curve may be flat at its beginning: where the light of borders is 0, nothing is to be found.
+    const auto lit = std::upper_bound(borders.begin(), borders.end(), 0.0);
+    level_after_zero_ = static_cast<int>(lit - borders.begin());
+    first_bucket_ = number_of(lit == borders.end() ? 1.0 : *lit);
+    buckets_.resize(number_of(1.0) - first_bucket_ + 1);
+    for (Bucket& bucket : buckets_)
+        bucket.first = level_after_zero_;
+    for (auto border = lit; border != borders.end(); ++border) {
+        const std::uint64_t number = number_of(std::min(*border, 1.0)) - first_bucket_;
+        ++buckets_[number].count;
     }
+    for (std::size_t i = 1; i < buckets_.size(); ++i)
+        buckets_[i].first = buckets_[i - 1].first + buckets_[i - 1].count;
+    bounded_.assign(1, -1.0);
+    bounded_.insert(bounded_.end(), borders.begin(), borders.end());
+    bounded_.push_back(2.0);
 }
 
-int LevelTable::level_of(double light) const noexcept {
-    const double inside = clipped(light);
-    if (linear_)
-        return static_cast<int>(inside * levels_ + half);
-    const auto range = static_cast<std::size_t>(inside * ranges);
-    const auto last = range < ranges ? borders_.begin() + first_of_range_[range + 1] : borders_.end();
-    const auto first = borders_.begin() + first_of_range_[range];
-    // Where the curve is flat, the smallest level that makes this light.
-    return static_cast<int>(std::lower_bound(first, last, inside) - borders_.begin());
+/// Where the curve is flat, the smallest level that makes this light.
+int LevelTable::searched(double light) const noexcept {
+    return static_cast<int>(std::lower_bound(bounded_.begin() + 1, bounded_.end() - 1, light) -
+                            (bounded_.begin() + 1));
 }
 
 double LevelTable::position_of(double light) const noexcept {

@@ -27,11 +27,10 @@ struct ModeCoding {
     /// The linear light that pixel, or pair, (x, y) should have; not clipped.
     std::array<double, 3> (*predict)(const SignalPrediction& prediction, int x, int y);
 
-    /// encode() of whole pairs joined by a box filter, for a display that linearises itself, from the picture
-    /// itself: what takes the time when stimuli are loaded. `levels` and `half`: see LevelTable::is_linear.
-    /// Or null.
-    void (*encode_linear_pairs)(const glm::vec4* pixels, int pairs, double background, double levels,
-                                double half, std::byte* into) = nullptr;
+    /// encode() of whole pairs joined by a box filter, from the picture itself: what takes the time when
+    /// stimuli are loaded. Or null.
+    void (*encode_box_pairs)(const glm::vec4* pixels, int pairs, double background, const LevelTables& tables,
+                             std::byte* into) = nullptr;
 };
 
 /// The coding of a mode: defined once for each, in mode_….cpp. A mode without one does not link.

@@ -23,13 +23,13 @@ using Four = double __attribute__((vector_size(32)));
 using FourFloats = float __attribute__((vector_size(16)));
 using FourInts = int __attribute__((vector_size(16)));
 
-/// What encode() makes of whole pairs joined by a box filter, for a display that linearises itself, with
-/// all channels of a pair at once: half of the time to load a stimulus went into this. Clones for processors
-/// that have wider registers give the same bytes: there is nothing in it that they may round differently.
-OVERT_PROCESSOR_CLONES("avx2")
-void encode_linear_pairs(const glm::vec4* pixels, int pairs, double background, double levels, double half,
-                         std::byte* into) {
-    const Four all_levels = Four{} + levels, all_halves = Four{} + half, zero{}, one = Four{} + 1.0;
+/// What encode() makes of whole pairs joined by a box filter, with all channels of a pair at once: half of
+/// the time to load a stimulus went into this. Clones for processors that have wider registers give the same
+/// bytes: there is nothing in it that they may round differently.
+template <class CodesOf>
+inline __attribute__((always_inline)) void encode_means(const glm::vec4* pixels, int pairs, double background,
+                                                        std::byte* into, const CodesOf& codes_of) {
+    const Four zero{}, one = Four{} + 1.0;
     for (int pair = 0; pair < pairs; ++pair, pixels += 2, into += 8) {
         FourFloats left, right;
         std::memcpy(&left, &pixels[0], sizeof left);
@@ -39,10 +39,47 @@ void encode_linear_pairs(const glm::vec4* pixels, int pairs, double background, 
         const Four mean = 0.5 * ((__builtin_convertvector(left, Four) + behind_left) +
                                  (__builtin_convertvector(right, Four) + behind_right));
         const Four above = mean > zero ? mean : zero, inside = above < one ? above : one;
-        const FourInts code = __builtin_convertvector(inside * all_levels + all_halves, FourInts);
+        const FourInts code = codes_of(inside);
         put_bytes(into, code[0] >> 8, code[1] >> 8, code[2] >> 8);
         put_bytes(into + 4, code[0] & 255, code[1] & 255, code[2] & 255);
     }
+}
+
+OVERT_PROCESSOR_CLONES("avx2")
+void encode_linear_pairs(const glm::vec4* pixels, int pairs, double background, double levels,
+                         std::byte* into) {
+    const Four all_levels = Four{} + levels, all_halves = Four{} + LevelTable::half;
+    encode_means(pixels, pairs, background, into, [&](const Four& inside) {
+        return __builtin_convertvector(inside * all_levels + all_halves, FourInts);
+    });
+}
+
+OVERT_PROCESSOR_CLONES("avx2")
+void encode_curved_pairs(const glm::vec4* pixels, int pairs, double background, const LevelTables& tables,
+                         std::byte* into) {
+    const LevelTable &red = tables.at(0), &green = tables.at(1), &blue = tables.at(2);
+    // Neighbours in the background are the same light.
+    double last_red = -1.0, last_green = -1.0, last_blue = -1.0;
+    FourInts code{};
+    encode_means(pixels, pairs, background, into, [&](const Four& inside) {
+        if (inside[0] != last_red || inside[1] != last_green || inside[2] != last_blue) {
+            last_red = inside[0];
+            last_green = inside[1];
+            last_blue = inside[2];
+            code = FourInts{red.level_inside(last_red), green.level_inside(last_green),
+                            blue.level_inside(last_blue), 0};
+        }
+        return code;
+    });
+}
+
+void encode_box_pairs(const glm::vec4* pixels, int pairs, double background, const LevelTables& tables,
+                      std::byte* into) {
+    // Either all curves are tabulated, or there is one that is linear.
+    if (tables.at(0).is_linear())
+        encode_linear_pairs(pixels, pairs, background, tables.at(0).levels(), into);
+    else
+        encode_curved_pairs(pixels, pairs, background, tables, into);
 }
 
 ReceivedLight decode(const ScreenReader& reader) {
@@ -59,12 +96,12 @@ std::array<double, 3> predict(const SignalPrediction& prediction, int x, int y) 
 } // namespace
 
 template <> const ModeCoding& mode_coding<OutputMode::color_plus_plus>() {
-    static constexpr ModeCoding coding{encode, decode, predict, encode_linear_pairs};
+    static constexpr ModeCoding coding{encode, decode, predict, encode_box_pairs};
     return coding;
 }
 
 template <> const ModeCoding& mode_coding<OutputMode::vpixx_c48>() {
-    static constexpr ModeCoding coding{encode, decode, predict, encode_linear_pairs};
+    static constexpr ModeCoding coding{encode, decode, predict, encode_box_pairs};
     return coding;
 }
 
