@@ -141,3 +141,23 @@ TEST_CASE("an include that points the wrong way is found", "[unit]") {
     CHECK_FALSE(is_refused("app/rig/rig.h", "#include \"devices/host/clocks.h\""));
     CHECK_FALSE(is_refused("render/window/window_context.cpp", "#include <GLFW/glfw3.h>"));
 }
+
+TEST_CASE("documents name only files that there are", "[unit]") {
+    const fs::path root = fs::path(OVERT_SOURCE_DIR);
+    std::vector<fs::path> documents;
+    for (const fs::path& folder : {root, root / "docs", root / "assets", root / "tests"})
+        for (const auto& entry : fs::directory_iterator(folder))
+            if (entry.path().extension() == ".md")
+                documents.push_back(entry.path());
+    CHECK(documents.size() > 10);
+    const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
+    for (const fs::path& document : documents) {
+        std::ifstream stream(document);
+        const std::string text{std::istreambuf_iterator<char>(stream), {}};
+        for (auto found = std::sregex_iterator(text.begin(), text.end(), link);
+             found != std::sregex_iterator(); ++found) {
+            CAPTURE(document, (*found)[1].str());
+            CHECK(fs::exists(document.parent_path() / (*found)[1].str()));
+        }
+    }
+}
