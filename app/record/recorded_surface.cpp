@@ -56,8 +56,6 @@ const SurfaceLookup* RecordedSurfaces::lookup_of(int sculpture) {
     return surface.images.get();
 }
 
-const CoordinateMaps* RecordedSurfaces::maps_of(int sculpture) { return surface_of(sculpture).maps.get(); }
-
 RecordedSurfaces::Surface& RecordedSurfaces::surface_of(int sculpture) {
     if (keep_ == Keep::last && !loaded_.contains(sculpture)) {
         loaded_.clear();

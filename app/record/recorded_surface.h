@@ -23,10 +23,6 @@ class RecordedSurfaces {
 
     /// Where gaze on a sculpture goes, be its maps of triangles or of coordinates; null if it has none.
     const SurfaceLookup* lookup_of(int sculpture);
-    /// The maps of a sculpture with a mesh, or null if it has none.
-    const CoordinateMaps* maps_of(int sculpture);
-    /// Only for a sculpture that maps_of() is not null for.
-    const Mesh& mesh_of(int sculpture) { return surface_of(sculpture).mesh; }
 
   private:
     struct Surface {

@@ -124,11 +124,11 @@ void write_picture(const SessionRecord& record, const TrialRecord& trial, const 
     const SessionHeader& header = record.header();
     const int sculpture = trial.trial.condition.sculpture;
     RecordedSurfaces surfaces(record);
-    const CoordinateMaps* maps = surfaces.maps_of(sculpture);
-    if (!maps)
+    const SurfaceLookup* surface = surfaces.lookup_of(sculpture);
+    if (!surface)
         throw InputError(fmt::format("sculpture \"{}\" has no map: there is no surface to show gaze on",
                                      header.sculptures[static_cast<std::size_t>(sculpture)].id));
-    const SampleJoin join(record, trial, maps);
+    const SampleJoin join(record, trial, surface);
     std::vector<glm::dvec3> gaze;
     for (const GazeSample& sample : record.samples(trial)) {
         const JoinedSample joined = join.join(sample);
@@ -137,8 +137,8 @@ void write_picture(const SessionRecord& record, const TrialRecord& trial, const 
     }
     const Condition condition = trial.trial.condition;
     TrialPictureContent content;
-    content.mesh = &surfaces.mesh_of(sculpture);
-    content.maps = maps;
+    content.surface = surface;
+    content.bounds = header.sculptures[static_cast<std::size_t>(sculpture)].bounds;
     content.pose = header.poses.pose_of({0});
     content.frame =
         read_linear_image(record.directory() / preview_file(header, condition), FrameEncoding::srgb);
@@ -149,7 +149,8 @@ void write_picture(const SessionRecord& record, const TrialRecord& trial, const 
                     header.materials[static_cast<std::size_t>(condition.material)].title);
     content.map_caption = "Hidden map: place on the surface as colour";
     content.gaze_caption =
-        fmt::format("Gaze of trial {}: {} samples on the surface", trial.trial.index + 1, gaze.size());
+        fmt::format("Gaze of trial {}: {} samples on the surface, by their density; 1 is the densest place",
+                    trial.trial.index + 1, gaze.size());
     write_srgb_png(file, draw_trial_picture(content));
     fmt::print("picture: {}\n", file.string());
 }

@@ -14,17 +14,16 @@ namespace {
 
 constexpr float paper = 0.012f; ///< grey behind the panels
 constexpr int margin_px = 24;
-constexpr int caption_px = 34;
+/// Letters of a caption, by the width that it may have.
+constexpr int largest_caption_px = 34, smallest_caption_px = 12;
+constexpr int scale_px = 12; ///< height of the colour scale
 
 /// Calls draw(point, pixel) for each pixel whose centre is on the object.
-template <class Draw>
-LinearImage picture_of_surface(const CoordinateMaps& maps, PoseIndex pose, const Draw& draw) {
-    LinearImage image(maps.image_px());
+template <class Draw> LinearImage picture_of_surface(const TrialPictureContent& content, const Draw& draw) {
+    LinearImage image(content.frame.size_px);
     parallel_for(image.size_px.y, [&](int y) {
         for (int x = 0; x < image.size_px.x; ++x) {
-            if (!maps.cells(pose).cell({x, y}).is_covered())
-                continue;
-            const auto surface = maps.surface_at(pose, {x + 0.5, y + 0.5});
+            const auto surface = content.surface->surface_at(content.pose, {x + 0.5, y + 0.5});
             if (surface)
                 image.at(x, y) = glm::vec4(draw(*surface), 1.0f);
         }
@@ -44,14 +43,14 @@ glm::vec3 heat_colour(float t) {
 }
 
 LinearImage gaze_panel(const TrialPictureContent& content) {
-    VoxelDensity density(content.mesh->bounds(), content.kernel_sigma);
+    VoxelDensity density(content.bounds, content.kernel_sigma);
     for (const glm::dvec3& point : content.gaze_on_surface)
         density.add(point);
     density.blur();
     double highest = 0.0;
     for (const glm::dvec3& point : content.gaze_on_surface)
         highest = std::max(highest, density.at(point));
-    return picture_of_surface(*content.maps, content.pose, [&](const SurfacePoint& surface) {
+    return picture_of_surface(content, [&](const SurfacePoint& surface) {
         const float facing = static_cast<float>(std::cos(to_radians(surface.incidence).value));
         const glm::vec3 clay = glm::vec3(0.02f + 0.33f * facing * facing);
         if (highest <= 0.0)
@@ -74,49 +73,71 @@ void paste(LinearImage& onto, const LinearImage& picture, glm::ivec2 origin) {
     }
 }
 
-void write_caption(LinearImage& onto, const std::string& text, int left, int top, int width) {
+TextStyle caption_style(int width) {
     TextStyle style;
-    style.line_height_px = caption_px;
+    style.line_height_px = std::clamp(width / 15, smallest_caption_px, largest_caption_px);
     style.wrap_width_px = width;
     style.grey = 0.75f;
     style.background = paper;
-    LinearImage caption = draw_text(text, style);
+    return style;
+}
+
+void write_caption(LinearImage& onto, const std::string& text, int left, int top, int width) {
+    LinearImage caption = draw_text(text, caption_style(width));
     for (glm::vec4& pixel : caption.pixels)
         pixel.w = 1.0f;
     paste(onto, caption, {left + (width - caption.size_px.x) / 2, top});
 }
 
-} // namespace
-
-LinearImage map_as_colours(const CoordinateMaps& maps, const Mesh& mesh, PoseIndex pose) {
-    const Bounds bounds = mesh.bounds();
-    const glm::dvec3 extent = glm::max(bounds.extent(), glm::dvec3(1e-300));
-    return picture_of_surface(maps, pose, [&](const SurfacePoint& surface) {
-        return glm::vec3((surface.position - bounds.min) / extent);
+/// Red, green and blue are the object's x, y and z within its bounding box, in linear light.
+LinearImage map_panel(const TrialPictureContent& content) {
+    const glm::dvec3 extent = glm::max(content.bounds.extent(), glm::dvec3(1e-300));
+    return picture_of_surface(content, [&](const SurfacePoint& surface) {
+        return glm::vec3((surface.position - content.bounds.min) / extent);
     });
 }
 
+/// From nobody's gaze to the densest, with its ends named; in the middle three fifths of a width.
+void draw_scale(LinearImage& onto, int left, int top, int width) {
+    const int first = left + width / 5, end = left + width - width / 5;
+    for (int x = first; x < end; ++x) {
+        const float share = static_cast<float>(x - first) / static_cast<float>(end - 1 - first);
+        for (int y = top; y < top + scale_px; ++y)
+            onto.at(x, y) = glm::vec4(heat_colour(share), 1.0f);
+    }
+    TextStyle style = caption_style(width);
+    style.line_height_px = smallest_caption_px;
+    const LinearImage none = draw_text("0", style), most = draw_text("1", style);
+    paste(onto, none, {first - none.size_px.x - 4, top + (scale_px - none.size_px.y) / 2});
+    paste(onto, most, {end + 4, top + (scale_px - most.size_px.y) / 2});
+}
+
+} // namespace
+
 LinearImage draw_trial_picture(const TrialPictureContent& content) {
     const glm::ivec2 panel = content.frame.size_px;
-    LinearImage picture({3 * panel.x + 4 * margin_px, panel.y + 2 * margin_px + 2 * caption_px});
+    const std::array<const std::string*, 3> captions{&content.frame_caption, &content.map_caption,
+                                                     &content.gaze_caption};
+    int caption_height = 0;
+    for (const std::string* caption : captions)
+        caption_height = std::max(caption_height, measure_text(*caption, caption_style(panel.x)).size_px.y);
+    const int captions_top = margin_px + panel.y + margin_px / 2 + scale_px + margin_px / 2;
+    LinearImage picture({3 * panel.x + 4 * margin_px, captions_top + caption_height + margin_px});
     std::fill(picture.pixels.begin(), picture.pixels.end(), glm::vec4(glm::vec3(paper), 1.0f));
     LinearImage frame = content.frame;
     for (glm::vec4& pixel : frame.pixels)
         pixel.w = 1.0f; // on black, as on the display
-    const std::array<LinearImage, 3> panels{frame, map_as_colours(*content.maps, *content.mesh, content.pose),
-                                            gaze_panel(content)};
-    const std::array<const std::string*, 3> captions{&content.frame_caption, &content.map_caption,
-                                                     &content.gaze_caption};
+    const std::array<LinearImage, 3> panels{frame, map_panel(content), gaze_panel(content)};
     LinearImage black(panel);
     for (glm::vec4& pixel : black.pixels)
         pixel.w = 1.0f;
     for (int i = 0; i < 3; ++i) {
-        const glm::ivec2 origin(margin_px + i * (panel.x + margin_px), margin_px);
-        paste(picture, black, origin);
-        paste(picture, panels[static_cast<std::size_t>(i)], origin);
-        write_caption(picture, *captions[static_cast<std::size_t>(i)], origin.x,
-                      origin.y + panel.y + margin_px / 2, panel.x);
+        const int left = margin_px + i * (panel.x + margin_px);
+        paste(picture, black, {left, margin_px});
+        paste(picture, panels[static_cast<std::size_t>(i)], {left, margin_px});
+        write_caption(picture, *captions[static_cast<std::size_t>(i)], left, captions_top, panel.x);
     }
+    draw_scale(picture, margin_px + 2 * (panel.x + margin_px), margin_px + panel.y + margin_px / 2, panel.x);
     return picture;
 }
 

@@ -64,7 +64,7 @@ class ExactSitting {
     /// Runs all trials and exports them; gives the export's folder.
     std::filesystem::path run() {
         library.maps().prepare_maps({});
-        library.prepare_frames({});
+        library.prepare_frames({}, BakeQuality::live);
         const SessionHeader header =
             make_session_header(protocol, schedule, experiment.sculptures, library, context->description(),
                                 tracker.description(), ClockKind::virtual_time, true);
@@ -85,7 +85,7 @@ class ExactSitting {
         RecordedSurfaces surfaces(record);
         const std::filesystem::path tables = files.folder().path() / "tables";
         export_tables(
-            record, [&](int sculpture) { return surfaces.maps_of(sculpture); }, tables);
+            record, [&](int sculpture) { return surfaces.lookup_of(sculpture); }, tables);
         return tables;
     }
 };
