@@ -7,6 +7,7 @@
 #include "app/check/frame_cost.h"
 #include "app/check/frame_light.h"
 #include "app/check/rig_forecast.h"
+#include "app/check/screen_pictures.h"
 #include "app/check/silhouette_check.h"
 #include "app/check/text_check.h"
 #include "app/cli/cache_folder.h"
@@ -14,6 +15,7 @@
 #include "app/inputs/protocol_inputs.h"
 #include "app/rig/answer_equipment.h"
 #include "app/stimuli/bake_estimate.h"
+#include "experiment/base/counted.h"
 #include "experiment/checks/design_report.h"
 #include "experiment/design/schedule.h"
 #include "render/gl/headless_context.h"
@@ -102,6 +104,12 @@ int run_check(const CheckOptions& options) {
             text += to_text(measure_light(*experiment));
     }
     std::fwrite(text.data(), 1, text.size(), stdout);
+    if (experiment && !options.screens.empty())
+        fmt::print(
+            stderr, "{} in {}\n",
+            counted(static_cast<std::size_t>(write_screen_pictures(experiment->protocol, options.screens)),
+                    "picture"),
+            options.screens.string());
     return diagnostics.error_count() == 0 ? 0 : 2;
 }
 

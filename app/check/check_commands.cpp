@@ -30,6 +30,10 @@ void add_check(CLI::App& app, ChosenCommand& chosen) {
         ->check(seed_number());
     command.add_flag("--frames", options.frames,
                      "Read every frame, and say how much of its light the display cannot show");
+    command
+        .add_option("--screens", options.screens,
+                    "Write a picture of each screen that a session shows between stimuli into this folder")
+        ->type_name("DIR");
     command.add_flag("--json", options.json, "Print JSON");
     run_when_chosen(command, chosen, [given] { return run_check(*given); });
 }
@@ -38,8 +42,9 @@ void add_new(CLI::App& app, ChosenCommand& chosen) {
     const auto given = std::make_shared<NewOptions>();
     NewOptions& options = *given;
     CLI::App& command = add_command(app, "new", "Writes a protocol to begin with, every key explained",
-                                    "overt new my_experiment.toml");
+                                    "overt new my_experiment.toml --short");
     command.add_option("PROTOCOL", options.protocol, "File to write (TOML)")->required();
+    command.add_flag("--short", options.is_short, "Only the lines that matter, without the other keys");
     run_when_chosen(command, chosen, [given] { return run_new(*given); });
 }
 

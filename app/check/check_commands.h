@@ -22,11 +22,13 @@ struct CheckOptions {
     std::optional<std::uint64_t> seed; ///< of the orders shown, where the protocol fixes none
     bool frames = false;               ///< read every frame, and say what light of it the display cannot show
     bool json = false;
+    std::filesystem::path screens; ///< folder for a picture of each screen; empty: none
 };
 int run_check(const CheckOptions& options);
 
 struct NewOptions {
     std::filesystem::path protocol; ///< to write; never over a file that is there
+    bool is_short = false;          ///< only the keys that one has to decide on
 };
 int run_new(const NewOptions& options);
 

@@ -25,7 +25,7 @@ std::vector<StimulusLight> measure_light(const Experiment& experiment) {
     const int materials = static_cast<int>(protocol.materials.size()),
               count = materials * static_cast<int>(protocol.sculptures.size());
     // What a session would show; where it would be refused, the best that there is.
-    if (const std::optional<FrameQuality> quality = library.quality_of_session()) {
+    if (const std::optional<FrameQuality> quality = library.quality_of_session(protocol.bake.least())) {
         library.take_frames(*quality);
     } else {
         for (int i = 0; i < count; ++i)

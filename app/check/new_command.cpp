@@ -35,7 +35,8 @@ int run_new(const NewOptions& options) {
     std::error_code ignored;
     if (std::filesystem::exists(std::filesystem::symlink_status(file, ignored)))
         throw InputError(fmt::format("{}: exists already, and is not overwritten", file.string()));
-    const std::string text = protocol_starter(name_from(file));
+    const std::string name = name_from(file);
+    const std::string text = options.is_short ? short_protocol_starter(name) : protocol_starter(name);
     std::FILE* const stream = std::fopen(file.c_str(), "wbx"); // x: not over one that came meanwhile
     if (!stream)
         throw InputError(fmt::format("{}: cannot be written", file.string()));

@@ -1,9 +1,12 @@
 #include "app/check/text_check.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
 #include "experiment/protocol/protocol_keys.h"
+#include "experiment/session/observer_form.h"
 #include "render/presenter/screen_text.h"
 
 namespace overt {
@@ -13,15 +16,14 @@ namespace {
 struct ShownText {
     std::string key; ///< for its place
     const std::string* text;
-    bool is_form = false;
     std::string what = key; ///< in messages
 };
 
 /// The texts of a list of which each has the same key, counted from 1.
 void add_numbered(std::vector<ShownText>& texts, const std::string& key, std::string_view noun,
-                  const std::vector<std::string>& list, bool is_form) {
+                  const std::vector<std::string>& list) {
     for (std::size_t i = 0; i < list.size(); ++i)
-        texts.push_back({key, &list[i], is_form, fmt::format("{} {}", noun, i + 1)});
+        texts.push_back({key, &list[i], fmt::format("{} {}", noun, i + 1)});
 }
 
 std::vector<ShownText> shown_texts(const Protocol& protocol) {
@@ -33,40 +35,82 @@ std::vector<ShownText> shown_texts(const Protocol& protocol) {
                                  {"operator.pause_text", &protocol.operators.pause_text}};
     for (const Key& key : protocol_keys().section("words").keys)
         texts.push_back({fmt::format("words.{}", key.rule.name), key.get_if<std::string>(&protocol.words)});
-    add_numbered(texts, "operator.skip_reasons", "skip reason", protocol.operators.skip_reasons, false);
-    add_numbered(texts, "instructions.pages", "page", protocol.instructions.pages, false);
+    add_numbered(texts, "operator.skip_reasons", "skip reason", protocol.operators.skip_reasons);
+    add_numbered(texts, "instructions.pages", "page", protocol.instructions.pages);
     for (std::size_t i = 0; i < protocol.tasks.size(); ++i)
-        texts.push_back({fmt::format("task[{}].question", i), &protocol.tasks[i].question, false,
+        texts.push_back({fmt::format("task[{}].question", i), &protocol.tasks[i].question,
                          fmt::format("the question of task \"{}\"", protocol.tasks[i].id)});
     for (std::size_t i = 0; i < protocol.blocks.size(); ++i)
-        texts.push_back({fmt::format("block[{}].instructions", i), &protocol.blocks[i].instructions, false,
+        texts.push_back({fmt::format("block[{}].instructions", i), &protocol.blocks[i].instructions,
                          fmt::format("the instructions of block \"{}\"", protocol.blocks[i].id)});
     for (std::size_t i = 0; i < protocol.practice.size(); ++i)
         texts.push_back(
-            {fmt::format("practice[{}].feedback", i), &protocol.practice[i].feedback, false, "the feedback"});
+            {fmt::format("practice[{}].feedback", i), &protocol.practice[i].feedback, "the feedback"});
     for (std::size_t i = 0; i < protocol.observer_fields.size(); ++i) {
         const ObserverFieldSettings& field = protocol.observer_fields[i];
         const std::string entry = fmt::format("observer_field[{}]", i);
-        texts.push_back(
-            {entry + ".title", &field.title, true, fmt::format("the title of field \"{}\"", field.id)});
-        texts.push_back(
-            {entry + ".note", &field.note, true, fmt::format("the note of field \"{}\"", field.id)});
-        add_numbered(texts, entry + ".choices", "choice", field.choices, true);
+        texts.push_back({entry + ".title", &field.title, fmt::format("the title of field \"{}\"", field.id)});
+        texts.push_back({entry + ".note", &field.note, fmt::format("the note of field \"{}\"", field.id)});
+        add_numbered(texts, entry + ".choices", "choice", field.choices);
     }
     return texts;
 }
 
 } // namespace
 
+namespace {
+
+/// The form as a whole.
+void check_form(const Protocol& protocol, const ScreenGeometry& geometry, Diagnostics& diagnostics) {
+    if (protocol.observer_fields.empty())
+        return;
+    const ObserverForm form(protocol.observer_fields, {}, protocol.words);
+    const ScreenTextFit fit = fit_screen(form.screen(), geometry, protocol.screens.text_height_deg);
+    const Place place = protocol.places.of("observer_field[0]");
+    constexpr const char* remedy =
+        "ask for less, shorten titles and choices, or set [screens] text_height_deg";
+    if (!fit.fits)
+        diagnostics.error(protocol.file.string(), place,
+                          fmt::format("the form is too large for the screen even in letters of {} pixels: "
+                                      "its end would be cut off",
+                                      fit.line_height_px),
+                          remedy);
+    // A form is set somewhat smaller than texts without harm.
+    else if (fit.line_height_px < 0.75 * protocol.screens.text_height_deg * geometry.px_per_deg_at_centre())
+        diagnostics.warning(protocol.file.string(), place,
+                            fmt::format("the form is too large for the screen: it will be set in {} pixels",
+                                        fit.line_height_px),
+                            remedy);
+}
+
+/// Letters that are hard to read. WCAG 2.1 (success criterion 1.4.3) asks for large letters that (brighter +
+/// 0.05) / (darker + 0.05) of the two is 3 or more, 0.05 being what the room adds to a display's black.
+void check_contrast(const Protocol& protocol, Diagnostics& diagnostics) {
+    constexpr double room = 0.05, least = 3.0;
+    const auto [darker, brighter] = std::minmax(protocol.screens.text_grey, protocol.display.background);
+    const double ratio = (brighter + room) / (darker + room);
+    if (ratio >= least)
+        return;
+    diagnostics.warning(
+        protocol.file.string(), protocol.places.of("screens.text_grey"),
+        fmt::format("texts of grey {} on a background of {} have a contrast of {:.1f} : 1, with "
+                    "what a room adds to both; letters are read with ease from {:.0f} : 1 on",
+                    protocol.screens.text_grey, protocol.display.background, ratio, least),
+        "set [screens] text_grey farther from [display] background");
+}
+
+} // namespace
+
 void check_texts(const Protocol& protocol, Diagnostics& diagnostics) {
     const ScreenGeometry geometry = screen_geometry_of(protocol);
+    check_contrast(protocol, diagnostics);
     for (const ShownText& shown : shown_texts(protocol)) {
         if (shown.text->empty())
             continue;
         const Place place = protocol.places.of(shown.key);
         try {
-            const ScreenTextFit fit =
-                fit_screen_text(*shown.text, shown.is_form, geometry, protocol.screens.text_height_deg);
+            const ScreenTextFit fit = fit_screen({.kind = Screen::Kind::text, .text = *shown.text}, geometry,
+                                                 protocol.screens.text_height_deg);
             if (fit.measure.unknown_glyphs > 0)
                 diagnostics.warning(
                     protocol.file.string(), place,
@@ -89,6 +133,8 @@ void check_texts(const Protocol& protocol, Diagnostics& diagnostics) {
             diagnostics.error(protocol.file.string(), place, error.what());
         }
     }
+    if (diagnostics.error_count() == 0)
+        check_form(protocol, geometry, diagnostics);
 }
 
 } // namespace overt

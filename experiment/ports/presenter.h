@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "experiment/flip_report.h"
 #include "experiment/session_time.h"
@@ -9,16 +10,31 @@
 
 namespace overt {
 
-/// A screen that is not a stimulus.
+/// A key that works on a screen, and what it does.
+struct KeyHint {
+    std::string key, does;
+};
+
+/// A line of a form: a label, and beside it what is typed or the choices that there are.
+struct FormRow {
+    std::string label;
+    std::string value;                ///< what is typed; of a choice, the one that is chosen, or empty
+    std::vector<std::string> choices; ///< empty: a value is typed
+    bool is_here = false;             ///< it is being filled in
+    bool is_at_fault = false;         ///< what stands there cannot stay
+};
+
+/// A screen that is not a stimulus. All words are UTF-8.
 struct Screen {
-    enum class Kind : std::uint8_t {
-        blank,
-        text,
-        form, ///< a text whose lines begin below each other instead of being centred
-        drift_target
-    };
+    enum class Kind : std::uint8_t { blank, text, form, drift_target };
     Kind kind = Kind::blank;
-    std::string text; ///< UTF-8, for text and form; paragraphs split by newlines
+    /// For text and form; paragraphs split by newlines, emphasis by <b>, <i>, <u>, <big> and <small>. A first
+    /// line that begins with "# " is the title. Of a form, its title and what is said below its rows.
+    std::string text;
+    std::vector<FormRow> rows = {}; ///< of a form
+    std::vector<KeyHint> keys = {}; ///< set apart at the foot
+    int page = 0, pages = 0;        ///< how far this is, from 1; of none, no line is drawn
+    std::string frame = {}; ///< whom it is for, if not for the observer: then a frame is drawn around it
 };
 
 /// How the display shows things: known once the presenter is open.

@@ -31,6 +31,14 @@ void append_utf8(std::string& text, char32_t character) {
     }
 }
 
+/// What was typed, in a text in which "<b>" is emphasis.
+std::string as_it_is(const std::string& typed) {
+    std::string text;
+    for (const char letter : typed)
+        text += letter == '<' ? "&lt;" : letter == '&' ? "&amp;" : std::string(1, letter);
+    return text;
+}
+
 /// Neither a control character nor half of a pair: such are no text.
 bool is_text(char32_t character) {
     return character >= 0x20 && (character < 0x7F || character > 0x9F) && character <= 0x10FFFF &&
@@ -64,15 +72,19 @@ bool ObserverForm::take(const ResponsePress& press) {
         choose(1);
         return false;
     case Key::up:
+        message_.clear();
         focus_ = (focus_ + fields_.size() - 1) % fields_.size();
         return false;
     case Key::down:
+        message_.clear();
         focus_ = (focus_ + 1) % fields_.size();
         return false;
     case Key::next:
         if (focus_ + 1 == fields_.size())
             return submit();
-        ++focus_;
+        values_[focus_] = trimmed(values_[focus_]);
+        if (!says_fault_of(focus_))
+            ++focus_;
         return false;
     default:
         return false;
@@ -137,17 +149,25 @@ void ObserverForm::choose(int step) {
     values_[focus_] = choices[static_cast<std::size_t>((index + step + count) % count)];
 }
 
+bool ObserverForm::says_fault_of(std::size_t index) {
+    message_.clear();
+    const ObserverFieldSettings& field = fields_[index];
+    if (!fault_of(field, values_[index]))
+        return false;
+    const std::string range = range_of(field);
+    message_ = values_[index].empty() ? fmt::format("{}: {}", field.title, words_.missing)
+                                      : fmt::format("{}: \"{}\": {}", field.title, as_it_is(values_[index]),
+                                                    words_.not_possible);
+    if (!range.empty())
+        message_ += "  " + range;
+    return true;
+}
+
 bool ObserverForm::submit() {
     for (std::string& value : values_)
         value = trimmed(value);
     for (std::size_t i = 0; i < fields_.size(); ++i) {
-        if (fault_of(fields_[i], values_[i])) {
-            const std::string range = range_of(fields_[i]);
-            message_ = values_[i].empty()
-                           ? fmt::format("{}: {}", fields_[i].title, words_.missing)
-                           : fmt::format("{}: \"{}\": {}", fields_[i].title, values_[i], words_.not_possible);
-            if (!range.empty())
-                message_ += "  " + range;
+        if (says_fault_of(i)) {
             focus_ = i;
             return false;
         }
@@ -155,26 +175,29 @@ bool ObserverForm::submit() {
     return true;
 }
 
-std::string ObserverForm::text() const {
-    std::string text;
+Screen ObserverForm::screen() const {
+    Screen screen{.kind = Screen::Kind::form, .text = {}};
     for (std::size_t i = 0; i < fields_.size(); ++i) {
         const ObserverFieldSettings& field = fields_[i];
-        const bool is_here = i == focus_;
-        std::string value = values_[i];
-        if (field.kind == FieldKind::choice)
-            value = is_here ? fmt::format("‹ {} ›", value.empty() ? "…" : value) : value;
-        else if (is_here)
-            value += "▏";
-        text += fmt::format("{} {}{}:  {}\n", is_here ? "•" : "  ", field.title,
-                            field.required ? "" : fmt::format(" ({})", words_.optional), value);
+        screen.rows.push_back(
+            {.label = field.required ? field.title : fmt::format("{} ({})", field.title, words_.optional),
+             .value = values_[i],
+             .choices = field.kind == FieldKind::choice ? field.choices : std::vector<std::string>(),
+             .is_here = i == focus_,
+             .is_at_fault =
+                 !values_[i].empty() && i != focus_ && fault_of(field, trimmed(values_[i])).has_value()});
     }
-    const ObserverFieldSettings& here = field();
-    // The same number of lines whatever is said, so that the form stays in its place.
-    text += fmt::format("\n{}\n", !message_.empty() ? message_ : here.note);
-    text += here.kind == FieldKind::choice ? fmt::format("\n← → {}    ", words_.choose) : "\n";
-    text += focus_ + 1 == fields_.size() ? fmt::format("↑ {}    ↵ {}", words_.back, words_.done)
-                                         : fmt::format("↑ ↓ {}    ↵ {}", words_.other_fields, words_.next);
-    return text;
+    screen.rows[focus_].is_at_fault = !message_.empty();
+    screen.text = fmt::format("# {}\n{}", words_.form_title, message_.empty() ? field().note : message_);
+    if (field().kind == FieldKind::choice)
+        screen.keys.push_back({"← →", words_.choose});
+    const bool is_last = focus_ + 1 == fields_.size();
+    if (fields_.size() > 1)
+        screen.keys.push_back({"↑ ↓", words_.other_fields});
+    screen.keys.push_back({words_.enter_key, is_last ? words_.done : words_.next});
+    screen.page = static_cast<int>(focus_) + 1;
+    screen.pages = static_cast<int>(fields_.size());
+    return screen;
 }
 
 } // namespace overt

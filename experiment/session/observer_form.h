@@ -5,6 +5,7 @@
 #include <string>
 
 #include "experiment/ports/observer_field.h"
+#include "experiment/ports/presenter.h"
 #include "experiment/ports/response_panel.h"
 #include "experiment/protocol/sitting_settings.h"
 
@@ -17,16 +18,17 @@ class ObserverForm {
     ObserverForm(std::span<const ObserverFieldSettings> fields, FieldValues given, WordSettings words = {});
 
     /// Takes a key: characters are typed, in a choice they go to the next that begins with them; left and
-    /// right choose; up and down (tab) go to other fields; next goes on, and from the last field submits.
-    /// What is at fault then is said and gone to. Whether the form is submitted.
+    /// right choose; up and down (tab) go to other fields; next goes on once there is nothing at fault in
+    /// this field, and from the last one submits: what is still at fault anywhere is said and gone to.
+    /// Whether the form is submitted.
     bool take(const ResponsePress& press);
 
     const FieldValues& values() const { return values_; }
     int focus() const { return static_cast<int>(focus_); }
     const std::string& message() const { return message_; } ///< what is at fault, or empty
 
-    /// The form as text: a line for each field, the one that is being filled in marked.
-    std::string text() const;
+    /// The form as it is shown: a row for each field, what is at fault or the field's note, and the keys.
+    Screen screen() const;
 
   private:
     const ObserverFieldSettings& field() const { return fields_[focus_]; }
@@ -34,6 +36,8 @@ class ObserverForm {
     void erase();
     void choose(int step);
     bool submit();
+    /// Whether there is one; what is said of it is in message().
+    bool says_fault_of(std::size_t index);
 
     std::span<const ObserverFieldSettings> fields_;
     FieldValues values_;

@@ -4,6 +4,7 @@
 #include "experiment/ports/presenter.h"
 #include "experiment/ports/response_panel.h"
 #include "experiment/ports/session_phase.h"
+#include "experiment/session/session_screens.h"
 
 #include <algorithm>
 
@@ -14,12 +15,6 @@ namespace overt {
 namespace {
 
 using ResponseKey = ResponsePress::Key;
-
-std::string upper(std::string key) {
-    for (char& letter : key)
-        letter = static_cast<char>(letter >= 'a' && letter <= 'z' ? letter - 'a' + 'A' : letter);
-    return key;
-}
 
 } // namespace
 
@@ -134,11 +129,8 @@ bool OperatorControl::end_trial(ResponseKey key) {
         state_.note(operator_event, at_once ? "repeats the trial" : "rejects the trial");
         return true;
     }
-    std::string question = words.skip;
-    for (std::size_t i = 0; i < settings.skip_reasons.size(); ++i)
-        question +=
-            fmt::format("{}{}: {}, {}", i == 0 ? "\n\n" : "\n", i + 1, words.yes, settings.skip_reasons[i]);
-    const std::optional<int> answer = confirm(question, static_cast<int>(settings.skip_reasons.size()));
+    const std::optional<int> answer =
+        confirm(screens::skip_question(state_.protocol), static_cast<int>(settings.skip_reasons.size()));
     if (!answer)
         return false;
     decision_ = {TrialDecision::Word::skipped,
@@ -149,12 +141,8 @@ bool OperatorControl::end_trial(ResponseKey key) {
 }
 
 std::optional<int> OperatorControl::confirm(const std::string& question, int reasons) {
-    const OperatorSettings& keys = state_.protocol.operators;
     state_.note(operator_asked_event, question);
-    const WordSettings& words = state_.protocol.words;
-    const SessionTime onset =
-        state_.show({Screen::Kind::text, fmt::format("{}\n\n{}: {}        {}: {}", question, upper(keys.yes),
-                                                     words.yes, upper(keys.no), words.no)});
+    const SessionTime onset = state_.show(screens::operator_question(state_.protocol, question));
     state_.ports.panel.await_decision(false, onset);
     std::optional<int> answer;
     for (bool is_decided = false; !is_decided && !state_.ends_by_itself();) {
@@ -183,7 +171,8 @@ std::optional<int> OperatorControl::confirm(const std::string& question, int rea
 void OperatorControl::pause() {
     state_.note(operator_event, "pauses");
     state_.enter(SessionPhase::pause, state_.trial());
-    const SessionTime onset = state_.show({Screen::Kind::text, state_.protocol.operators.pause_text});
+    const Screen screen = screens::pause(state_.protocol);
+    const SessionTime onset = state_.show(screen);
     state_.ports.panel.await_key(onset);
     for (bool goes_on = false; !goes_on && !state_.ends_by_itself();) {
         while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
@@ -196,8 +185,7 @@ void OperatorControl::pause() {
             if (press->key == ResponseKey::abort || press->key == ResponseKey::recalibrate) {
                 if (!act_on(*press))
                     return;
-                state_.ports.panel.await_key(
-                    state_.show({Screen::Kind::text, state_.protocol.operators.pause_text}));
+                state_.ports.panel.await_key(state_.show(screen));
             }
         }
         if (!goes_on)
@@ -209,7 +197,8 @@ void OperatorControl::pause() {
 void OperatorControl::calibrate() {
     if (state_.phase() != SessionPhase::calibration)
         state_.enter(SessionPhase::calibration, state_.trial());
-    state_.show({});
+    // An empty screen would look like a session that has stopped.
+    state_.show(screens::please_wait(state_.protocol));
     if (!state_.ports.tracker.measures_gaze()) {
         state_.note("calibration", "none: the session has no eye tracker");
         return;

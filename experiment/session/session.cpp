@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "experiment/base/counted.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/session/session_opening.h"
+#include "experiment/session/session_screens.h"
 
 namespace overt {
 
@@ -82,7 +84,7 @@ SessionResult Session::run(const TrialDone& trial_done, const SessionHistory& hi
 }
 
 void Session::farewell() {
-    const Screen screen{Screen::Kind::text, state_.protocol.screens.farewell_text};
+    const Screen screen = screens::farewell(state_.protocol);
     if (screen.text.empty())
         return;
     const SessionTime onset = state_.show(screen);
@@ -133,9 +135,10 @@ void Session::judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& at
                                                "comes again at the end of the block"};
     const std::string& why = control_.decision().why;
     ports_.log.event({state_.now(), trial.index, trial_failed_event,
-                      fmt::format("{}{}{} ({} refreshes missed, {:.1f} % of samples without gaze): {}{}",
+                      fmt::format("{}{}{} ({} missed, {:.1f} % of samples without gaze): {}{}",
                                   name_of(verdict.failure), why.empty() ? "" : ": ", why,
-                                  attempt.result.missed_refreshes, 100.0 * attempt.result.gaze_lost_share,
+                                  counted(attempt.result.missed_refreshes, "refresh", "refreshes"),
+                                  100.0 * attempt.result.gaze_lost_share,
                                   afterwards[static_cast<int>(verdict.comes_again)],
                                   verdict.counts ? ", and counts as it is" : "")});
 }
@@ -176,13 +179,23 @@ void Session::run_break() {
     const BreakSettings& breaks = state_.protocol.breaks;
     state_.enter(SessionPhase::rest);
     state_.note(break_begins_event);
-    const Screen screen{Screen::Kind::text, breaks.text};
-    const bool is_timed = breaks.pace == BreakPace::timed;
-    control_.wait({.screen = screen,
-                   .onset = state_.show(screen),
-                   .min_s = is_timed ? breaks.duration_s : breaks.min_s,
-                   .max_s = is_timed ? breaks.duration_s : longest_break_s,
-                   .takes_keys = !is_timed});
+    // First the time in which keys do nothing, which is said; then, if a key ends it, which.
+    const double asleep_s = screens::break_asleep_s(breaks);
+    OperatorControl::How how = OperatorControl::How::timed_out;
+    if (asleep_s > 0.0) {
+        const Screen asleep = screens::break_asleep(state_.protocol);
+        how = control_
+                  .wait({.screen = asleep,
+                         .onset = state_.show(asleep),
+                         .max_s = asleep_s,
+                         .await = [](SessionTime) {}, // no key is expected yet
+                         .takes_keys = false})
+                  .how;
+    }
+    if (breaks.pace == BreakPace::self && how == OperatorControl::How::timed_out) {
+        const Screen awake = screens::break_awake(state_.protocol);
+        control_.wait({.screen = awake, .onset = state_.show(awake), .max_s = longest_break_s});
+    }
     state_.note(break_ends_event);
 }
 

@@ -7,6 +7,7 @@
 #include "experiment/base/content_hash.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/session/observer_form.h"
+#include "experiment/session/session_screens.h"
 
 namespace overt {
 
@@ -20,7 +21,7 @@ constexpr double longest_reading_s = 3600.0;
 bool read_text(SessionState& state, OperatorControl& control, const std::string& text, std::string what) {
     if (text.empty())
         return true;
-    const Screen screen{Screen::Kind::text, text};
+    const Screen screen = screens::text(state.protocol, text);
     const SessionTime onset = state.show(screen);
     state.note(text_shown_event, std::move(what));
     const auto how = control.wait({.screen = screen, .onset = onset, .max_s = without_end_s}).how;
@@ -38,7 +39,7 @@ bool SessionOpening::ask_for_consent() {
     const std::string& text = state_.protocol.consent.text;
     if (text.empty())
         return true;
-    const Screen screen{Screen::Kind::text, text};
+    const Screen screen = screens::consent(state_.protocol);
     const auto await = [&](SessionTime since) { state_.ports.panel.await_decision(true, since); };
     for (;;) {
         const OperatorControl::Press press = control_.wait(
@@ -65,9 +66,7 @@ bool SessionOpening::fill_in_form() {
         return true;
     if (!is_full && state_.ports.can_type) {
         ObserverForm form(fields, fields_, state_.protocol.words);
-        const auto show = [&] {
-            state_.ports.panel.await_entry(state_.show({Screen::Kind::form, form.text()}));
-        };
+        const auto show = [&] { state_.ports.panel.await_entry(state_.show(form.screen())); };
         show();
         for (bool is_submitted = false; !is_submitted;) {
             bool is_changed = false;
@@ -86,7 +85,7 @@ bool SessionOpening::fill_in_form() {
                 return false;
             // Several keys in one look: drawn once. Presses that come while it is drawn are kept.
             if (is_changed && !is_submitted)
-                state_.show({Screen::Kind::form, form.text()});
+                state_.show(form.screen());
             if (!is_changed)
                 state_.ports.clock.wait_until(state_.now() + key_interval);
         }
@@ -99,10 +98,7 @@ bool SessionOpening::fill_in_form() {
 void SessionOpening::read_instructions() {
     const std::vector<std::string>& pages = state_.protocol.instructions.pages;
     for (std::size_t page = 0; page < pages.size();) {
-        const std::string text = pages.size() == 1
-                                     ? pages[page]
-                                     : fmt::format("{}\n\n{} / {}", pages[page], page + 1, pages.size());
-        const Screen screen{Screen::Kind::text, text};
+        const Screen screen = screens::instructions(state_.protocol, page);
         const SessionTime onset = state_.show(screen);
         state_.note(text_shown_event, fmt::format("instructions, page {} of {}", page + 1, pages.size()));
         const OperatorControl::Press press =

@@ -13,6 +13,7 @@
 #include "experiment/ports/recorded_answer.h"
 #include "experiment/ports/response_panel.h"
 #include "experiment/ports/session_log.h"
+#include "experiment/ports/session_phase.h"
 
 namespace overt {
 
@@ -29,6 +30,8 @@ struct SessionPorts {
     AnswerRecorder* recorder = nullptr; ///< null: spoken answers are not recorded
     /// Told every now and then while an answer is recorded, between presentations; may be empty.
     std::function<void(const AudioLevel&)> on_level = {};
+    /// Told of each change of phase, with the trial or -1; not during a presentation. May be empty.
+    std::function<void(SessionPhase, int)> on_phase = {};
 };
 
 } // namespace overt

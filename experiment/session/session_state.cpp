@@ -9,6 +9,8 @@ void SessionState::enter(SessionPhase phase, int trial) {
     phase_ = phase;
     trial_ = trial;
     ports.panel.entered(phase, trial);
+    if (ports.on_phase)
+        ports.on_phase(phase, trial);
     note(phase_event, std::string(name_of(phase)));
 }
 

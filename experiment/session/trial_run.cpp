@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "experiment/base/counted.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/session/answer_check.h"
 #include "experiment/session/level_watch.h"
+#include "experiment/session/session_screens.h"
 
 namespace overt {
 
@@ -70,8 +72,7 @@ bool TrialRun::goes_on(const Attempt& attempt) const {
 void TrialRun::ask(const Trial& trial, Attempt& attempt) {
     const ScreenSettings& screens = state_.protocol.screens;
     state_.enter(SessionPhase::task_screen, state_.trial());
-    const Screen screen{Screen::Kind::text,
-                        state_.protocol.tasks[static_cast<std::size_t>(trial.task)].question};
+    const Screen screen = overt::screens::question(state_.protocol, trial.task);
     attempt.outcome.task_screen_onset = state_.show(screen);
     control_.wait({.screen = screen,
                    .onset = attempt.outcome.task_screen_onset,
@@ -164,7 +165,8 @@ void TrialRun::act_on_pressed_keys(Attempt& attempt) {
     const bool was_broken_off = !ledger_.is_complete();
     if (was_broken_off)
         state_.log().event({pressed_->pressed_at, state_.trial(), presentation_broken_off_event,
-                            fmt::format("by a key, after {} refreshes", attempt.outcome.shown_refreshes)});
+                            fmt::format("by a key, after {}",
+                                        counted(attempt.outcome.shown_refreshes, "refresh", "refreshes"))});
     control_.act_on(*pressed_);
     // The observer saw only a part of the animation: this attempt does not count, whatever was answered.
     attempt.result.is_rejected = was_broken_off;
@@ -179,7 +181,7 @@ void TrialRun::take_answer(const Trial& trial, const std::optional<Condition>& n
     std::unique_ptr<AnswerRecording> recording;
     if (ports.recorder && !is_practice)
         recording = ports.recorder->begin(trial);
-    const Screen screen{Screen::Kind::text, screens.response_text};
+    const Screen screen = overt::screens::response(state_.protocol, trial.task);
     outcome.response_screen_onset = state_.show(screen);
     if (recording)
         recording->response_screen_lit(outcome.response_screen_onset);

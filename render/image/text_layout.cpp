@@ -9,45 +9,11 @@
 #include <pango/pangocairo.h>
 
 #include "experiment/base/error.h"
+#include "render/image/text_markup.h"
 
 namespace overt {
 
 namespace {
-
-/// Coverage only: the colours are put in afterwards, in linear light.
-class CoverageSurface {
-  public:
-    explicit CoverageSurface(glm::ivec2 size_px)
-        : size_px_(size_px), surface_(cairo_image_surface_create(CAIRO_FORMAT_A8, size_px.x, size_px.y)),
-          cairo_(cairo_create(surface_.get())) {}
-    cairo_t* cairo() { return cairo_.get(); }
-
-    LinearImage tinted(float grey, float background) {
-        cairo_surface_flush(surface_.get());
-        const unsigned char* bytes = cairo_image_surface_get_data(surface_.get());
-        const std::size_t stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface_.get()));
-        LinearImage image(size_px_);
-        for (int y = 0; y < size_px_.y; ++y) {
-            for (int x = 0; x < size_px_.x; ++x) {
-                const float coverage =
-                    static_cast<float>(
-                        bytes[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)]) /
-                    255.0f;
-                image.at(x, y) = glm::vec4(glm::vec3(background + coverage * (grey - background)), coverage);
-            }
-        }
-        return image;
-    }
-
-  private:
-    struct Release {
-        void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-        void operator()(cairo_t* cairo) const { cairo_destroy(cairo); }
-    };
-    glm::ivec2 size_px_;
-    std::unique_ptr<cairo_surface_t, Release> surface_;
-    std::unique_ptr<cairo_t, Release> cairo_;
-};
 
 struct Unref {
     template <class T> void operator()(T* object) const { g_object_unref(object); }
@@ -57,6 +23,8 @@ using Layout = std::unique_ptr<PangoLayout, Unref>;
 Layout lay_out(cairo_t* cairo, const std::string& text, const TextStyle& style) {
     Layout layout(pango_cairo_create_layout(cairo));
     PangoFontDescription* font = pango_font_description_from_string("DejaVu Sans");
+    if (style.bold)
+        pango_font_description_set_weight(font, PANGO_WEIGHT_BOLD);
     pango_font_description_set_absolute_size(font, style.line_height_px * PANGO_SCALE);
     pango_layout_set_font_description(layout.get(), font);
     pango_font_description_free(font);
@@ -64,7 +32,17 @@ Layout lay_out(cairo_t* cairo, const std::string& text, const TextStyle& style) 
     pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);
     pango_layout_set_alignment(layout.get(), style.centred ? PANGO_ALIGN_CENTER : PANGO_ALIGN_LEFT);
     pango_layout_set_line_spacing(layout.get(), 1.25f);
-    pango_layout_set_text(layout.get(), text.data(), static_cast<int>(text.size()));
+    if (style.one_line) {
+        // The end of what is typed is seen, for that is where the next letter goes.
+        pango_layout_set_single_paragraph_mode(layout.get(), TRUE);
+        pango_layout_set_ellipsize(layout.get(), PANGO_ELLIPSIZE_START);
+    }
+    if (style.has_marks) {
+        const std::string markup = pango_markup_of(text);
+        pango_layout_set_markup(layout.get(), markup.data(), static_cast<int>(markup.size()));
+    } else {
+        pango_layout_set_text(layout.get(), text.data(), static_cast<int>(text.size()));
+    }
     return layout;
 }
 
@@ -79,7 +57,7 @@ void require_utf8(const std::string& text) {
 
 TextMeasure measure_text(const std::string& text, const TextStyle& style) {
     require_utf8(text);
-    CoverageSurface measuring({1, 1});
+    const InkCanvas measuring({1, 1});
     const Layout layout = lay_out(measuring.cairo(), text, style);
     TextMeasure measure;
     PangoRectangle extent{};
@@ -87,31 +65,61 @@ TextMeasure measure_text(const std::string& text, const TextStyle& style) {
     measure.size_px = {even(extent.width + 4), even(extent.height + 4)};
     measure.lines = pango_layout_get_line_count(layout.get());
     measure.unknown_glyphs = pango_layout_get_unknown_glyphs_count(layout.get());
+    int of_paragraph = 0;
     for (int line = 0; line < measure.lines; ++line) {
         PangoRectangle of_line{};
-        pango_layout_line_get_pixel_extents(pango_layout_get_line_readonly(layout.get(), line), nullptr,
-                                            &of_line);
+        PangoLayoutLine* const laid = pango_layout_get_line_readonly(layout.get(), line);
+        pango_layout_line_get_pixel_extents(laid, nullptr, &of_line);
         measure.widest_line_px = std::max(measure.widest_line_px, of_line.width);
+        of_paragraph = laid->is_paragraph_start ? 1 : of_paragraph + 1;
+        measure.longest_paragraph = std::max(measure.longest_paragraph, of_paragraph);
     }
     return measure;
 }
 
-LinearImage draw_text(const std::string& text, const TextStyle& style) {
+void put_text(InkCanvas& canvas, const std::string& text, const TextStyle& style, glm::ivec2 top_left_px,
+              double strength) {
     require_utf8(text);
-    CoverageSurface measuring({1, 1});
+    cairo_t* const cairo = canvas.cairo();
+    const Layout layout = lay_out(cairo, text, style);
     PangoRectangle extent{};
-    const Layout measured = lay_out(measuring.cairo(), text, style);
-    pango_layout_get_pixel_extents(measured.get(), nullptr, &extent);
-    CoverageSurface surface({even(extent.width + 4), even(extent.height + 4)});
-    cairo_translate(surface.cairo(), 2 - extent.x, 2 - extent.y);
-    const Layout layout = lay_out(surface.cairo(), text, style);
-    pango_cairo_show_layout(surface.cairo(), layout.get());
-    return surface.tinted(style.grey, style.background);
+    pango_layout_get_pixel_extents(layout.get(), nullptr, &extent);
+    cairo_save(cairo);
+    cairo_translate(cairo, top_left_px.x + 2 - extent.x, top_left_px.y + 2 - extent.y);
+    cairo_set_source_rgba(cairo, 0.0, 0.0, 0.0, strength);
+    pango_cairo_show_layout(cairo, layout.get());
+    cairo_restore(cairo);
+}
+
+LinearImage draw_text(const std::string& text, const TextStyle& style) {
+    InkCanvas canvas(measure_text(text, style).size_px);
+    put_text(canvas, text, style, {0, 0});
+    return canvas.tinted(style.grey, style.background);
+}
+
+void write_on(LinearImage& picture, const std::string& text, glm::ivec2 bottom_px) {
+    TextStyle style;
+    style.wrap_width_px = 100'000;
+    style.background = 0.01f;
+    constexpr int largest_px = 22;
+    style.line_height_px = largest_px;
+    const int wide = measure_text(text, style).size_px.x;
+    if (wide > picture.size_px.x)
+        style.line_height_px = std::max(6, largest_px * picture.size_px.x / wide);
+    const LinearImage words = draw_text(text, style);
+    const glm::ivec2 origin(bottom_px.x - words.size_px.x / 2, bottom_px.y + 1 - words.size_px.y);
+    for (int y = 0; y < words.size_px.y; ++y) {
+        for (int x = 0; x < words.size_px.x; ++x) {
+            const glm::ivec2 at = origin + glm::ivec2(x, y);
+            if (at.x >= 0 && at.y >= 0 && at.x < picture.size_px.x && at.y < picture.size_px.y)
+                picture.at(at.x, at.y) = glm::vec4(glm::vec3(words.at(x, y)), 1.0f);
+        }
+    }
 }
 
 LinearImage draw_fixation_target(double diameter_px, float grey, float background) {
     const int side = even(static_cast<int>(std::ceil(diameter_px)) + 2);
-    CoverageSurface surface({side, side});
+    InkCanvas surface({side, side});
     cairo_t* cairo = surface.cairo();
     const double middle = 0.5 * side;
     cairo_arc(cairo, middle, middle, 0.5 * diameter_px, 0.0, 2.0 * std::numbers::pi);

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "render/image/ink_canvas.h"
 #include "render/image/linear_image.h"
 
 namespace overt {
@@ -13,6 +14,9 @@ struct TextStyle {
     float grey = 0.6f;       ///< linear, of the letters
     float background = 0.0f; ///< linear
     bool centred = true;
+    bool bold = false;
+    bool has_marks = false; ///< <b> and the like are emphasis (text_markup.h), not letters
+    bool one_line = false;  ///< what is too long for it loses its beginning
 };
 
 /// What a text comes out as.
@@ -20,7 +24,8 @@ struct TextMeasure {
     glm::ivec2 size_px{0};
     int lines = 0;
     int widest_line_px = 0;
-    int unknown_glyphs = 0; ///< characters that no font of this machine has; boxes stand for them
+    int longest_paragraph = 0; ///< in lines
+    int unknown_glyphs = 0;    ///< characters that no font of this machine has; boxes stand for them
 };
 TextMeasure measure_text(const std::string& text, const TextStyle& style);
 
@@ -31,6 +36,14 @@ bool begins_at_the_right(const std::string& text);
 /// wrap_width_px wide; its width is even. Alpha is the letters' coverage. Throws InputError if the text is
 /// not UTF-8.
 LinearImage draw_text(const std::string& text, const TextStyle& style);
+
+/// The same on a canvas, with measure_text()'s size from a place on. `strength`: see InkCanvas.
+void put_text(InkCanvas& canvas, const std::string& text, const TextStyle& style, glm::ivec2 top_left_px,
+              double strength = 1.0);
+
+/// Writes a line over a picture, as large as it has room for: `bottom_px` is the middle of its lower edge.
+/// On a dark band, so that it is read on any picture.
+void write_on(LinearImage& picture, const std::string& text, glm::ivec2 bottom_px);
 
 /// A fixation target in which gaze is steadiest: disc, cross and dot (shape ABC of Thaler et al., Vision
 /// Research 76, 2013). `diameter_px` is that of the disc; 0.6 degrees there. The picture is square with an

@@ -185,18 +185,18 @@ FlipReport PagePresenter::show(const Screen& screen) {
     const double px_per_deg = geometry_.px_per_deg_at_centre();
     const float background = static_cast<float>(display_.background),
                 grey = static_cast<float>(screens_.text_grey);
-    LinearImage picture;
-    const bool is_form = screen.kind == Screen::Kind::form;
-    if ((screen.kind == Screen::Kind::text || is_form) && !screen.text.empty()) {
-        picture = draw_screen_text(screen.text, is_form, geometry_, screens_, display_.background);
+    PlacedPicture placed;
+    if (screen.kind == Screen::Kind::text || screen.kind == Screen::Kind::form) {
+        placed = draw_screen(screen, geometry_, screens_, display_.background);
     } else if (screen.kind == Screen::Kind::drift_target) {
-        picture = draw_fixation_target(fixation_target_deg * px_per_deg, grey, background);
+        placed.picture = draw_fixation_target(fixation_target_deg * px_per_deg, grey, background);
+        placed.origin_px = centred_origin_px(geometry_.screen_px, placed.picture.size_px);
     }
-    if (!picture.pixels.empty()) {
+    if (!placed.picture.pixels.empty()) {
         // It stands on the background already.
-        for (glm::vec4& pixel : picture.pixels)
+        for (glm::vec4& pixel : placed.picture.pixels)
             pixel.w = 1.0f;
-        put_picture(picture, centred_origin_px(geometry_.screen_px, picture.size_px));
+        put_picture(placed.picture, placed.origin_px);
     }
     put_patch(false);
     throw_on_gl_error(*context_, "drawing a screen");

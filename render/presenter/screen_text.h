@@ -1,4 +1,5 @@
-/// The texts of a session on its screen: how large they are set, and whether they fit.
+/// The screens of a session that are no stimuli: how large their texts are set, where everything stands, and
+/// whether it fits.
 #pragma once
 
 #include <string>
@@ -13,22 +14,28 @@ namespace overt {
 
 /// How a screen's text comes out.
 struct ScreenTextFit {
-    TextMeasure measure;
+    TextMeasure measure; ///< of what stands in the middle: title, text and form
     int line_height_px = 0;
     bool is_shrunk = false; ///< it is set smaller than the protocol says, so that all of it is seen
     bool fits = true;       ///< else not even the smallest letters are small enough, and its end is cut off
 };
 
-/// The texts stand in the middle eight tenths of the screen's width (a form: six tenths, wherever its lines
-/// end) and nine tenths of its height: lines are wrapped at the one, and a text that is too high for the
-/// other is set smaller. `is_form`: lines begin below each other. Throws InputError for a text that is not
-/// UTF-8.
-ScreenTextFit fit_screen_text(const std::string& text, bool is_form, const ScreenGeometry& geometry,
-                              double text_height_deg);
+/// Lines are no longer than about sixty letters (34 times their height) and eight tenths of the screen's
+/// width, and end where the middle three quarters of its height end; what is too high for that is set
+/// smaller. A paragraph of more than two lines is set flush where its script begins, the rest is centred.
+/// Keys, and how far this is, stand below. Throws InputError for a text that is not UTF-8, or whose emphasis
+/// is not closed.
+ScreenTextFit fit_screen(const Screen& screen, const ScreenGeometry& geometry, double text_height_deg);
 
-/// The text as it is shown, of the colours of the screens on the display's background.
-LinearImage draw_screen_text(const std::string& text, bool is_form, const ScreenGeometry& geometry,
-                             const ScreenSettings& screens, double background);
+/// A picture at its place on the screen; empty if nothing is drawn.
+struct PlacedPicture {
+    LinearImage picture;
+    glm::ivec2 origin_px{0};
+};
+
+/// The screen as it is shown, in the grey of the texts on the display's background. Of a text or a form.
+PlacedPicture draw_screen(const Screen& screen, const ScreenGeometry& geometry, const ScreenSettings& screens,
+                          double background);
 
 /// A level meter: an outline, the mean level filled in, a line at the peak, and above it the warning. All on
 /// the display's background, and always of the same size.

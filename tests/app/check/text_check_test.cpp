@@ -1,6 +1,7 @@
 #include "app/check/text_check.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "tests/experiment/protocol/protocol_fixtures.h"
 
@@ -50,4 +51,30 @@ TEST_CASE("letters that no font has are found in every text that is shown, named
     CHECK(named(field + "note = " + unknown + "\n") == "the note of field \"eyes\"");
     CHECK(named(field + "kind = \"choice\"\nchoices = [\"blue\", " + unknown + "]\n") == "choice 2");
     CHECK(named("[[task]]\nid = \"age\"\nquestion = " + unknown + "\n") == "the question of task \"age\"");
+}
+
+TEST_CASE("texts that hardly differ from their background are warned of, with the ratio", "[unit]") {
+    const auto findings = findings_of("[screens]\ntext_grey = 0.04\n");
+    REQUIRE(findings.size() == 1);
+    CHECK(findings[0].severity == Severity::warning);
+    // (0.04 + 0.05) / (0 + 0.05)
+    CHECK_THAT(findings[0].message, Catch::Contains("1.8 : 1"));
+    CHECK(findings_of("[screens]\ntext_grey = 0.11\n").empty());
+}
+
+TEST_CASE("a form that is too large for the screen is found as a whole", "[unit]") {
+    std::string fields;
+    for (int i = 0; i < 40; ++i)
+        fields += fmt::format("[[observer_field]]\nid = \"f{}\"\n", i);
+    const auto findings = findings_of(fields);
+    REQUIRE(findings.size() == 1);
+    CHECK_THAT(findings[0].message, Catch::Contains("the form is too large"));
+}
+
+TEST_CASE("emphasis that is not closed is found where it stands", "[unit]") {
+    const auto findings = findings_of("[screens]\nwelcome_text = \"<b>Hello\"\n");
+    REQUIRE(findings.size() == 1);
+    CHECK(findings[0].severity == Severity::error);
+    CHECK_THAT(findings[0].message, Catch::Contains("<b> is not closed"));
+    CHECK(findings[0].place.line == 13);
 }

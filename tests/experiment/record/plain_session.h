@@ -29,8 +29,10 @@ class PlainPresenter final : public Presenter {
     DisplayTiming timing() const override { return {120.0, VblankSource::virtual_display}; }
     void load_frames(const Condition& condition) override { loaded.push_back(condition); }
     FlipReport show(const Screen& screen) override {
-        if (screen.kind == Screen::Kind::text || screen.kind == Screen::Kind::form)
+        if (screen.kind == Screen::Kind::text || screen.kind == Screen::Kind::form) {
             texts.push_back(screen.text);
+            screens.push_back(screen);
+        }
         return next();
     }
     void show_level(const LevelBar& bar) override { bars.push_back(bar); }
@@ -39,6 +41,7 @@ class PlainPresenter final : public Presenter {
 
     std::vector<Condition> loaded;
     std::vector<std::string> texts;
+    std::vector<Screen> screens; ///< of the texts
     std::vector<LevelBar> bars;
 
   private:

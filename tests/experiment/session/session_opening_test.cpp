@@ -62,17 +62,29 @@ TEST_CASE("instructions are read page by page, there and back", "[unit]") {
     };
     CHECK(sitting.run().completed_trials == 2);
     std::string seen;
-    for (const std::string& text : sitting.presenter.texts)
-        if (text.find(" / 3") != std::string::npos)
-            seen += text.substr(0, text.find('\n')) + " ";
-    CHECK(seen == "one one two three two three ");
+    for (const Screen& screen : sitting.presenter.screens) {
+        if (screen.pages == 0)
+            continue;
+        seen += fmt::format("{} {} ", screen.text, screen.page);
+        // Back is said where there is something to go back to.
+        CHECK(screen.keys.size() == (screen.page == 1 ? 1u : 2u));
+    }
+    CHECK(seen == "one 1 one 1 two 2 three 3 two 2 three 3 ");
 }
 
 TEST_CASE("a form is filled in by keys, and says what is at fault", "[unit]") {
     const auto fields = three_observer_fields("name");
     ObserverForm form(fields, {});
+    // What cannot be is said at once, where it was typed.
     CHECK_FALSE(take(form, U"3x1"));
+    CHECK(form.focus() == 0);
+    CHECK_THAT(form.message(), Contains("\"3x1\""));
+    CHECK(form.screen().rows[0].is_at_fault);
+    form.take({Key::down, {}});
     CHECK(form.focus() == 1);
+    CHECK(form.screen().rows[0].is_at_fault);
+    CHECK_FALSE(form.screen().rows[1].is_at_fault);
+    CHECK(form.screen().rows[1].choices.size() == 3);
     form.take({Key::right, {}});
     CHECK(form.values()[1] == "left");
     form.take({Key::left, {}});
@@ -84,7 +96,9 @@ TEST_CASE("a form is filled in by keys, and says what is at fault", "[unit]") {
     // The first fault is said and gone to.
     CHECK(form.focus() == 0);
     CHECK_THAT(form.message(), Contains("\"3x1\""));
-    CHECK_THAT(form.text(), Contains(form.message()) && Contains("• Age in years"));
+    CHECK_THAT(form.screen().text, Contains(form.message()));
+    CHECK(form.screen().rows[0].label == "Age in years");
+    CHECK(form.screen().rows[0].is_here);
     form.take({Key::erase, {}});
     form.take({Key::erase, {}});
     CHECK(form.values()[0] == "3");

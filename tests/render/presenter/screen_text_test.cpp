@@ -42,6 +42,8 @@ TextStyle style_of(bool centred, int wrap_width_px = 600) {
     return style;
 }
 
+Screen of_text(const std::string& text) { return {.kind = Screen::Kind::text, .text = text}; }
+
 struct Script {
     const char *name, *text;
 };
@@ -138,12 +140,12 @@ TEST_CASE(
         for (int i = 0; i < 12; ++i)
             text += std::string(script.text) + " ";
         CAPTURE(script.name);
-        const ScreenTextFit fit = fit_screen_text(text, false, geometry, 0.6);
+        const ScreenTextFit fit = fit_screen(of_text(text), geometry, 0.6);
         CHECK(fit.measure.lines > 1);
         CHECK(fit.measure.widest_line_px <= 640);
         CHECK_FALSE(fit.is_shrunk);
     }
-    CHECK(fit_screen_text(std::string(200, 'W'), false, geometry, 0.6).measure.widest_line_px <= 640);
+    CHECK(fit_screen(of_text(std::string(200, 'W')), geometry, 0.6).measure.widest_line_px <= 640);
 }
 
 TEST_CASE("a text that is too high for the screen is set smaller until all of it is there", "[unit]") {
@@ -152,23 +154,26 @@ TEST_CASE("a text that is too high for the screen is set smaller until all of it
     geometry.screen_mm = {400.0, 300.0};
     geometry.viewing_distance_mm = 570.0;
     std::string text;
-    for (int line = 0; line < 40; ++line)
-        text += "One of forty lines.\n";
-    const ScreenTextFit fit = fit_screen_text(text, false, geometry, 0.6);
+    for (int line = 0; line < 30; ++line)
+        text += "One of thirty lines.\n";
+    const ScreenTextFit fit = fit_screen(of_text(text), geometry, 0.6);
     CHECK(fit.is_shrunk);
-    CHECK(fit.measure.size_px.y <= 540);
+    CHECK(fit.measure.size_px.y <= 450);
     CHECK(fit.line_height_px >= 8);
     CHECK(fit.fits);
-    CHECK_FALSE(fit_screen_text(std::string(5000, '\n'), false, geometry, 0.6).fits);
-    CHECK_THROWS_AS(fit_screen_text("\xff\xfe", false, geometry, 0.6), InputError);
+    CHECK_FALSE(fit_screen(of_text(std::string(5000, '\n')), geometry, 0.6).fits);
+    CHECK_THROWS_AS(fit_screen(of_text("\xff\xfe"), geometry, 0.6), InputError);
 }
 
 TEST_CASE("the presenter shows consents and forms longer than its screen within it", "[gl]") {
     Bench bench;
     PagePresenter presenter(*bench.context, bench.display, bench.pages, bench.geometry, bench.settings,
                             bench.screens);
-    for (const Screen::Kind kind : {Screen::Kind::text, Screen::Kind::form}) {
-        presenter.show({kind, "a\nb\nc\nd\ne"});
+    for (const Screen& screen :
+         {of_text("a\nb\nc\nd\ne"), Screen{.kind = Screen::Kind::form,
+                                    .text = "# t",
+                                    .rows = {{"a", "b", {}, true, false}, {"c", "", {"d", "e"}}}}}) {
+        presenter.show(screen);
         const auto canvas = presenter.read_canvas();
         int inked = 0;
         for (int y = 0; y < screen_px.y; ++y)
@@ -178,19 +183,122 @@ TEST_CASE("the presenter shows consents and forms longer than its screen within 
     }
 }
 
-TEST_CASE("a form begins at the same place whatever stands in it, at the right from right to left",
-          "[unit]") {
+namespace {
+
+ScreenGeometry desk() {
     ScreenGeometry geometry;
     geometry.screen_px = {1920, 1080};
     geometry.screen_mm = {531.0, 299.0};
     geometry.viewing_distance_mm = 600.0;
-    const ScreenSettings screens;
-    const auto drawn = [&](const char* text) { return draw_screen_text(text, true, geometry, screens, 0.0); };
-    const LinearImage brief = drawn("Name:"), full = drawn("Name:  somebody with a very long name");
-    CHECK(brief.size_px.x == full.size_px.x);
-    CHECK(ink_of(brief).left == ink_of(full).left);
-    const LinearImage brief_hebrew = drawn("שם:"), full_hebrew = drawn("שם: שם ארוך מאוד של מישהו");
-    CHECK(brief_hebrew.size_px.x == full_hebrew.size_px.x);
-    CHECK(ink_of(brief_hebrew).right == Approx(ink_of(full_hebrew).right).margin(2));
-    CHECK(ink_of(brief_hebrew).left > full_hebrew.size_px.x / 2);
+    return geometry;
+}
+
+/// The whole screen, with what is drawn where it is.
+LinearImage on_screen(const Screen& screen) {
+    const ScreenGeometry geometry = desk();
+    const PlacedPicture drawn = draw_screen(screen, geometry, ScreenSettings(), 0.0);
+    LinearImage whole(geometry.screen_px);
+    for (int y = 0; y < drawn.picture.size_px.y; ++y)
+        for (int x = 0; x < drawn.picture.size_px.x; ++x)
+            whole.at(drawn.origin_px.x + x, drawn.origin_px.y + y) = drawn.picture.at(x, y);
+    return whole;
+}
+
+/// Rows of a share of the screen's height.
+Ink ink_between(const LinearImage& whole, double from, double to) {
+    return ink_of(whole, static_cast<int>(from * whole.size_px.y), static_cast<int>(to * whole.size_px.y));
+}
+
+Screen form_of(const std::string& label, const std::string& typed, const std::string& chosen,
+               const std::string& message = {}) {
+    return {.kind = Screen::Kind::form,
+            .text = "# Form\n" + message,
+            .rows = {{label, typed, {}, true, !message.empty()}, {label, chosen, {"aa", "bb", "cc"}}},
+            .page = 1,
+            .pages = 2};
+}
+
+} // namespace
+
+TEST_CASE("a form stays in its place whatever is typed, chosen and said of it", "[unit]") {
+    // The panel's outline is fainter than its letters, and farthest out.
+    const auto sides_of = [](const LinearImage& whole) {
+        glm::ivec2 sides(whole.size_px.x, 0);
+        for (int y = whole.size_px.y * 35 / 100; y < whole.size_px.y / 2; ++y)
+            for (int x = 0; x < whole.size_px.x; ++x)
+                if (whole.at(x, y).w > 0.3f)
+                    sides = {std::min(sides.x, x), std::max(sides.y, x)};
+        return sides;
+    };
+    const glm::ivec2 empty = sides_of(on_screen(form_of("Name", "", "")));
+    CHECK(empty.x < 0.4 * desk().screen_px.x);
+    for (const Screen& other : {form_of("Name", std::string(90, 'w'), ""), form_of("Name", "x", "cc"),
+                                form_of("Name", "", "", "Name: please fill this in")})
+        CHECK(sides_of(on_screen(other)) == empty);
+}
+
+TEST_CASE("from right to left, labels of a form stand at its right and what is typed at the left of them",
+          "[unit]") {
+    const auto label_of = [](const std::string& label) { return on_screen(form_of(label, "", "")); };
+    const auto centre_of_ink = [](const LinearImage& whole) {
+        double sum = 0.0, count = 0.0;
+        for (int y = whole.size_px.y * 3 / 10; y < whole.size_px.y * 6 / 10; ++y)
+            for (int x = 0; x < whole.size_px.x; ++x)
+                if (whole.at(x, y).w > 0.9f) {
+                    sum += x;
+                    ++count;
+                }
+        return sum / count / whole.size_px.x;
+    };
+    CHECK(centre_of_ink(label_of("Nachname")) < 0.5);
+    CHECK(centre_of_ink(label_of("اسم العائلة")) > 0.5);
+}
+
+TEST_CASE("keys, and how far it is, stand below the text, and a frame is for the operator alone", "[unit]") {
+    Screen screen = of_text("What is it?");
+    const LinearImage bare = on_screen(screen);
+    CHECK(ink_between(bare, 0.82, 1.0).left == -1);
+    screen.keys = {{"space bar", "go on"}};
+    CHECK(ink_between(on_screen(screen), 0.82, 0.9).left > 0);
+    CHECK(ink_between(on_screen(screen), 0.9, 1.0).left == -1);
+    screen.page = 2;
+    screen.pages = 3;
+    CHECK(ink_between(on_screen(screen), 0.9, 1.0).left > 0);
+    CHECK(ink_between(on_screen(screen), 0.0, 0.06).left == -1);
+    screen.frame = "For the experimenter";
+    const Ink framed = ink_of(on_screen(screen));
+    CHECK(framed.left < 0.03 * 1920);
+    CHECK(framed.bottom > 0.96 * 1080);
+}
+
+TEST_CASE("a title is larger than its text, and lines are no longer than some sixty letters", "[unit]") {
+    const double height_deg = 0.5;
+    const auto height = [&](const std::string& text) {
+        return fit_screen(of_text(text), desk(), height_deg).measure.size_px.y;
+    };
+    CHECK(height("# Title") > 1.25 * height("Title"));
+    std::string text;
+    for (int word = 0; word < 200; ++word)
+        text += "sculpture ";
+    const ScreenTextFit fit = fit_screen(of_text(text), desk(), height_deg);
+    const ScreenTextFit sixty = fit_screen(of_text(text.substr(0, 69)), desk(), height_deg);
+    CHECK(fit.measure.widest_line_px <= sixty.measure.widest_line_px * 70 / 69);
+}
+
+TEST_CASE("emphasis is drawn, and what only looks like it stands as it is", "[unit]") {
+    const auto width = [](const std::string& text) {
+        return fit_screen(of_text(text), desk(), 0.8).measure.widest_line_px;
+    };
+    CHECK(width("<b>material</b>") > width("material"));
+    CHECK(width("<big>material</big>") > width("<small>material</small>"));
+    CHECK(width("a < b & c > d <c>") == width("a &lt; b &amp; c &gt; d &lt;c>"));
+    CHECK(width("&lt;b>x") > width("<b>x</b>"));
+    for (const char* wrong : {"<b>x", "x</b>", "<b><i>x</b></i>"}) {
+        CAPTURE(wrong);
+        CHECK_THROWS_AS(width(wrong), InputError);
+    }
+}
+
+TEST_CASE("texts are eight tenths of a degree high unless the protocol says otherwise", "[unit]") {
+    CHECK(ScreenSettings().text_height_deg >= 0.8);
 }

@@ -1,0 +1,152 @@
+#include "experiment/session/session_screens.h"
+
+#include <fmt/format.h>
+
+#include "experiment/session/observer_form.h"
+
+namespace overt::screens {
+
+namespace {
+
+/// A key's name as it stands on a keyboard: "F1", "Y".
+std::string key_cap(std::string name) {
+    for (char& letter : name)
+        letter = static_cast<char>(letter >= 'a' && letter <= 'z' ? letter - 'a' + 'A' : letter);
+    return name;
+}
+
+/// Words in which {} stands for a number of seconds.
+std::string with_seconds(std::string words, double seconds) {
+    const std::size_t at = words.find("{}");
+    return at == std::string::npos ? words : words.replace(at, 2, fmt::format("{:.0f}", seconds));
+}
+
+Screen ended_by_key(const WordSettings& words, std::string text, const std::string& what_it_does) {
+    return {.kind = Screen::Kind::text, .text = std::move(text), .keys = {{words.space_bar, what_it_does}}};
+}
+
+const std::string& question_of(const Protocol& protocol, int task) {
+    return protocol.tasks[static_cast<std::size_t>(task)].question;
+}
+
+} // namespace
+
+Screen text(const Protocol& protocol, std::string text) {
+    return ended_by_key(protocol.words, std::move(text), protocol.words.go_on);
+}
+
+Screen consent(const Protocol& protocol) {
+    const ConsentSettings& consent = protocol.consent;
+    return {.kind = Screen::Kind::text,
+            .text = consent.text,
+            .keys = {{key_cap(consent.accept_key), protocol.words.agree},
+                     {key_cap(consent.decline_key), protocol.words.decline}}};
+}
+
+Screen instructions(const Protocol& protocol, std::size_t page) {
+    const std::vector<std::string>& pages = protocol.instructions.pages;
+    Screen screen = text(protocol, pages[page]);
+    if (page > 0)
+        screen.keys.insert(screen.keys.begin(), {"←", protocol.words.back});
+    screen.page = static_cast<int>(page) + 1;
+    screen.pages = static_cast<int>(pages.size());
+    return screen;
+}
+
+Screen farewell(const Protocol& protocol) {
+    return ended_by_key(protocol.words, protocol.screens.farewell_text, protocol.words.close);
+}
+
+Screen question(const Protocol& protocol, int task) { return text(protocol, question_of(protocol, task)); }
+
+Screen response(const Protocol& protocol, int task) {
+    const ScreenSettings& screens = protocol.screens;
+    return ended_by_key(protocol.words,
+                        screens.repeat_question ? question_of(protocol, task) + "\n\n" + screens.response_text
+                                                : screens.response_text,
+                        protocol.words.answered);
+}
+
+double break_asleep_s(const BreakSettings& breaks) {
+    return breaks.pace == BreakPace::timed ? breaks.duration_s : breaks.min_s;
+}
+
+Screen break_asleep(const Protocol& protocol) {
+    const BreakSettings& breaks = protocol.breaks;
+    const WordSettings& words = protocol.words;
+    return {.kind = Screen::Kind::text,
+            .text = breaks.text,
+            .keys = {{"", with_seconds(breaks.pace == BreakPace::timed ? words.goes_on_itself : words.rest,
+                                       break_asleep_s(breaks))}}};
+}
+
+Screen break_awake(const Protocol& protocol) { return text(protocol, protocol.breaks.text); }
+
+Screen pause(const Protocol& protocol) {
+    return {.kind = Screen::Kind::text,
+            .text = protocol.operators.pause_text,
+            .keys = {{key_cap(protocol.operators.pause), protocol.words.go_on}},
+            .frame = protocol.words.experimenter};
+}
+
+Screen operator_question(const Protocol& protocol, const std::string& question) {
+    const OperatorSettings& keys = protocol.operators;
+    return {.kind = Screen::Kind::text,
+            .text = question,
+            .keys = {{key_cap(keys.yes), protocol.words.yes}, {key_cap(keys.no), protocol.words.no}},
+            .frame = protocol.words.experimenter};
+}
+
+std::string skip_question(const Protocol& protocol) {
+    std::string question = protocol.words.skip;
+    const std::vector<std::string>& reasons = protocol.operators.skip_reasons;
+    for (std::size_t i = 0; i < reasons.size(); ++i)
+        question +=
+            fmt::format("{}{}: {}, {}", i == 0 ? "\n\n" : "\n", i + 1, protocol.words.yes, reasons[i]);
+    return question;
+}
+
+Screen please_wait(const Protocol& protocol) {
+    return {.kind = Screen::Kind::text, .text = protocol.words.please_wait};
+}
+
+std::vector<std::pair<std::string, Screen>> all_of(const Protocol& protocol) {
+    std::vector<std::pair<std::string, Screen>> all;
+    const auto add = [&](std::string name, Screen screen) {
+        if (screen.kind == Screen::Kind::form || !screen.text.empty())
+            all.emplace_back(std::move(name), std::move(screen));
+    };
+    add("consent", consent(protocol));
+    if (!protocol.observer_fields.empty())
+        add("form", ObserverForm(protocol.observer_fields, {}, protocol.words).screen());
+    add("welcome", text(protocol, protocol.screens.welcome_text));
+    for (std::size_t page = 0; page < protocol.instructions.pages.size(); ++page)
+        add(fmt::format("instructions_{}", page + 1), instructions(protocol, page));
+    add("please_wait", please_wait(protocol));
+    for (const BlockSettings& block : protocol.blocks)
+        add("block_" + block.id, text(protocol, block.instructions));
+    for (std::size_t task = 0; task < protocol.tasks.size(); ++task)
+        add("question_" + protocol.tasks[task].id, question(protocol, static_cast<int>(task)));
+    for (std::size_t task = 0; task < (protocol.screens.repeat_question ? protocol.tasks.size() : 1); ++task)
+        add(protocol.screens.repeat_question ? "response_" + protocol.tasks[task].id : "response",
+            response(protocol, static_cast<int>(task)));
+    for (std::size_t i = 0; i < protocol.practice.size(); ++i)
+        add(fmt::format("feedback_{}", i + 1), text(protocol, protocol.practice[i].feedback));
+    if (protocol.breaks.every_trials > 0 || protocol.breaks.between_blocks) {
+        add("break", break_asleep(protocol));
+        if (protocol.breaks.pace == BreakPace::self)
+            add("break_over", break_awake(protocol));
+    }
+    add("farewell", farewell(protocol));
+    add("operator_pause", pause(protocol));
+    const WordSettings& words = protocol.words;
+    add("operator_recalibrate", operator_question(protocol, words.recalibrate));
+    add("operator_repeat", operator_question(protocol, words.repeat));
+    add("operator_reject", operator_question(protocol, words.reject));
+    add("operator_skip", operator_question(protocol, skip_question(protocol)));
+    add("operator_abort", operator_question(protocol, words.abort));
+    add("operator_abort_in_trial", operator_question(protocol, words.abort_in_trial));
+    return all;
+}
+
+} // namespace overt::screens

@@ -1,0 +1,51 @@
+/// A surface that letters, boxes and lines are drawn on, for screens between animations. Only coverage is
+/// drawn, by Cairo; the two greys are put in afterwards, in linear light.
+#pragma once
+
+#include <memory>
+
+#include "render/image/linear_image.h"
+
+typedef struct _cairo cairo_t;
+typedef struct _cairo_surface cairo_surface_t;
+
+namespace overt {
+
+/// A rectangle in pixels of a canvas.
+struct InkBox {
+    double x = 0.0, y = 0.0, width = 0.0, height = 0.0;
+};
+
+class InkCanvas {
+  public:
+    explicit InkCanvas(glm::ivec2 size_px);
+
+    cairo_t* cairo() const { return cairo_.get(); }
+    glm::ivec2 size_px() const { return size_px_; }
+
+    /// `strength`: of the ink, 0 … 1, 1 being the colour of the letters. `radius`: of the corners.
+    void fill(const InkBox& box, double strength, double radius = 0.0);
+    void outline(const InkBox& box, double strength, double line_px, double radius = 0.0);
+
+    /// Whether what follows takes ink away, instead of putting it on.
+    void takes_away(bool now);
+
+    /// What has ink, as a picture of two linear greys; alpha is the coverage. The rest is left out: `origin`
+    /// is where the picture lies on the canvas. Its place and width are even. Nothing, if there is no ink.
+    LinearImage tinted_ink(float grey, float background, glm::ivec2& origin) const;
+    /// The same of all of it.
+    LinearImage tinted(float grey, float background) const;
+
+  private:
+    struct Release {
+        void operator()(cairo_surface_t* surface) const;
+        void operator()(cairo_t* cairo) const;
+    };
+    LinearImage tinted_part(float grey, float background, glm::ivec2 first, glm::ivec2 end) const;
+
+    glm::ivec2 size_px_;
+    std::unique_ptr<cairo_surface_t, Release> surface_;
+    std::unique_ptr<cairo_t, Release> cairo_;
+};
+
+} // namespace overt
