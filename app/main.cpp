@@ -1,7 +1,9 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
+#include <string>
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -24,6 +26,13 @@ int run(int argc, char** argv) {
         return 2;
     } catch (const std::bad_alloc&) {
         fmt::print(stderr, "overt: the memory of this machine does not suffice: close other programs\n");
+        return 1;
+    } catch (const std::filesystem::filesystem_error& error) {
+        const std::string place = error.path1().empty() ? "a file or folder" : error.path1().string();
+        fmt::print(stderr,
+                   "overt: {}: cannot be used ({}): see whether it is there, may be read and written by this "
+                   "user, and whether its disk is full\n",
+                   place, error.code().message());
         return 1;
     } catch (const std::exception& error) {
         fmt::print(stderr, "overt: {}\n", error.what());

@@ -22,13 +22,27 @@ class ProgressBar {
     /// The same for pieces that take unequal times: `share` of all the time is over, 0 … 1.
     void update(std::string_view what, int done, int total, double share);
 
-    /// Ends the bar that stands, so that something else can be printed.
+    /// What stands behind the bar on a terminal, as far as there is room; drawn at once.
+    void remark(std::string text);
+
+    /// Ends the line that stands, so that something else can be printed; the bar goes on below, with its
+    /// time.
+    void make_room();
+
+    /// Ends the bar that stands.
     void finish();
 
   private:
+    void draw_line();
+
     using SteadyTime = std::chrono::steady_clock::time_point;
     bool on_terminal_;
     std::string what_;
+    std::string remark_;
+    std::string left_; ///< the time that is left, as it was last said
+    int done_ = 0, total_ = 0;
+    double share_ = 0.0;
+    bool stands_ = false; ///< a line on the terminal is unfinished
     SteadyTime started_{};
     SteadyTime drawn_{};
 };

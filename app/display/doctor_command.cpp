@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 #include <sys/statvfs.h>
 
 #include "app/cli/cache_folder.h"
@@ -14,6 +13,7 @@
 #include "devices/display_box/display_plus_plus_search.h"
 #include "devices/display_box/switch_record.h"
 #include "devices/host/clocks.h"
+#include "devices/host/thread_priority.h"
 #include "devices/light/colorcal.h"
 #include "devices/link/serial_port.h"
 #include "render/gl/headless_context.h"
@@ -39,12 +39,9 @@ double free_gb(const std::filesystem::path& folder) {
 }
 
 std::string realtime_priority() {
-    rlimit limit{};
-    if (getrlimit(RLIMIT_RTPRIO, &limit) != 0 || limit.rlim_cur == 0) {
-        return "none allowed (set rtprio in /etc/security/limits.conf for real sessions)";
-    }
-    return limit.rlim_cur == RLIM_INFINITY ? "allowed without limit"
-                                           : fmt::format("allowed up to {}", limit.rlim_cur);
+    // Limits alone do not tell: root needs none, containers take it away, and RealtimeKit gives it.
+    const ThreadWish wish = try_realtime_priority();
+    return wish.granted ? "granted: " + wish.detail : "refused: " + wish.detail;
 }
 
 void add_screens(std::vector<Line>& lines) {

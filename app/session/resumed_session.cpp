@@ -17,6 +17,11 @@
 
 namespace overt {
 
+bool observer_declined(const SessionRecord& record) {
+    const std::vector<RecordedConsent> consents = record.consents();
+    return !consents.empty() && !consents.back().accepted;
+}
+
 namespace {
 
 /// What may have been lost when the program was killed, and more.
@@ -35,11 +40,21 @@ std::filesystem::path session_to_take_up(const SessionPlace& place, std::optiona
                                          fmt::join(numbers, ", ")));
         return session_path(place, *number);
     }
+    std::vector<int> declined;
     for (auto last = numbers.rbegin(); last != numbers.rend(); ++last) {
         std::filesystem::path folder = session_path(place, *last);
-        if (!SessionRecord(folder).is_complete())
+        const SessionRecord record(folder);
+        if (record.is_complete())
+            continue;
+        if (!observer_declined(record))
             return folder;
+        declined.push_back(*last);
     }
+    if (!declined.empty())
+        throw InputError(fmt::format(
+            "{}: no session was interrupted. In session {} the observer did not agree to take part, and is "
+            "asked again only if that is what --resume --session {} is to do.",
+            whose, fmt::join(declined, ", "), declined.front()));
     throw InputError(
         fmt::format("{}: no session was interrupted: {} {} complete. The next one is run without "
                     "--resume.",
@@ -180,6 +195,9 @@ ResumedSession take_up_session(const RunOptions& options, const SessionPlace& pl
             fmt::format("{}: this session is complete: there is nothing to go on with.", folder.string()));
     require_same_protocol(folder, record.header().protocol, protocol);
     require_same_run(folder, record.header(), options);
+    if (observer_declined(record))
+        fmt::print(stderr, "session {}: the observer did not agree to take part, and is asked again\n",
+                   record.header().session_number);
 
     const SessionHistory before = record.history();
     ResumedSession session{folder, record.header(), before, {}, {}};

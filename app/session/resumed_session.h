@@ -6,6 +6,7 @@
 
 #include "app/session/session_commands.h"
 #include "experiment/ports/session_history.h"
+#include "experiment/record/read/session_record.h"
 #include "experiment/record/resumption.h"
 #include "experiment/record/session_directory.h"
 #include "experiment/record/session_header.h"
@@ -32,5 +33,8 @@ ResumedSession take_up_session(const RunOptions& options, const SessionPlace& pl
 
 /// Throws InputError if `now` would show something else than the session was begun with.
 void require_same_stimuli(const ResumedSession& session, const SessionHeader& now);
+
+/// The observer was asked last, and did not agree to take part.
+bool observer_declined(const SessionRecord& record);
 
 } // namespace overt

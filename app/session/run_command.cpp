@@ -30,7 +30,7 @@ namespace overt {
 namespace {
 
 /// Draws and renders what the cache lacks. Ctrl-C ends it with what is finished.
-void prepare_stimuli(Rig& rig, const RunOptions& options) {
+void prepare_stimuli(Rig& rig, const Protocol& protocol, const RunOptions& options) {
     ProgressBar bar;
     const Progress show = [&](std::string_view what, int done, int total, double share) {
         bar.update(what, done, total, share);
@@ -42,7 +42,8 @@ void prepare_stimuli(Rig& rig, const RunOptions& options) {
     if (!rig.maps_are_live())
         rig.library().maps().prepare_maps(show);
     rig.library().maps().prepare_given_maps(show);
-    rig.library().prepare_frames(show, options.quality);
+    const bool for_people = !options.simulate_observer;
+    rig.library().prepare_frames(show, options.quality.value_or(protocol.bake.least(for_people)));
 }
 
 void check_timing(Rig& rig, double seconds) {
@@ -209,8 +210,8 @@ int run_session(const RunOptions& options) {
     say_before(protocol, plan.schedule, rig.context().description(), options);
     say_risks(rig.screen_findings());
     const Interruption interruption;
-    prepare_stimuli(rig, options);
-    say_frames(rig.library());
+    prepare_stimuli(rig, protocol, options);
+    say_frames(rig.library(), !options.simulate_observer);
     rig.open(plan.faults, plan.resumed ? plan.resumed->clock_start : SessionTime());
     if (rig.is_on_a_real_screen() && options.refresh_check_s > 0.0)
         check_timing(rig, options.refresh_check_s);
@@ -226,6 +227,7 @@ int run_session(const RunOptions& options) {
     note_circumstances(options, protocol, plan.schedule, rig, store);
     answers.keep_in(folder.path);
     store.event({rig.clock().now(), -1, answer_recording_event, answers.description()});
+    TrialProgress progress(protocol, plan.schedule, rig.tracker().measures_gaze());
     Session session(protocol, plan.schedule, screen_geometry_of(protocol).centre(),
                     {.clock = rig.clock(),
                      .presenter = rig.presenter(),
@@ -236,10 +238,9 @@ int run_session(const RunOptions& options) {
                      .observer = observer.label,
                      .can_type = !options.simulate_observer && options.ask_at == AskAt::window,
                      .recorder = answers.recorder(),
-                     .on_level = answers.meter()},
+                     .on_level = answers.meter(),
+                     .on_phase = [&](SessionPhase phase, int trial) { progress.enter(phase, trial); }},
                     plan.fields);
-    TrialProgress progress(protocol, static_cast<int>(plan.schedule.trials.size()),
-                           rig.tracker().measures_gaze());
     note_faults(options.faults, rig.clock(), store);
     note_thread(prepare_thread({options.realtime, options.processor}), rig.clock(), store);
     const SessionResult result = session.run(

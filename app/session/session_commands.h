@@ -43,9 +43,10 @@ struct RunOptions {
     bool realtime = false;        ///< ask for priority and locked memory
     std::optional<int> processor; ///< the only one for the session's thread
     std::filesystem::path print_session_to;
-    std::optional<int> monitor;         ///< from 1
-    double refresh_check_s = 5.0;       ///< measure a real screen's refresh for so long; 0: not at all
-    std::optional<BakeQuality> quality; ///< that the frames have at least; nothing: the protocol's
+    std::optional<int> monitor;   ///< from 1
+    double refresh_check_s = 5.0; ///< measure a real screen's refresh for so long; 0: not at all
+    std::optional<BakeQuality>
+        quality; ///< that the frames have at least; nothing: the protocol's for this observer
 };
 int run_session(const RunOptions& options);
 

@@ -1,5 +1,7 @@
 #include "app/session/session_messages.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -24,10 +26,14 @@ void say_before(const Protocol& protocol, const Schedule& schedule, const GlDesc
         fmt::print("tracker: simulated; the gaze in this session is made by the program, not measured\n");
 }
 
-void say_frames(const StimulusLibrary& library) {
+void say_frames(const StimulusLibrary& library, bool to_people) {
     const std::vector<Condition> rendered = library.cache().rendered_stimuli();
-    if (!rendered.empty())
-        fmt::print("frames: {}\n", library.source_of(rendered.front()));
+    if (rendered.empty())
+        return;
+    fmt::print("frames: {}\n", library.source_of(rendered.front()));
+    if (to_people && library.quality_of_frames(rendered.front()).level == BakeQuality::preview)
+        fmt::print(stderr, "risk: frames: previews have half the resolution and few light paths: they are "
+                           "for rehearsals, not for observers whose data count\n");
 }
 
 void say_risks(const std::vector<ScreenFinding>& findings) {
@@ -43,7 +49,7 @@ std::vector<std::string> remarks_on(const TrialOutcome& outcome, double drift_li
     using enum TrialOutcome::Afterwards;
     std::vector<std::string> remarks;
     if (outcome.missed_refreshes > 0)
-        remarks.push_back(fmt::format("{} refreshes missed", outcome.missed_refreshes));
+        remarks.push_back(counted(outcome.missed_refreshes, "refresh", "refreshes") + " missed");
     if (outcome.drift && outcome.drift->value > drift_limit_deg)
         remarks.push_back(fmt::format("the drift check found {:.2f} deg, more than {}", outcome.drift->value,
                                       drift_limit_deg));
@@ -62,9 +68,21 @@ std::vector<std::string> remarks_on(const TrialOutcome& outcome, double drift_li
 
 } // namespace
 
-TrialProgress::TrialProgress(const Protocol& protocol, int total, bool has_tracker)
-    : protocol_(&protocol), total_(total), has_tracker_(has_tracker) {
+TrialProgress::TrialProgress(const Protocol& protocol, const Schedule& schedule, bool has_tracker)
+    : protocol_(&protocol), schedule_(&schedule), total_(static_cast<int>(schedule.trials.size())),
+      has_tracker_(has_tracker) {
     bar_.update("trials", 0, total_);
+}
+
+void TrialProgress::enter(SessionPhase phase, int trial) {
+    const auto& trials = schedule_->trials;
+    const auto found = std::find_if(trials.begin(), trials.end(),
+                                    [trial](const Trial& planned) { return planned.index == trial; });
+    std::string text(name_of(phase));
+    if (found != trials.end())
+        text = fmt::format("trial {}, {}: {}", trial + 1, text,
+                           protocol_->tasks[static_cast<std::size_t>(found->task)].question);
+    bar_.remark(std::move(text));
 }
 
 void TrialProgress::operator()(const Trial& trial, const TrialOutcome& outcome, int done) {
@@ -74,7 +92,7 @@ void TrialProgress::operator()(const Trial& trial, const TrialOutcome& outcome, 
         remarks_on(outcome, protocol_->tracker.drift_limit_deg, has_tracker_);
     if (remarks.empty())
         return;
-    bar_.finish();
+    bar_.make_room();
     fmt::print(stderr, "trial {} ({}, {}, {}): {}\n", trial.index + 1, name(protocol_->tasks, trial.task),
                name(protocol_->sculptures, trial.condition.sculpture),
                name(protocol_->materials, trial.condition.material), fmt::join(remarks, ", "));

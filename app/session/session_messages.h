@@ -17,8 +17,8 @@ namespace overt {
 void say_before(const Protocol& protocol, const Schedule& schedule, const GlDescription& graphics,
                 const RunOptions& options);
 
-/// How the frames that are shown were made.
-void say_frames(const StimulusLibrary& library);
+/// How the frames that are shown were made. Where a person would be shown previews, that is said as a risk.
+void say_frames(const StimulusLibrary& library, bool to_people);
 
 /// What may change the signal on its way to the screen, to standard error.
 void say_risks(const std::vector<ScreenFinding>& findings);
@@ -27,13 +27,17 @@ void say_risks(const std::vector<ScreenFinding>& findings);
 class TrialProgress {
   public:
     /// `has_tracker`: drifts are checked. The protocol must outlive this.
-    TrialProgress(const Protocol& protocol, int total, bool has_tracker);
+    /// Of the trials in the order of `schedule`, which must outlive this as well.
+    TrialProgress(const Protocol& protocol, const Schedule& schedule, bool has_tracker);
     /// `done`: trials that were completed and count.
     void operator()(const Trial& trial, const TrialOutcome& outcome, int done);
+    /// The session's phase now, with its trial or -1; the question of that trial is said with it.
+    void enter(SessionPhase phase, int trial);
     void finish() { bar_.finish(); }
 
   private:
     const Protocol* protocol_;
+    const Schedule* schedule_;
     int total_;
     bool has_tracker_;
     ProgressBar bar_;

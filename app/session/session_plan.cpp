@@ -39,7 +39,7 @@ void mention_interrupted(const SessionPlace& place) {
             const std::filesystem::path folder = session_path(place, number);
             const SessionRecord record(folder);
             const bool is_imported = record.header().stimuli.empty();
-            if (record.is_complete() || is_imported ||
+            if (record.is_complete() || is_imported || observer_declined(record) ||
                 FolderLock(folder, FolderLock::Patience::none).is_refused())
                 continue;
             fmt::print(
@@ -97,6 +97,11 @@ SessionPlan plan_session(const RunOptions& options, const SessionPlace& place, c
     // The observer of a resumed session has filled in the form already.
     if (!plan.resumed || !plan.resumed->history.is_opened)
         plan.fields = fill_in_form(protocol, options);
+    if (observer.number > protocol.schedule.observers && !plan.resumed)
+        fmt::print(stderr,
+                   "observer {} has number {}, and [schedule] plans {}: what goes round over the observers "
+                   "begins again with the first\n",
+                   observer.label, observer.number, protocol.schedule.observers);
     plan.schedule = plan.resumed ? plan.resumed->header.schedule : new_schedule(options, protocol, observer);
     return plan;
 }

@@ -37,7 +37,7 @@ struct BakeJob {
 FrameQuality quality_asked_for(const BakeOptions& options, const BakingSettings& baking) {
     // Who bakes wants more than what is there without baking.
     FrameQuality quality =
-        quality_of(options.quality.value_or(std::max(baking.quality, BakeQuality::standard)), baking);
+        quality_of(options.quality.value_or(std::max(baking.least(), BakeQuality::standard)), baking);
     if (!options.quality && baking.quality == BakeQuality::draft)
         quality = quality_of(BakeQuality::draft, baking);
     if (options.samples)

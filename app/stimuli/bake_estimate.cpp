@@ -81,11 +81,13 @@ double PathProbe::seconds_of_frame(const Condition& condition, const FrameQualit
 
 BakeEstimate bake_estimate(const Experiment& experiment, const StimulusLibrary& library) {
     BakeEstimate estimate;
-    estimate.wanted = experiment.protocol.bake.quality;
+    estimate.wanted = experiment.protocol.bake.least();
+    estimate.wanted_by_simulated = experiment.protocol.bake.least(false);
     const std::vector<Condition> stimuli = library.cache().rendered_stimuli();
     if (stimuli.empty() || estimate.wanted == BakeQuality::live)
         return estimate;
-    estimate.for_session = library.quality_of_session();
+    estimate.for_session = library.quality_of_session(estimate.wanted);
+    estimate.for_simulated = library.quality_of_session(estimate.wanted_by_simulated);
     std::optional<PathProbe> probe;
     for (const BakeQuality quality :
          {BakeQuality::preview, BakeQuality::draft, BakeQuality::standard, BakeQuality::reference}) {
@@ -115,6 +117,18 @@ std::string duration_text(double seconds) {
     return fmt::format("{:.1f} h", seconds / 3600.0);
 }
 
+namespace {
+
+std::string what_it_takes(const std::optional<FrameQuality>& there, BakeQuality wanted) {
+    if (there)
+        return fmt::format("takes {}.\n", describe(*there));
+    if (wanted == BakeQuality::preview)
+        return "renders previews before it begins.\n";
+    return fmt::format("is refused until `overt bake` has made {} quality.\n", name_of(wanted));
+}
+
+} // namespace
+
 std::string to_text(const BakeEstimate& estimate) {
     if (estimate.qualities.empty())
         return {};
@@ -125,13 +139,10 @@ std::string to_text(const BakeEstimate& estimate) {
         text +=
             fmt::format("  {:<28}{} of {} frames{}\n", describe(one.quality), one.there, one.frames, left);
     }
-    if (estimate.for_session)
-        text += fmt::format("  A session takes {}.\n", describe(*estimate.for_session));
-    else if (estimate.wanted == BakeQuality::preview)
-        text += "  A session renders previews before it begins.\n";
-    else
-        text += fmt::format("  A session is refused until `overt bake` has made {} quality.\n",
-                            name_of(estimate.wanted));
+    text += "  A session " + what_it_takes(estimate.for_session, estimate.wanted);
+    if (estimate.wanted_by_simulated != estimate.wanted)
+        text += "  One with a simulated observer " +
+                what_it_takes(estimate.for_simulated, estimate.wanted_by_simulated);
     return text;
 }
 
@@ -144,7 +155,10 @@ nlohmann::ordered_json to_json(const BakeEstimate& estimate) {
                              {"seconds_left", one.seconds_left}});
     return {{"grades", qualities},
             {"session_takes", estimate.for_session ? name_of(estimate.for_session->level) : "nothing"},
-            {"session_needs", name_of(estimate.wanted)}};
+            {"session_needs", name_of(estimate.wanted)},
+            {"simulated_session_takes",
+             estimate.for_simulated ? name_of(estimate.for_simulated->level) : "nothing"},
+            {"simulated_session_needs", name_of(estimate.wanted_by_simulated)}};
 }
 
 } // namespace overt

@@ -19,9 +19,11 @@ struct QualityEstimate {
 };
 
 struct BakeEstimate {
-    std::vector<QualityEstimate> qualities;   ///< preview to reference; empty if nothing is rendered
-    std::optional<FrameQuality> for_session; ///< what a session takes now
-    BakeQuality wanted = BakeQuality::preview;
+    std::vector<QualityEstimate> qualities;  ///< preview to reference; empty if nothing is rendered
+    std::optional<FrameQuality> for_session; ///< what a session with an observer takes now
+    BakeQuality wanted = BakeQuality::standard;
+    std::optional<FrameQuality> for_simulated; ///< what one with a simulated observer takes now
+    BakeQuality wanted_by_simulated = BakeQuality::preview;
 };
 
 /// How long paths take on this machine: traces a small picture of one sculpture in each material.

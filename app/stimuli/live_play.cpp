@@ -8,6 +8,7 @@
 #include "app/rig/open_display.h"
 #include "experiment/base/error.h"
 #include "render/gl/headless_context.h"
+#include "render/image/text_layout.h"
 #include "render/signal/display_encoder.h"
 #include "render/stimulus/live_view.h"
 #include "render/window/window_system.h"
@@ -18,6 +19,9 @@ namespace {
 
 /// How often a picture at rest looks for something to do.
 constexpr auto idle = std::chrono::milliseconds(10);
+
+constexpr const char* keys_text =
+    "drag: turn    wheel: nearer    ← →: material    ↑ ↓: sculpture    space: animation    Esc: end";
 
 /// Pictures of linear light in a window that is as large as they are, on an ordinary screen.
 class PictureWindow {
@@ -34,7 +38,9 @@ class PictureWindow {
           texture_(opened.context(), opened.window()->framebuffer_px(), encoder_.format()),
           canvas_(opened.context(), {&texture_}, false) {}
 
-    void show(const LinearImage& picture) {
+    /// Over its lower edge stand the keys.
+    void show(LinearImage picture) {
+        write_on(picture, keys_text, {picture.size_px.x / 2, picture.size_px.y - 1});
         bytes_.resize(bytes_per_pixel(encoder_.format()) * picture.pixels.size());
         encoder_.encode(picture, {0, 0}, bytes_);
         texture_.upload(bytes_);
@@ -49,10 +55,13 @@ class PictureWindow {
     std::vector<std::byte> bytes_;
 };
 
-/// Of the protocol's shape, and large enough for a hand.
-glm::ivec2 window_size_of(const ViewSettings& view) {
-    constexpr double least_px = 768.0;
-    const double scale = std::max(1.0, least_px / std::max(view.width_px, view.height_px));
+/// Of the protocol's shape, large enough for a hand, and as large as the screen has room for beside its
+/// panels.
+glm::ivec2 window_size_of(const ViewSettings& view, glm::ivec2 screen_px) {
+    constexpr double least_px = 768.0, share_of_screen = 0.85;
+    const glm::dvec2 most = share_of_screen * glm::dvec2(screen_px);
+    const double scale = std::min({std::max(1.0, least_px / std::max(view.width_px, view.height_px)),
+                                   most.x / view.width_px, most.y / view.height_px});
     return {static_cast<int>(scale * view.width_px), static_cast<int>(scale * view.height_px)};
 }
 
@@ -144,9 +153,12 @@ void play_until_closed(OpenDisplay& opened, LiveView& view, const Protocol& prot
 int play_live(const Protocol& protocol, std::span<const Sculpture> sculptures, const Condition& stimulus,
               const PlayOptions& options) {
     if (options.picture.empty()) {
-        const glm::ivec2 image_px = window_size_of(protocol.view);
         if (!display_is_available())
             throw InputError("there is no display to play on: write a frame with --picture FILE instead");
+        const std::vector<MonitorInfo> monitors = list_monitors();
+        const glm::ivec2 image_px = window_size_of(
+            protocol.view, monitors.empty() ? glm::ivec2(1024, 768) : monitors.front().size_px);
+        fmt::print("{}\n", keys_text);
         OpenDisplay window({.context = ContextKind::window,
                             .size_px = image_px,
                             .title = "overt play --live",

@@ -9,6 +9,7 @@
 #include "app/rig/open_display.h"
 #include "app/stimuli/live_play.h"
 #include "app/stimuli/stimulus_commands.h"
+#include "render/image/text_layout.h"
 #include "render/presenter/page_presenter.h"
 #include "render/stimulus/stimulus_library.h"
 #include "render/window/window_system.h"
@@ -20,7 +21,16 @@ namespace {
 void write_frame(const StimulusLibrary& library, const Condition& stimulus, const PlayOptions& options) {
     const auto frame = static_cast<std::size_t>(options.frame.value_or(0));
     const int page = library.page_of_frame(stimulus)[frame];
-    write_srgb_png(options.picture, library.page(stimulus, page));
+    LinearImage picture = library.page(stimulus, page);
+    // What is only a preview must not be taken for the stimulus.
+    const bool is_preview = !library.cache().is_ready_made(stimulus) &&
+                            library.quality_of_frames(stimulus).level <= BakeQuality::preview;
+    if (is_preview)
+        write_on(picture, library.source_of(stimulus), {picture.size_px.x / 2, picture.size_px.y - 1});
+    write_srgb_png(options.picture, picture);
+    if (is_preview)
+        fmt::print(stderr, "{}: a preview ({}); `overt bake` makes what observers see\n",
+                   options.picture.string(), library.source_of(stimulus));
     fmt::print("{}\n", options.picture.string());
 }
 

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <thread>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -108,6 +109,12 @@ ThreadWish stay_on(int processor) {
 }
 
 } // namespace
+
+ThreadWish try_realtime_priority() {
+    ThreadWish wish;
+    std::thread([&wish] { wish = take_priority(); }).join();
+    return wish;
+}
 
 std::vector<ThreadWish> prepare_thread(const ThreadWishes& wishes) {
     std::vector<ThreadWish> answers;

@@ -25,4 +25,7 @@ struct ThreadWish {
 /// everything is loaded, for locked memory is all that the process has. Allocates, and may run a program.
 std::vector<ThreadWish> prepare_thread(const ThreadWishes& wishes);
 
+/// Whether a thread would be given real-time priority: tried with one of its own, that ends at once.
+ThreadWish try_realtime_priority();
+
 } // namespace overt

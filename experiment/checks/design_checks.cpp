@@ -231,7 +231,37 @@ void check_blocks(ProtocolExamination& examination) {
     }
 }
 
+/// Practice is the same for all; who practises with what their group does not see, sees it nevertheless.
+void check_practice_of_groups(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    const auto lacks = [](const std::vector<std::string>& seen, const std::string& id) {
+        return !seen.empty() && std::find(seen.begin(), seen.end(), id) == seen.end();
+    };
+    for (std::size_t i = 0; i < protocol.practice.size(); ++i) {
+        const PracticeSettings& practice = protocol.practice[i];
+        for (const GroupSettings& group : protocol.groups) {
+            if (!practice.block.empty() && lacks(group.blocks, practice.block))
+                continue;
+            const auto warn = [&](std::string_view key, std::string_view noun, const std::string& id) {
+                examination.warning(
+                    {fmt::format("practice[{}].{}", i, key)},
+                    fmt::format("group \"{}\" practises with the {} \"{}\", which it does not have in its "
+                                "trials",
+                                group.id, noun, id),
+                    fmt::format("add it to the group, or practise with what all groups have"));
+            };
+            if (lacks(group.tasks, practice.task))
+                warn("task", "task", practice.task);
+            if (lacks(group.sculptures, practice.sculpture))
+                warn("sculpture", "sculpture", practice.sculpture);
+            if (lacks(group.materials, practice.material))
+                warn("material", "material", practice.material);
+        }
+    }
+}
+
 void check_groups(ProtocolExamination& examination) {
+    check_practice_of_groups(examination);
     const Protocol& protocol = examination.protocol;
     check_entry_ids(examination, "group", protocol.groups);
     for (std::size_t i = 0; i < protocol.groups.size(); ++i) {

@@ -56,8 +56,12 @@ void TrialQueue::begin_block(int block) {
 
 bool TrialQueue::needs_pause(bool is_new_block) const {
     const BreakSettings& breaks = protocol_.breaks;
-    return (breaks.every_trials > 0 && attempts_since_pause_ >= breaks.every_trials) ||
-           (breaks.between_blocks && is_new_block);
+    if (breaks.between_blocks && is_new_block)
+        return true;
+    // One that would come a single trial before the break between blocks waits for that.
+    const bool block_ends_next =
+        breaks.between_blocks && waiting_.size() > 1 && waiting_[1].trial.block != waiting_[0].trial.block;
+    return breaks.every_trials > 0 && attempts_since_pause_ >= breaks.every_trials && !block_ends_next;
 }
 
 /// Finds what comes before the next trial, where that is not done already.

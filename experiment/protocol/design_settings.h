@@ -124,7 +124,7 @@ struct BreakSettings {
     BreakPace pace = BreakPace::self;
     double duration_s = 60.0;
     double min_s = 5.0;
-    std::string text = "Time for a rest.\nPress a key to go on.";
+    std::string text = "# Time for a rest\nRest your eyes as long as you like.";
 };
 
 /// When a trial that failed comes again.

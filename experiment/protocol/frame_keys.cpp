@@ -11,9 +11,11 @@ Section bake() {
         .keys =
             {
                 {{.name = "quality",
+                  .if_left_out = "\"standard\" for people, \"preview\" for a simulated observer",
                   .explanation = "What a session needs at least; if better frames of all stimuli are there, "
-                                 "it takes those. \"preview\" is rendered when it is needed; \"live\" is "
-                                 "drawn by OpenGL, an approximation without interreflection and spectra."},
+                                 "it takes those. \"preview\", of half the resolution, is rendered when it "
+                                 "is needed; \"live\" is drawn by OpenGL, an approximation without "
+                                 "interreflection and spectra."},
                  &B::quality},
                 {{.name = "samples",
                   .low = 1,

@@ -131,12 +131,13 @@ struct ScreenSettings {
         0.1; ///< recording before the first and after the last refresh of a presentation
     double response_min_s = 1.0;
     double response_max_s = 60.0; ///< goes on without an answer
-    double text_height_deg = 0.5;
+    double text_height_deg = 0.8;
     double text_grey = 0.6;           ///< linear, 0 … 1 of the display's white
     std::optional<double> text_cd_m2; ///< or its luminance, from which `text_grey` is made
-    std::string response_text = "Please answer now.\nPress a key when you have finished.";
-    std::string welcome_text = "Welcome.\nPress a key to begin.";
-    std::string farewell_text = "Thank you. This is the end.";
+    std::string response_text = "Please answer now.";
+    bool repeat_question = false; ///< above the response text
+    std::string welcome_text = "# Welcome";
+    std::string farewell_text = "# Thank you\nThis is the end.";
 };
 
 /// [[sculpture]]
@@ -199,13 +200,19 @@ inline constexpr auto names_of<StandardObserver> = enum_names<StandardObserver>(
 
 /// [bake]: how stimuli are rendered that are not given as [[frames]].
 struct BakingSettings {
-    BakeQuality quality = BakeQuality::preview; ///< that a session needs at least
-    std::optional<int> samples;                 ///< a pixel, instead of what is usual for the quality
-    std::optional<double> target_error_de;      ///< a pixel is left when its standard error is below this
+    std::optional<BakeQuality> quality;    ///< that a session needs at least; nothing: see least()
+    std::optional<int> samples;            ///< a pixel, instead of what is usual for the quality
+    std::optional<double> target_error_de; ///< a pixel is left when its standard error is below this
     PixelFilter filter = PixelFilter::box;
     double filter_width_px = 1.0;
     std::optional<std::uint64_t> seed; ///< of the samples; left out: 0
     StandardObserver observer = StandardObserver::cie1931;
+
+    /// What a session needs at least. A person would look at the noise and the coarse edges of previews,
+    /// which have half the resolution; a simulated observer has the hidden maps to look at.
+    BakeQuality least(bool for_people = true) const {
+        return quality.value_or(for_people ? BakeQuality::standard : BakeQuality::preview);
+    }
 };
 
 /// Encoding of ready-made frames.

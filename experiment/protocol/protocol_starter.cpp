@@ -32,7 +32,7 @@ const std::map<std::string_view, std::vector<Values>>& starter_values() {
         {"tracker", {{{"rate_hz", "1000"}}}},
         {"consent",
          {{{"text", "\"You will look at sculptures on a screen, and your eyes are recorded.\\n"
-                    "You may stop at any time.\\n\\nDo you agree to take part?    Y: yes    N: no\""}}}},
+                    "You may stop at any time.\\n\\nDo you agree to take part?\""}}}},
         {"instructions",
          {{{"pages", "[\"Before each sculpture you read what to look for.\", "
                      "\"Look at the dot when it appears. Answer aloud, then press the space bar.\"]"}}}},
@@ -83,10 +83,16 @@ std::string placeholder(const Key& key) {
     return text.empty() ? "…" : text;
 }
 
-std::string described(const Key& key) {
+/// More choices than that are not told twice.
+constexpr std::size_t many_choices = 12;
+
+/// `like`: the key before it that has the same many choices, or null.
+std::string described(const Key& key, const Key* like) {
     const KeyRule& rule = key.rule;
     std::string text(rule.explanation);
-    const std::string range = range_text(rule), expected = expected_kind(key);
+    const std::string range = range_text(rule),
+                      expected =
+                          like ? fmt::format("one of those of {}", like->rule.name) : expected_kind(key);
     text += fmt::format(" {}{}.", static_cast<char>(std::toupper(static_cast<unsigned char>(expected[0]))),
                         expected.substr(1) + (range.empty() ? "" : ", " + range));
     if (!rule.if_left_out.empty())
@@ -96,12 +102,18 @@ std::string described(const Key& key) {
 
 void add_keys(std::string& text, const Section& section, const Values& values, bool is_idle,
               bool with_comments) {
-    for (const Key& key : section.keys) {
+    for (auto at = section.keys.begin(); at != section.keys.end(); ++at) {
+        const Key& key = *at;
         const auto value = values.find(key.rule.name);
+        const auto first = std::find_if(section.keys.begin(), at, [&](const Key& before) {
+            return before.rule.choices.data() == key.rule.choices.data() &&
+                   key.rule.choices.size() > many_choices;
+        });
         if (value == values.end() && !with_comments)
             continue;
         if (with_comments)
-            text += fmt::format("\n{}", comment(without_links(described(key))));
+            text +=
+                fmt::format("\n{}", comment(without_links(described(key, first == at ? nullptr : &*first))));
         if (value != values.end() && !is_idle)
             text += fmt::format("{} = {}\n", key.rule.name, value->second);
         else
@@ -116,6 +128,19 @@ void add_keys(std::string& text, const Section& section, const Values& values, b
             keys += fmt::format("{}{} = …", keys.empty() ? "" : ", ", key.rule.name);
         text += fmt::format("# {} = {{ {} }}\n", table.name, keys);
     }
+}
+
+/// Beside keys that are otherwise left as they are by mistake.
+std::string_view short_remark(std::string_view key) {
+    if (key == "width_mm")
+        return "            # of the lit area: measure it";
+    if (key == "viewing_distance_mm")
+        return " # from eye to screen";
+    if (key == "gamma")
+        return "               # of an ordinary monitor";
+    if (key == "shipped")
+        return "        # your own: mesh = \"scan.ply\"";
+    return {};
 }
 
 void add_starter_section(std::string& text, const Section& section, std::string_view name) {
@@ -147,6 +172,33 @@ std::string protocol_starter(std::string_view name) {
                     name, name, name);
     for (const Section& section : protocol_keys())
         add_starter_section(text, section, name);
+    return text;
+}
+
+std::string short_protocol_starter(std::string_view name) {
+    std::string text = fmt::format("# {0}: overt check {0}.toml, then overt run {0}.toml --observer P01 "
+                                   "--simulate-observer 1\n# All keys: overt new, or docs/protocols.md\n",
+                                   name);
+    const std::string quoted = fmt::format("\"{}\"", name);
+    // What a session needs, and what has no default that fits most.
+    constexpr std::string_view kept[] = {"protocol",  "display",  "animation", "schedule",
+                                         "sculpture", "material", "task"};
+    for (const Section& section : protocol_keys()) {
+        if (std::find(std::begin(kept), std::end(kept), section.name) == std::end(kept))
+            continue;
+        std::vector<Values> entries = starter_values().at(section.name);
+        if (section.name == "protocol")
+            entries.front() = {{"name", quoted}};
+        for (const Values& entry : entries) {
+            text += "\n" + section.heading() + "\n";
+            for (const Key& key : section.keys) {
+                const auto value = entry.find(key.rule.name);
+                if (value == entry.end() || (section.is_list() && key.rule.name == "title"))
+                    continue;
+                text += fmt::format("{} = {}{}\n", key.rule.name, value->second, short_remark(key.rule.name));
+            }
+        }
+    }
     return text;
 }
 

@@ -11,4 +11,7 @@ namespace overt {
 /// Made from the table of keys. `name` must be an identifier.
 std::string protocol_starter(std::string_view name);
 
+/// The same experiment in as few lines as it needs.
+std::string short_protocol_starter(std::string_view name);
+
 } // namespace overt

@@ -268,7 +268,10 @@ Section screens() {
     using S = ScreenSettings;
     return {
         .name = "screens",
-        .explanation = "What is shown between the animations, and for how long.",
+        .explanation = "What is shown between the animations, and for how long. In every text of a protocol "
+                       "that is shown, a first line that begins with `# ` is its title, and `<b>`, `<i>`, "
+                       "`<u>`, `<big>` and `<small>` emphasise what stands until `</b>` and so on; `&lt;` "
+                       "is a < where it would begin such a mark.",
         .keys =
             {
                 {{.name = "task_min_s",
@@ -322,6 +325,9 @@ Section screens() {
                  &S::text_cd_m2},
                 {{.name = "response_text", .explanation = "Shown while the observer answers aloud."},
                  &S::response_text},
+                {{.name = "repeat_question",
+                  .explanation = "Whether the trial's question stands above it once more."},
+                 &S::repeat_question},
                 {{.name = "welcome_text", .explanation = "Shown before the first trial."}, &S::welcome_text},
                 {{.name = "farewell_text", .explanation = "Shown after the last trial."}, &S::farewell_text},
             },

@@ -25,7 +25,7 @@ Section consent() {
             {
                 {{.name = "text",
                   .if_left_out = "nobody is asked",
-                  .explanation = "What is read; it should name both keys."},
+                  .explanation = "What is read. Both keys stand below it."},
                  &C::text},
                 {{.name = "accept_key", .choices = letter_names, .explanation = "Agrees."}, &C::accept_key},
                 {{.name = "decline_key", .choices = letter_names, .explanation = "Declines."},

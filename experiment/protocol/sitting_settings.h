@@ -31,7 +31,7 @@ struct OperatorSettings {
     std::string skip = "f5";
     std::string abort = "escape";
     std::string yes = "y", no = "n";
-    std::string pause_text = "Pause.\nPlease wait a moment.";
+    std::string pause_text = "# Pause\nPlease wait a moment.";
     std::vector<std::string> skip_reasons{"eye lost", "observer's wish", "equipment", "other"};
 };
 
@@ -61,6 +61,13 @@ struct WordSettings {
     std::string choose = "choose", back = "back", other_fields = "other fields", next = "next", done = "done";
     std::string missing = "please fill this in";
     std::string not_possible = "this cannot be";
+    std::string form_title = "About you";
+    std::string space_bar = "space bar", enter_key = "enter";
+    std::string agree = "I agree", decline = "I do not agree";
+    std::string go_on = "go on", answered = "I have answered", close = "close";
+    std::string rest = "keys work after {} s", goes_on_itself = "goes on by itself after {} s";
+    std::string please_wait = "One moment, please.";
+    std::string experimenter = "For the experimenter";
     std::string too_loud = "too loud";
     std::string no_voice = "no voice is heard";
 };

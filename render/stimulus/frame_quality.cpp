@@ -15,7 +15,7 @@ constexpr double writing_cost = 0.8;
 } // namespace
 
 FrameQuality quality_of(BakeQuality level, const BakingSettings& baking) {
-    if (level != baking.quality)
+    if (level != baking.least())
         return {level, {}, {}};
     return {level, baking.samples, baking.target_error_de};
 }

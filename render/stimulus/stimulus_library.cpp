@@ -14,30 +14,34 @@ StimulusLibrary::StimulusLibrary(const GlContext& context, const Protocol& proto
                                  std::span<const Sculpture> sculptures, std::filesystem::path cache)
     : protocol_(&protocol), cache_(protocol, sculptures, std::move(cache)), maps_(context, cache_),
       frames_(context, cache_, maps_), qualities_(sculptures.size() * protocol.materials.size(),
-                                                  quality_of(protocol.bake.quality, protocol.bake)) {}
+                                                  quality_of(protocol.bake.least(), protocol.bake)) {}
 
-void StimulusLibrary::prepare_frames(const Progress& progress, std::optional<BakeQuality> least) {
+void StimulusLibrary::prepare_frames(const Progress& progress, BakeQuality least) {
     for (const FrameSequenceSettings& sequence : protocol_->frames)
         check_frame_sizes(sequence, protocol_->animation.frame_count,
                           {protocol_->view.width_px, protocol_->view.height_px});
     const std::vector<Condition> stimuli = cache_.rendered_stimuli();
     for (const Condition& stimulus : stimuli)
         cache_.require_mesh(stimulus);
-    const BakeQuality wanted = least.value_or(protocol_->bake.quality);
-    if (const std::optional<FrameQuality> best = cache_.best_quality(stimuli, wanted)) {
+    if (const std::optional<FrameQuality> best = cache_.best_quality(stimuli, least)) {
         take_frames(*best);
         return;
     }
-    const FrameQuality quality = quality_of(wanted, protocol_->bake);
-    if (wanted > BakeQuality::preview) {
+    const FrameQuality quality = quality_of(least, protocol_->bake);
+    if (least > BakeQuality::preview) {
         std::size_t missing = 0;
         for (const Condition& stimulus : stimuli)
             missing += cache_.missing_frames(stimulus, quality).size();
-        throw InputError(fmt::format("{}: [bake] asks for {} quality, and {} of {} frames are not baked yet: "
-                                     "run `overt bake {}`, or be content with --quality preview",
-                                     protocol_->file.string(), describe(quality), missing,
-                                     stimuli.size() * cache_.poses().angles.size(),
-                                     protocol_->file.string()));
+        const std::string file = protocol_->file.string();
+        throw InputError(
+            fmt::format("{}: this session needs frames of {} quality, and {} of {} are not baked "
+                        "yet: run `overt bake {}{}` first (`overt check` says how long it "
+                        "takes), or, for a rehearsal, be content with --quality preview{}",
+                        file, describe(quality), missing, stimuli.size() * cache_.poses().angles.size(), file,
+                        least == BakeQuality::standard ? "" : fmt::format(" --quality {}", name_of(least)),
+                        protocol_->bake.quality ? ""
+                                                : ". What people are shown at least is [bake] quality in the "
+                                                  "protocol, which is \"standard\" where it is left out"));
     }
     frames_.make_frames(stimuli, quality, progress);
     take_frames(quality);
@@ -51,7 +55,7 @@ void StimulusLibrary::prepare_frames(const Condition& condition, const Progress&
     }
     cache_.require_mesh(condition);
     const std::span<const Condition> one(&condition, 1);
-    const BakeQuality least = std::min(protocol_->bake.quality, BakeQuality::preview);
+    const BakeQuality least = std::min(protocol_->bake.least(), BakeQuality::preview);
     if (const std::optional<FrameQuality> best = cache_.best_quality(one, least)) {
         qualities_[index_of(condition)] = *best;
         return;

@@ -20,10 +20,10 @@ class StimulusLibrary final : public FrameSource {
     FrameMaker& frames() { return frames_; }
 
     /// For a session: finds the best quality of which the cache has all frames of all stimuli, and is content
-    /// with no less than `least`, or else than [bake] asks for. If there is none, previews and live frames
-    /// are made now; what should be better is an InputError that says how to bake it. Checks the size of
-    /// ready-made frames. Throws InputError, GraphicsError, RecordError.
-    void prepare_frames(const Progress& progress, std::optional<BakeQuality> least = {});
+    /// with no less than `least`. If there is none, previews and live frames are made now; what should be
+    /// better is an InputError that says how to bake it. Checks the size of ready-made frames. Throws
+    /// InputError, GraphicsError, RecordError.
+    void prepare_frames(const Progress& progress, BakeQuality least);
 
     /// For a look at one stimulus: the best there is of it, or else a preview. Throws likewise.
     void prepare_frames(const Condition& condition, const Progress& progress);
@@ -31,9 +31,9 @@ class StimulusLibrary final : public FrameSource {
     /// Has page() give frames of this quality of all stimuli that are not ready-made. They have to be there.
     void take_frames(const FrameQuality& quality) { qualities_.assign(qualities_.size(), quality); }
 
-    /// The best quality of which the cache has every frame of every stimulus, no less than [bake] asks for.
-    std::optional<FrameQuality> quality_of_session() const {
-        return cache_.best_quality(cache_.rendered_stimuli(), protocol_->bake.quality);
+    /// The best quality of which the cache has every frame of every stimulus, no less than `least`.
+    std::optional<FrameQuality> quality_of_session(BakeQuality least) const {
+        return cache_.best_quality(cache_.rendered_stimuli(), least);
     }
 
     /// The frames that page() gives of a stimulus that is not ready-made.

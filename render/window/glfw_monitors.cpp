@@ -21,7 +21,10 @@ void initialise_library() {
     constexpr int attempts = 20;
     for (int attempt = 1; !glfwInit(); ++attempt) {
         if (attempt == attempts || !display_is_available())
-            throw GraphicsError(fmt::format("GLFW: {}", last_glfw_error()));
+            throw GraphicsError(
+                fmt::format("the desktop cannot be reached ({}): start overt from a desktop session, or set "
+                            "DISPLAY or WAYLAND_DISPLAY to one; without one, --context osmesa draws unseen",
+                            last_glfw_error()));
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
 }

@@ -113,7 +113,10 @@ WindowContext::WindowContext(const WindowRequest& request) : state_(std::make_un
     state_->window =
         glfwCreateWindow(request.size_px.x, request.size_px.y, request.title.c_str(), monitor, nullptr);
     if (!state_->window)
-        throw GraphicsError(fmt::format("GLFW: {}", last_glfw_error()));
+        throw GraphicsError(fmt::format(
+            "a window of {} x {} pixels cannot be opened ({}): it needs OpenGL 3.3 and {} bits per "
+            "channel; `overt doctor` says what this desktop offers",
+            request.size_px.x, request.size_px.y, last_glfw_error(), request.bits_per_channel));
     if (corner && !request.fullscreen) {
         const glm::ivec2 place = info_of(corner, 1).position_px;
         glfwSetWindowPos(state_->window, place.x, place.y);

@@ -141,3 +141,34 @@ TEST_CASE("a session in a window is led by its keys: consent, form, pages, pause
     for (const TrialRecord& trial : record.trials())
         CHECK(trial.status != TrialRecord::Status::completed);
 }
+
+TEST_CASE("who declined is not asked again unless that session is named", "[session]") {
+    const auto screen = VirtualScreen::start(800, 600, 24);
+    Display* const display = XOpenDisplay(nullptr);
+    REQUIRE(display);
+    const SmallExperiment experiment(typed_protocol());
+    const std::filesystem::path said = experiment.folder().path() / "said";
+    {
+        RunningProgram program({"run", experiment.protocol().string(), "--observer", "P01", "--context",
+                                "window", "--windowed", "--refresh-check", "0", "--seed", "7", "--sessions",
+                                experiment.sessions().string()},
+                               {"OVERT_CACHE=" + experiment.cache().string(),
+                                "WAYLAND_DISPLAY=", "XDG_SESSION_TYPE=", "ASAN_OPTIONS=detect_leaks=0"},
+                               said);
+        const Window window = await_window(display);
+        INFO(text_of(said));
+        REQUIRE(window != 0);
+        Somebody somebody(program, experiment.session(1), Keyboard(display, window));
+        REQUIRE(somebody.type_until({XK_n}, has_event("session aborted", "")));
+        program.wait();
+    }
+    XCloseDisplay(display);
+    const std::vector<std::string> again{
+        "run",     experiment.protocol().string(), "--observer", "P01",        "--context",
+        "osmesa",  "--simulate-observer",          "1",          "--sessions", experiment.sessions().string(),
+        "--resume"};
+    const ProgramRun refused = experiment.overt(again);
+    INFO(refused.err);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.err.find("the observer did not agree to take part") != std::string::npos);
+}

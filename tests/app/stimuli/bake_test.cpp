@@ -12,6 +12,7 @@
 #include "tests/support/running_program.h"
 #include "tests/support/skip.h"
 #include "tests/support/small_disk.h"
+#include "tests/support/virtual_screen.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -233,7 +234,9 @@ TEST_CASE("a session takes the best quality that is there of all stimuli, and re
     const ProgramRun better = experiment.run({"--trials", "1"});
     CHECK(better.out.find("frames: path traced, draft: 16 samples, CIE 1931") != std::string::npos);
     const ProgramRun check = experiment.overt({"check", experiment.protocol().string()});
-    CHECK(check.out.find("A session takes draft.") != std::string::npos);
+    CHECK(check.out.find("One with a simulated observer takes draft.") != std::string::npos);
+    CHECK(check.out.find("A session is refused until `overt bake` has made standard quality.") !=
+          std::string::npos);
     CHECK(check.out.find(fmt::format("draft                       {0} of {0} frames", 4 * poses)) !=
           std::string::npos);
 }
@@ -253,6 +256,25 @@ TEST_CASE("a session that asks for more than is there is refused, with what to d
               .overt({"play", experiment.protocol().string(), "--stimulus", "bust/matt", "--picture",
                       (experiment.folder().path() / "p.png").string()})
               .exit_code == 0);
+}
+
+TEST_CASE("a person is not shown previews unless somebody says so", "[session]") {
+    const auto screen = VirtualScreen::start(800, 600, 24);
+    std::string text = with(traced_protocol(), "refresh_hz = 120", "refresh_hz = 60");
+    text = with(text, "output = \"color++\"", "output = \"native-8bit\"");
+    const auto refused = [](const SmallExperiment& experiment) {
+        return experiment.overt({"run", experiment.protocol().string(), "--observer", "P01", "--context",
+                                 "window", "--windowed", "--refresh-check", "0", "--sessions",
+                                 experiment.sessions().string()},
+                                {"WAYLAND_DISPLAY=", "XDG_SESSION_TYPE="});
+    };
+    const SmallExperiment experiment(text);
+    const ProgramRun run = refused(experiment);
+    INFO(run.err);
+    CHECK(run.exit_code == 2);
+    CHECK(run.err.find("frames of standard quality") != std::string::npos);
+    CHECK(run.err.find("run `overt bake") != std::string::npos);
+    CHECK(files_below(experiment.sessions()).empty());
 }
 
 TEST_CASE("shards share out all units once, and evenly by cost", "[unit]") {

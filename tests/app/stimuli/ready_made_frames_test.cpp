@@ -127,7 +127,7 @@ TEST_CASE("the 16 bits of PNG, TIFF and EXR frames arrive on the wire, bit for b
     for (const ContextKind kind : headless_kinds) {
         const auto context = make_headless_context(kind);
         StimulusLibrary library(*context, protocol, experiment->sculptures, folder.path() / "cache");
-        library.prepare_frames({});
+        library.prepare_frames({}, BakeQuality::preview);
         VirtualClock clock;
         VirtualDisplay display(*context, clock, protocol.display.refresh_hz);
         PagePresenter presenter(*context, display, library, geometry, protocol.display, protocol.screens);

@@ -135,3 +135,16 @@ TEST_CASE("whatever groups, blocks and orders leave of each other, observers hav
     CHECK(refused > 5);
     CHECK(ordered > 50);
 }
+
+TEST_CASE("practice with what a group does not see is warned of", "[unit]") {
+    const std::string clay = "[[material]]\nid = \"clay\"\nkind = \"diffuse\"\n";
+    const std::string groups = "[[group]]\nid = \"g\"\nmaterials = [\"gold\"]\n[[group]]\nid = \"c\"\n";
+    const auto print = [&](const std::string& material) {
+        return ReadText(minimal_protocol,
+                        clay + groups + "[[practice]]\ntask = \"free\"\nsculpture = \"a\"\nmaterial = \"" +
+                            material + "\"\n")
+            .diagnostics.print();
+    };
+    CHECK_THAT(print("clay"), Catch::Contains("group \"g\" practises with the material \"clay\""));
+    CHECK_THAT(print("gold"), !Catch::Contains("practises"));
+}

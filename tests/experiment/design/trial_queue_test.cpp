@@ -173,8 +173,9 @@ TEST_CASE("practice and instructions come before their block, breaks where they 
     std::string story;
     for (const SessionStep& step : steps_of(protocol, schedule))
         story += "ipt-"[static_cast<int>(step.kind)];
-    // Nine trials, three, nine; a break begins the count anew.
-    CHECK(story == "pptttt-tttt-t-ipttt-tttt-tttt-t");
+    // Nine trials, three, nine; a break begins the count anew, and one that would come a single trial before
+    // that between two blocks waits for it.
+    CHECK(story == "pptttt-ttttt-ipttt-tttt-tttt-t");
     protocol.breaks = {};
     CHECK(count_of(steps_of(protocol, schedule), SessionStep::Kind::pause) == 0);
     CHECK(count_of(steps_of(protocol, schedule), SessionStep::Kind::practice) == 3);

@@ -18,10 +18,12 @@ files = "f/####.png"
 
 } // namespace
 
-TEST_CASE("what is said of rendering is taken, and left out it is a preview for CIE 1931", "[unit]") {
+TEST_CASE("what is said of rendering is taken, and left out it is by who looks", "[unit]") {
     const ReadText nothing(minimal_protocol);
     REQUIRE(nothing.protocol);
-    CHECK(nothing.protocol->bake.quality == BakeQuality::preview);
+    CHECK_FALSE(nothing.protocol->bake.quality);
+    CHECK(nothing.protocol->bake.least() == BakeQuality::standard);
+    CHECK(nothing.protocol->bake.least(false) == BakeQuality::preview);
     CHECK(nothing.protocol->bake.observer == StandardObserver::cie1931);
     CHECK_FALSE(nothing.protocol->bake.samples);
     const ReadText read(minimal_protocol, "[bake]\nquality = \"standard\"\nsamples = 96\n"
@@ -31,6 +33,7 @@ TEST_CASE("what is said of rendering is taken, and left out it is a preview for 
     CHECK(read.lines().empty());
     const BakingSettings& bake = read.protocol->bake;
     CHECK(bake.quality == BakeQuality::standard);
+    CHECK(bake.least(false) == BakeQuality::standard);
     CHECK(bake.samples == 96);
     CHECK(bake.target_error_de == 0.5);
     CHECK(bake.filter == PixelFilter::blackman_harris);

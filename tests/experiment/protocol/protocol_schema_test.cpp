@@ -168,6 +168,26 @@ TEST_CASE("a new protocol is sound, fits the schema, and explains every key", "[
     }
 }
 
+TEST_CASE("a short protocol is the same experiment in lines that matter, and sound", "[unit]") {
+    const std::string text = short_protocol_starter("my_study");
+    const ReadText read(text), full(protocol_starter("my_study"));
+    CHECK(read.diagnostics.print() == "");
+    REQUIRE(read.protocol);
+    CHECK(read.protocol->name == "my_study");
+    CHECK(read.protocol->display.gamma == full.protocol->display.gamma);
+    CHECK(read.protocol->tasks.size() == full.protocol->tasks.size());
+    CHECK(read.protocol->materials.size() == full.protocol->materials.size());
+    CHECK(std::count(text.begin(), text.end(), '\n') < 60);
+}
+
+TEST_CASE("a new protocol tells a long list of choices once", "[unit]") {
+    const std::string text = protocol_starter("my_study");
+    std::size_t lists = 0;
+    for (std::size_t at = text.find("\"f11\""); at != std::string::npos; at = text.find("\"f11\"", at + 1))
+        ++lists;
+    CHECK(lists == 1);
+}
+
 TEST_CASE("the defaults that a new protocol shows as comments are what the reader takes", "[unit]") {
     // Every commented line with a value, uncommented where that is all its section needs.
     const std::string text = protocol_starter("my_study");
