@@ -203,7 +203,7 @@ ReferenceGaze read_asc_reference(const std::filesystem::path& file) {
     ReferenceGaze gaze{file.filename().string(), {}};
     ReferenceListener listener(gaze, *angles);
     AscParser parser(listener);
-    parse_asc_file(file, parser);
+    AscFiles(file).parse(parser);
     listener.end_recording();
     std::size_t events = 0;
     for (const ReferenceRecording& recording : gaze.recordings)

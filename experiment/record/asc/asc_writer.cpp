@@ -176,7 +176,8 @@ void AscWriter::eye(const GazeSample* sample) {
     append_number(text, shortest_decimal(sample->pupil_area), pupil_decimals, 1);
 }
 
-void AscWriter::append_stamp(TrackerTime time) {
+void AscWriter::samples(std::span<const GazeSample> samples) {
+    const TrackerTime time = samples.front().sampled_at;
     if (layout_.fractional_times)
         append_scaled(file_.text(), time.time_since_epoch().count() - 1000 * layout_.base_ms, 3);
     else
