@@ -163,6 +163,20 @@ TEST_CASE("a saccade in the midst of fast pursuit is found, and the pursuit is n
     CHECK(agreement(Kind::saccade, planted.events, found).f1() > 0.97);
 }
 
+TEST_CASE("the velocity threshold rises with what the eye does anyway", "[unit]") {
+    // 40 deg/s for 0.3 s: within 40 ms it is what the eye does.
+    Trace trace(1000.0);
+    trace.rest(0.3, -6.0).glide(0.3, -6.0, 6.0).rest(0.3, 6.0);
+    const std::vector<GazeEvent> raised =
+        of_kind(detect(trace.samples, {.acceleration_deg_s2 = 0.0}), Kind::saccade);
+    const std::vector<GazeEvent> fixed =
+        of_kind(detect(trace.samples, {.acceleration_deg_s2 = 0.0, .pursuit_deg_s = 0.0}), Kind::saccade);
+    REQUIRE(fixed.size() == 1);
+    CHECK(fixed[0].duration > std::chrono::milliseconds(280));
+    for (const GazeEvent& saccade : raised)
+        CHECK(saccade.duration < std::chrono::milliseconds(60));
+}
+
 TEST_CASE("a blink lies in a saccade that holds the movement of the lid", "[unit]") {
     const PlantedGaze planted = planted_at(1000.0, 0.01);
     const std::vector<GazeEvent> found = detect(planted.samples);
