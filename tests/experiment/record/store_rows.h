@@ -33,8 +33,8 @@ inline FlipRecord flip_number(int trial, int number) {
                    blank - SessionDuration(3),
                    blank - SessionDuration(2),
                    blank,
-                   number % 2 == 0 ? VblankSource::virtual_display : VblankSource::swap_return,
-                   number % 4};
+                   number % 2 == 0 ? VblankSource::virtual_display : VblankSource::swap_return};
+    flip.missed_refreshes = number % 4;
     return flip;
 }
 
