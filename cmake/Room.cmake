@@ -6,7 +6,8 @@
 #
 # The files of a room are compiled OVERT_UNITY at a time, since most of a compiler's time goes to headers that they share.
 # Any two of them can meet, in which case the words of their unnamed namespaces are common: what two files need is written
-# once, in a header. APART names files that are alike on purpose, a kind of thing each, and are compiled alone.
+# once, in a header. APART names files that are alike on purpose, a kind of thing each, and files with types that the linker
+# must not see; they are compiled alone.
 # COLD rooms are those where nobody ever waits for what they reckon (commands, keys, checks, talk with devices): compiled
 # with -O1, which takes a compiler two thirds of the time.
 #

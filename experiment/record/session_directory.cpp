@@ -66,10 +66,11 @@ template <class Take> void read_folders(const SessionPlace& place, const std::st
 /// numbers that they will have.
 std::vector<std::pair<int, fs::path>> unfinished_folders(const SessionPlace& place) {
     std::vector<std::pair<int, fs::path>> folders;
-    read_folders(place, "." + stem(place), [&](int number, std::string_view rest, const fs::path& path) {
-        if (rest.starts_with(".partial-"))
-            folders.emplace_back(number, path);
-    });
+    read_folders(place, fmt::format(".{}", stem(place)),
+                 [&](int number, std::string_view rest, const fs::path& path) {
+                     if (rest.starts_with(".partial-"))
+                         folders.emplace_back(number, path);
+                 });
     return folders;
 }
 
