@@ -65,6 +65,11 @@ void print(const AscImportSummary& summary) {
 } // namespace
 
 int run_import(const ImportOptions& options) {
+    if (options.files.size() > 2)
+        throw InputError(
+            fmt::format("{}: one recording is one file, or two (its samples and its events), not {}: "
+                        "import each recording by itself.",
+                        options.files[2].string(), options.files.size()));
     const Interruption interruption;
     ProgressBar bar;
     int reported = 0;

@@ -1,5 +1,7 @@
 #include "app/record/record_commands.h"
 
+#include <limits>
+
 #include "app/cli/command_options.h"
 
 namespace overt {
@@ -19,7 +21,7 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
             "Recording in the text form that edf2asc writes; or two of one recording, its samples and its "
             "events (edf2asc -s and -e)")
         ->required()
-        ->expected(1, 2);
+        ->expected(1, std::numeric_limits<int>::max());
     command
         .add_option("--into", options.into,
                     "Make a copy of this session with the gaze of the file, trial by trial as its messages "

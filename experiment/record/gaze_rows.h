@@ -45,7 +45,7 @@ class GazeRows {
 void read_gaze_events(const SQLite::Database& database, std::int64_t trial_id,
                       const std::function<void(const GazeEvent&)>& take);
 
-/// Nothing if nobody but the tracker tells the sitting's events. Throws SQLite::Exception.
+/// Nothing if the program did not detect events of the sitting itself. Throws SQLite::Exception.
 std::optional<EventDetection> read_event_detection(const SQLite::Database& database, int sitting);
 
 /// Nothing if the sitting's gaze came from no file. Throws SQLite::Exception.

@@ -246,7 +246,7 @@ void AscTrial::add_missing(const SessionRecord& record, const TrialRecord& trial
         settle_places();
     }
     if (header.stimuli.empty())
-        return; // nobody but the file knows more
+        return; // of a recording made elsewhere, which says itself what was shown
     if (!has("CONDITION")) {
         const TrackerTime at = span ? span->first : first;
         insert(message_at(at, condition_text(header, trial)));

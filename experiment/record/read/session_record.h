@@ -134,7 +134,7 @@ class SessionRecord {
         EventDetection detection = {}; ///< the program's
     };
     /// Sessions of earlier programs have no events: they are found now. So are those of imported recordings,
-    /// but only after detect_events_of_imports(): what a tracker's file does not say, nobody expects.
+    /// but only after detect_events_of_imports(): an import is otherwise given as its file has it.
     EventOrigin event_origin(int sitting) const;
     /// Also where a recording was imported without any fixation, saccade and blink.
     void detect_events_of_imports() {

@@ -4,6 +4,7 @@
 #include <initializer_list>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "tests/app/session/interrupted_run.h"
 #include "tests/support/virtual_screen.h"
@@ -38,8 +39,32 @@ skip = "Durchgang überspringen?"
 )";
 
 std::string typed_protocol() {
-    return with(with(std::string(small_protocol) + surroundings, "refresh_hz = 120", "refresh_hz = 60"),
-                "output = \"color++\"", "output = \"native-8bit\"\ngamma = 2.2");
+    return with(
+        with(fmt::format("{}{}", small_protocol, surroundings), "refresh_hz = 120", "refresh_hz = 60"),
+        "output = \"color++\"", "output = \"native-8bit\"\ngamma = 2.2");
+}
+
+/// The arguments of a session in a window of its own.
+std::vector<std::string> windowed_run(const SmallExperiment& experiment) {
+    return {"run",
+            experiment.protocol().string(),
+            "--observer",
+            "P01",
+            "--context",
+            "window",
+            "--windowed",
+            "--refresh-check",
+            "0",
+            "--seed",
+            "7",
+            "--sessions",
+            experiment.sessions().string()};
+}
+
+/// Its environment: an X server alone, whatever desktop the tests run on.
+std::vector<std::string> surroundings_of(const SmallExperiment& experiment) {
+    return {"OVERT_CACHE=" + experiment.cache().string(),
+            "WAYLAND_DISPLAY=", "XDG_SESSION_TYPE=", "ASAN_OPTIONS=detect_leaks=0"};
 }
 
 /// Somebody who presses keys until the session's record shows that they were taken.
@@ -97,12 +122,7 @@ TEST_CASE("a session in a window is led by its keys: consent, form, pages, pause
     const SmallExperiment experiment(typed_protocol());
     const std::filesystem::path said = experiment.folder().path() / "said";
     {
-        RunningProgram program({"run", experiment.protocol().string(), "--observer", "P01", "--context",
-                                "window", "--windowed", "--refresh-check", "0", "--seed", "7", "--sessions",
-                                experiment.sessions().string()},
-                               {"OVERT_CACHE=" + experiment.cache().string(),
-                                "WAYLAND_DISPLAY=", "XDG_SESSION_TYPE=", "ASAN_OPTIONS=detect_leaks=0"},
-                               said);
+        RunningProgram program(windowed_run(experiment), surroundings_of(experiment), said);
         const Window window = await_window(display);
         INFO(text_of(said));
         REQUIRE(window != 0);
@@ -149,12 +169,7 @@ TEST_CASE("who declined is not asked again unless that session is named", "[sess
     const SmallExperiment experiment(typed_protocol());
     const std::filesystem::path said = experiment.folder().path() / "said";
     {
-        RunningProgram program({"run", experiment.protocol().string(), "--observer", "P01", "--context",
-                                "window", "--windowed", "--refresh-check", "0", "--seed", "7", "--sessions",
-                                experiment.sessions().string()},
-                               {"OVERT_CACHE=" + experiment.cache().string(),
-                                "WAYLAND_DISPLAY=", "XDG_SESSION_TYPE=", "ASAN_OPTIONS=detect_leaks=0"},
-                               said);
+        RunningProgram program(windowed_run(experiment), surroundings_of(experiment), said);
         const Window window = await_window(display);
         INFO(text_of(said));
         REQUIRE(window != 0);
