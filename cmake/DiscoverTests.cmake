@@ -1,33 +1,53 @@
-# Run after a test program is linked: writes the CTest script FILE with each of its test cases by name, labelled with its
-# one tag out of unit, gl, session and bench. A test case without such a tag stops the build, for nobody would run it; one
+# Run after a test program is linked: writes the CTest script FILE with its tests, labelled with their one tag out of unit,
+# gl, session and bench. A test case of a session or a benchmark is a test of its own. The cases of a file that are tagged
+# unit or gl are one test, named after program and file: hundreds of programs that each load some 280 libraries for a case of
+# milliseconds take longer than the cases. A test case without such a tag stops the build, for nobody would run it; one
 # that is tagged [.long] is run by hand (tests/README.md).
-function(list_tests spec result)
-    execute_process(COMMAND ${PROGRAM} ${spec} --list-test-names-only OUTPUT_VARIABLE names RESULT_VARIABLE count)
-    # Catch2 answers with the number of tests; a program that cannot be run answers with words.
+function(list_of_program result pattern)
+    execute_process(COMMAND ${PROGRAM} ${ARGN} OUTPUT_VARIABLE lines ERROR_VARIABLE lines RESULT_VARIABLE count)
+    # Catch2 answers with the number of tests or tags; a program that cannot be run answers with words.
     if(NOT count MATCHES "^[0-9]+$")
         message(FATAL_ERROR "${PROGRAM}: its tests cannot be listed: ${count}")
     endif()
-    string(STRIP "${names}" names)
-    string(REPLACE ";" "\\;" names "${names}")
-    string(REPLACE "\n" ";" names "${names}")
-    set(${result} "${names}" PARENT_SCOPE)
+    string(REPLACE ";" "\\;" lines "${lines}")
+    string(REGEX REPLACE "\n+" ";" lines "${lines}")
+    list(FILTER lines INCLUDE REGEX "${pattern}")
+    set(${result} "${lines}" PARENT_SCOPE)
 endfunction()
 
-list_tests("~[unit]~[gl]~[session]~[bench]~[.long]" unlabelled)
+list_of_program(unlabelled "." "~[unit]~[gl]~[session]~[bench]~[.long]" --list-test-names-only)
 if(unlabelled)
     message(FATAL_ERROR "Test cases without a tag [unit], [gl], [session] or [bench]: ${unlabelled}")
 endif()
 
 set(script "")
-foreach(label unit gl session bench)
-    list_tests("[${label}]" tests)
+get_filename_component(program "${PROGRAM}" NAME)
+function(add_program_test name label specification)
+    string(APPEND script "add_test([==[${name}]==] [==[${PROGRAM}]==] [==[${specification}]==] \"-#\")\n"
+        "set_tests_properties([==[${name}]==] PROPERTIES LABELS ${label} TIMEOUT 600 "
+        "SKIP_REGULAR_EXPRESSION [==[overt test skipped: ]==] "
+        "WORKING_DIRECTORY [==[${FOLDER}]==] ENVIRONMENT [==[${ENVIRONMENT}]==])\n")
+    set(script "${script}" PARENT_SCOPE)
+endfunction()
+
+foreach(label unit gl)
+    # Catch2's option -# gives each case the name of its file as a tag.
+    list_of_program(tags "\\[#" "[${label}]" -\# --list-tags)
+    foreach(tag IN LISTS tags)
+        string(REGEX REPLACE ".*\\[#(.*)\\].*" "\\1" file "${tag}")
+        set(name "${program} ${file}")
+        if(NOT label STREQUAL "unit")
+            string(APPEND name " (${label})")
+        endif()
+        add_program_test("${name}" ${label} "[#${file}][${label}]")
+    endforeach()
+endforeach()
+foreach(label session bench)
+    list_of_program(tests "." "[${label}]" --list-test-names-only)
     foreach(test IN LISTS tests)
         # Commas and brackets are read as parts of a test specification.
         string(REGEX REPLACE "([][,])" "\\\\\\1" specification "${test}")
-        string(APPEND script "add_test([==[${test}]==] [==[${PROGRAM}]==] [==[${specification}]==])\n"
-            "set_tests_properties([==[${test}]==] PROPERTIES LABELS ${label} TIMEOUT 600 "
-            "SKIP_REGULAR_EXPRESSION [==[overt test skipped: ]==] "
-            "WORKING_DIRECTORY [==[${FOLDER}]==] ENVIRONMENT [==[${ENVIRONMENT}]==])\n")
+        add_program_test("${test}" ${label} "${specification}")
     endforeach()
 endforeach()
 file(WRITE ${FILE} "${script}")
