@@ -3,6 +3,8 @@
 # unit or gl are one test, named after program and file: hundreds of programs that each load some 280 libraries for a case of
 # milliseconds take longer than the cases. A test case without such a tag stops the build, for nobody would run it; one
 # that is tagged [.long] is run by hand (tests/README.md).
+cmake_policy(VERSION 3.25)
+
 function(list_of_program result pattern)
     execute_process(COMMAND ${PROGRAM} ${ARGN} OUTPUT_VARIABLE lines ERROR_VARIABLE lines RESULT_VARIABLE count)
     # Catch2 answers with the number of tests or tags; a program that cannot be run answers with words.

@@ -65,3 +65,21 @@ function(overt_write_rooms file)
     string(REPLACE ";" " " rooms "${rooms}")
     file(CONFIGURE OUTPUT ${file} CONTENT "${rooms}" @ONLY)
 endfunction()
+
+# overt_module(ROOM NAME name USES rooms… LINKS libraries…): a room whose libraries take long to load is a module of its own,
+# which the program loads when it needs it: lib/overt/NAME.so. It sees the headers of the rooms it uses, not their code.
+function(overt_module room)
+    cmake_parse_arguments(PARSE_ARGV 1 MODULE "" "NAME" "USES;LINKS")
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${room}/*.cpp)
+    add_library(${MODULE_NAME} MODULE ${sources})
+    target_include_directories(${MODULE_NAME} PRIVATE ${CMAKE_SOURCE_DIR})
+    target_link_libraries(${MODULE_NAME} PRIVATE glm::glm overt_warnings ${MODULE_LINKS})
+    set_target_properties(${MODULE_NAME} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden
+                          LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/overt)
+    # Whoever is linked with the room that loads it has it built, too.
+    foreach(used IN LISTS MODULE_USES)
+        overt_room_target(${used} used_target)
+        add_dependencies(${used_target} ${MODULE_NAME})
+    endforeach()
+    set_property(GLOBAL APPEND_STRING PROPERTY OVERT_ROOMS "${room}: ${MODULE_USES}\n")
+endfunction()

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numeric>
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include "app/bench/bench_command.h"
@@ -12,6 +11,7 @@
 #include "experiment/base/parallel.h"
 #include "experiment/base/random.h"
 #include "experiment/base/scratch_folder.h"
+#include "experiment/pictures/picture_file.h"
 #include "render/gl/headless_context.h"
 #include "render/presenter/page_presenter.h"
 
@@ -47,12 +47,12 @@ std::vector<float> figure_rgba(int size_px, int frame) {
 struct FileKind {
     const char* name;
     const char* extension;
-    OIIO::TypeDesc type;
+    PixelType type;
     FrameEncoding encoding;
 };
 
-const FileKind kinds[] = {{"half-float EXR", "exr", OIIO::TypeDesc::HALF, FrameEncoding::linear},
-                          {"16-bit PNG", "png", OIIO::TypeDesc::UINT16, FrameEncoding::srgb}};
+const FileKind kinds[] = {{"half-float EXR", "exr", PixelType::float16, FrameEncoding::linear},
+                          {"16-bit PNG", "png", PixelType::bits16, FrameEncoding::srgb}};
 
 std::filesystem::path file_of(const std::filesystem::path& folder, const FileKind& kind, int frame) {
     return folder / fmt::format("frame_{:04}.{}", frame, kind.extension);
@@ -60,14 +60,10 @@ std::filesystem::path file_of(const std::filesystem::path& folder, const FileKin
 
 void write_frames(const std::filesystem::path& folder, const FileKind& kind, int size_px) {
     parallel_for(frames, [&](int frame) {
-        const std::string file = file_of(folder, kind, frame).string();
-        OIIO::ImageSpec spec(size_px, size_px, 4, kind.type);
-        spec.attribute("compression", "zip");
-        const auto output = OIIO::ImageOutput::create(file);
-        if (!output || !output->open(file, spec) ||
-            !output->write_image(OIIO::TypeDesc::FLOAT, figure_rgba(size_px, frame).data()) ||
-            !output->close())
-            throw RecordError(fmt::format("{}: cannot be written: {}", file, OIIO::geterror()));
+        const PictureHeader header{
+            glm::ivec2(size_px), {"R", "G", "B", "A"}, kind.type, 3, {{"compression", "zip"}}};
+        write_picture(file_of(folder, kind, frame), header, PixelType::float32,
+                      figure_rgba(size_px, frame).data());
     });
 }
 
@@ -81,13 +77,11 @@ double seconds_of(const auto& work) {
 void read_by_library_alone(const std::filesystem::path& folder, const FileKind& kind) {
     parallel_for(frames, [&](int frame) {
         thread_local std::vector<char> pixels;
-        const auto input = OIIO::ImageInput::open(file_of(folder, kind, frame).string());
-        if (!input)
-            throw InputError(OIIO::geterror());
-        input->threads(1);
-        pixels.resize(input->spec().image_bytes());
-        if (!input->read_image(0, 0, 0, input->spec().nchannels, OIIO::TypeDesc::UNKNOWN, pixels.data()))
-            throw InputError(input->geterror());
+        PictureFile picture(file_of(folder, kind, frame), "picture");
+        const PictureHeader& header = picture.header();
+        pixels.resize(sizeof(std::uint16_t) * header.channels.size() *
+                      static_cast<std::size_t>(header.size_px.x * header.size_px.y));
+        picture.read(header.channel_count(), PixelType::other, pixels.data());
     });
 }
 

@@ -19,6 +19,7 @@
 #include "experiment/base/error.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/design/schedule.h"
+#include "experiment/pictures/picture_library.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/record/read/timing_report.h"
 #include "experiment/record/session_schema.h"
@@ -242,6 +243,8 @@ int run_session(const RunOptions& options) {
                      .on_phase = [&](SessionPhase phase, int trial) { progress.enter(phase, trial); }},
                     plan.fields);
     note_faults(options.faults, rig.clock(), store);
+    // Maps drawn live are written between trials, where loading the library would take its time.
+    picture_library();
     note_thread(prepare_thread({options.realtime, options.processor}), rig.clock(), store);
     const SessionResult result = session.run(
         [&](const Trial& trial, const TrialOutcome& outcome, int done) {

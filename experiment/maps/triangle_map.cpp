@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
 #include "experiment/base/memory_for.h"
-#include "experiment/maps/picture_file.h"
+#include "experiment/pictures/picture_file.h"
 
 namespace overt {
 
@@ -18,30 +17,25 @@ std::size_t TriangleMap::covered_pixels() const {
 
 void write_triangle_map(const std::filesystem::path& file, const TriangleMap& map,
                         const MapAttributes& attributes) {
-    OIIO::ImageSpec spec(map.size_px.x, map.size_px.y, 1, OIIO::TypeDesc::UINT32);
-    spec.channelnames = {"triangle"};
-    spec.attribute("compression", "zip");
+    PictureHeader header{map.size_px, {"triangle"}, PixelType::bits32, -1, {{"compression", "zip"}}};
     for (const auto& [name, value] : attributes)
-        spec.attribute("overt:" + name, value);
-    write_picture(file, spec, OIIO::TypeDesc::UINT32, map.codes.data());
+        header.attributes.emplace_back("overt:" + name, value);
+    write_picture(file, header, PixelType::bits32, map.codes.data());
 }
 
 TriangleMap read_triangle_map(const std::filesystem::path& file) {
-    const auto input = open_picture(file, "map");
-    const OIIO::ImageSpec spec = input->spec();
-    if (spec.nchannels != 1 || spec.channelnames.front() != "triangle" ||
-        spec.format != OIIO::TypeDesc::UINT32) {
+    PictureFile picture(file, "map");
+    const PictureHeader& header = picture.header();
+    if (header.channels != std::vector<std::string>{"triangle"} || header.type != PixelType::bits32) {
         throw InputError(fmt::format("{}: is no map of triangle numbers (one 32-bit channel \"triangle\")",
                                      file.string()));
     }
-    TriangleMap map{{spec.width, spec.height}, {}};
+    TriangleMap map{header.size_px, {}};
     with_memory_for(file, [&] {
-        map.codes.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height));
+        map.codes.resize(static_cast<std::size_t>(header.size_px.x) *
+                         static_cast<std::size_t>(header.size_px.y));
     });
-    input->threads(1);
-    if (!input->read_image(0, 0, 0, 1, OIIO::TypeDesc::UINT32, map.codes.data())) {
-        throw InputError(fmt::format("{}: reading the map failed: {}", file.string(), input->geterror()));
-    }
+    picture.read(1, PixelType::bits32, map.codes.data());
     return map;
 }
 

@@ -4,12 +4,11 @@
 #include <array>
 #include <span>
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
 #include "experiment/base/memory_for.h"
-#include "experiment/maps/picture_file.h"
+#include "experiment/pictures/picture_file.h"
 #include "render/image/stored_values.h"
 
 namespace overt {
@@ -25,18 +24,19 @@ struct ChannelPlaces {
 };
 
 /// Number of the alpha channel, or -1.
-int alpha_channel_of(const OIIO::ImageSpec& spec) {
-    if (spec.alpha_channel >= 0)
-        return spec.alpha_channel;
-    return spec.nchannels == 4 || spec.nchannels == 2 ? spec.nchannels - 1 : -1;
+int alpha_channel_of(const PictureHeader& header) {
+    if (header.alpha_channel >= 0)
+        return header.alpha_channel;
+    const int channels = header.channel_count();
+    return channels == 4 || channels == 2 ? channels - 1 : -1;
 }
 
-ChannelPlaces places_in(const OIIO::ImageSpec& spec, const std::filesystem::path& file) {
+ChannelPlaces places_in(const PictureHeader& header, const std::filesystem::path& file) {
     ChannelPlaces places;
-    places.channels = std::min(spec.nchannels, 4);
-    if (spec.nchannels < 3)
+    places.channels = std::min(header.channel_count(), 4);
+    if (header.channels.size() < 3)
         places.of = {0, 0, 0, -1};
-    places.of[3] = alpha_channel_of(spec);
+    places.of[3] = alpha_channel_of(header);
     if (places.of[3] >= places.channels) {
         throw InputError(fmt::format("{}: alpha is its channel {}; it has to be among the first four",
                                      file.string(), places.of[3] + 1));
@@ -57,32 +57,23 @@ struct ValueFacts {
 constexpr int rows_in_band = 64;
 
 /// Reads the channels of all pixels as floats.
-ValueFacts read_values(OIIO::ImageInput& input, const ChannelPlaces& places, std::span<float> into,
-                       const std::filesystem::path& file) {
-    const OIIO::ImageSpec& spec = input.spec();
-    const auto check = [&](bool was_read) {
-        if (!was_read)
-            throw InputError(
-                fmt::format("{}: reading the picture failed: {}", file.string(), input.geterror()));
-    };
-    const bool halves = spec.format == OIIO::TypeDesc::HALF, codes = spec.format == OIIO::TypeDesc::UINT16;
-    if ((!halves && !codes) || !spec.channelformats.empty()) {
-        check(input.read_image(0, 0, 0, places.channels, OIIO::TypeDesc::FLOAT, into.data()));
-        return {spec.format == OIIO::TypeDesc::UINT8, all_finite(into)};
+ValueFacts read_values(PictureFile& picture, const ChannelPlaces& places, std::span<float> into) {
+    const PictureHeader& header = picture.header();
+    const bool codes = header.type == PixelType::bits16;
+    if ((header.type != PixelType::float16 && !codes) || header.channels_differ) {
+        picture.read(places.channels, PixelType::float32, into.data());
+        return {header.type == PixelType::bits8, all_finite(into)};
     }
     // Kept for the next file that this thread reads.
     thread_local std::vector<std::uint16_t> stored;
-    const bool in_tiles = spec.tile_width > 0;
-    const int rows_at_once = in_tiles ? spec.height : std::min(rows_in_band, spec.height);
-    const auto row_values = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(places.channels);
+    const glm::ivec2 size = header.size_px;
+    const int rows_at_once = header.tile_px.x > 0 ? size.y : std::min(rows_in_band, size.y);
+    const auto row_values = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(places.channels);
     stored.resize(row_values * static_cast<std::size_t>(rows_at_once));
     ValueFacts facts{codes, true};
-    for (int row = 0; row < spec.height; row += rows_at_once) {
-        const int end = std::min(row + rows_at_once, spec.height);
-        const OIIO::TypeDesc as_they_are = OIIO::TypeDesc::UNKNOWN;
-        check(in_tiles ? input.read_image(0, 0, 0, places.channels, as_they_are, stored.data())
-                       : input.read_scanlines(0, 0, spec.y + row, spec.y + end, spec.z, 0, places.channels,
-                                              as_they_are, stored.data()));
+    for (int row = 0; row < size.y; row += rows_at_once) {
+        const int end = std::min(row + rows_at_once, size.y);
+        picture.read_rows(row, end, places.channels, PixelType::other, stored.data());
         const auto count = row_values * static_cast<std::size_t>(end - row);
         const std::span from(stored.data(), count);
         const auto floats = into.subspan(row_values * static_cast<std::size_t>(row), count);
@@ -102,28 +93,25 @@ void decode_srgb(LinearImage& image, bool of_codes) {
     }
 }
 
-std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file) {
-    // Colours as they stand in the file: multiplied by alpha too early, an encoding could not be undone.
-    OIIO::ImageSpec wish;
-    wish.attribute("oiio:UnassociatedAlpha", 1);
-    return open_picture(file, "picture", &wish);
+/// Colours as they stand in the file: multiplied by alpha too early, an encoding could not be undone.
+PictureFile opened(const std::filesystem::path& file) {
+    return PictureFile(file, "picture", StraightColours::as_they_stand);
 }
 
 void read_opened(const std::filesystem::path& file, FrameEncoding encoding, LinearImage& into) {
-    const auto input = open_image(file);
-    const OIIO::ImageSpec spec = input->spec();
-    const ChannelPlaces places = places_in(spec, file);
-    into.size_px = {spec.width, spec.height};
-    into.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height));
-    // Each file is read by one thread: several are read at once.
-    input->threads(1);
+    PictureFile picture = opened(file);
+    const PictureHeader& header = picture.header();
+    const ChannelPlaces places = places_in(header, file);
+    into.size_px = header.size_px;
+    into.pixels.resize(static_cast<std::size_t>(header.size_px.x) *
+                       static_cast<std::size_t>(header.size_px.y));
     ValueFacts facts;
     if (places.are_rgba()) {
-        facts = read_values(*input, places, values_of(into), file);
+        facts = read_values(picture, places, values_of(into));
     } else {
         thread_local std::vector<float> values;
         values.resize(into.pixels.size() * static_cast<std::size_t>(places.channels));
-        facts = read_values(*input, places, values, file);
+        facts = read_values(picture, places, values);
         const auto [r, g, b, a] = places.of;
         const float* stored = values.data();
         for (glm::vec4& pixel : into.pixels) {
@@ -139,12 +127,13 @@ void read_opened(const std::filesystem::path& file, FrameEncoding encoding, Line
         if (bad != into.pixels.end()) {
             const auto index = static_cast<int>(bad - into.pixels.begin());
             throw InputError(fmt::format("{}: pixel ({}, {}) holds a value that is not a finite number",
-                                         file.string(), index % spec.width, index / spec.width));
+                                         file.string(), index % header.size_px.x, index / header.size_px.x));
         }
     }
     if (encoding == FrameEncoding::srgb)
         decode_srgb(into, facts.are_codes);
-    if (places.of[3] >= 0 && spec.get_int_attribute("oiio:UnassociatedAlpha") != 0) {
+    const int* const straight = header.attribute<int>("oiio:UnassociatedAlpha");
+    if (places.of[3] >= 0 && straight && *straight != 0) {
         for (glm::vec4& pixel : into.pixels)
             pixel = glm::vec4(glm::vec3(pixel) * pixel.w, pixel.w);
     }
@@ -162,22 +151,16 @@ void read_linear_image(const std::filesystem::path& file, FrameEncoding encoding
     with_memory_for(file, [&] { read_opened(file, encoding, into); });
 }
 
-glm::ivec2 image_size_px(const std::filesystem::path& file) {
-    const auto input = open_image(file);
-    return {input->spec().width, input->spec().height};
-}
+glm::ivec2 image_size_px(const std::filesystem::path& file) { return opened(file).header().size_px; }
 
-bool has_alpha(const std::filesystem::path& file) { return alpha_channel_of(open_image(file)->spec()) >= 0; }
+bool has_alpha(const std::filesystem::path& file) { return alpha_channel_of(opened(file).header()) >= 0; }
 
 void write_linear_exr(const std::filesystem::path& file, const LinearImage& image,
                       const ImageAttributes& attributes) {
-    OIIO::ImageSpec spec(image.size_px.x, image.size_px.y, 4, OIIO::TypeDesc::FLOAT);
-    spec.channelnames = {"R", "G", "B", "A"};
-    spec.alpha_channel = 3;
-    spec.attribute("compression", "pxr24");
-    for (const auto& [name, value] : attributes)
-        spec.attribute(name, value);
-    write_picture(file, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
+    PictureHeader header{
+        image.size_px, {"R", "G", "B", "A"}, PixelType::float32, 3, {{"compression", "pxr24"}}};
+    header.attributes.insert(header.attributes.end(), attributes.begin(), attributes.end());
+    write_picture(file, header, PixelType::float32, image.pixels.data());
 }
 
 void write_srgb_png(const std::filesystem::path& file, const LinearImage& image) {
@@ -189,9 +172,9 @@ void write_srgb_png(const std::filesystem::path& file, const LinearImage& image)
             bytes.push_back(static_cast<unsigned char>(encoded * 255.0f + 0.5f));
         }
     }
-    OIIO::ImageSpec spec(image.size_px.x, image.size_px.y, 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    write_picture(file, spec, OIIO::TypeDesc::UINT8, bytes.data());
+    const PictureHeader header{
+        image.size_px, {"R", "G", "B"}, PixelType::bits8, -1, {{"oiio:ColorSpace", "sRGB"}}};
+    write_picture(file, header, PixelType::bits8, bytes.data());
 }
 
 } // namespace overt

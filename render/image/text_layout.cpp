@@ -139,7 +139,9 @@ LinearImage draw_fixation_target(double diameter_px, float grey, float backgroun
 }
 
 bool begins_at_the_right(const std::string& text) {
-    return pango_find_base_dir(text.data(), static_cast<int>(text.size())) == PANGO_DIRECTION_RTL;
+    const InkCanvas canvas({1, 1});
+    const Layout layout = lay_out(canvas.cairo(), text, {});
+    return pango_layout_get_direction(layout.get(), 0) == PANGO_DIRECTION_RTL;
 }
 
 } // namespace overt

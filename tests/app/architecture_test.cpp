@@ -46,8 +46,8 @@ Rooms rooms_of_the_program() {
 const std::string opengl = "^(GL/|GLES|GLFW/|EGL/|KHR/|glad/|X11/|xcb/)", usb = "^(libusb|hidapi)",
                   drawing = "^(OpenImageIO/|pango/|cairo)", database = "^(SQLiteCpp/|sqlite3)";
 const std::vector<std::pair<std::string, std::string>> unknown_to{
+    {"experiment/pictures/module", opengl + "|" + usb + "|" + database},
     {"experiment/record", opengl + "|" + usb + "|" + drawing},
-    {"experiment/maps", opengl + "|" + usb + "|" + database},
     {"experiment", opengl + "|" + usb + "|" + drawing + "|" + database},
     {"render", usb + "|" + database},
     {"devices", opengl + "|" + drawing + "|" + database},

@@ -3,9 +3,9 @@
 
 #include <limits>
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include "experiment/pictures/picture_file.h"
 #include "tests/app/small_experiment.h"
 
 using namespace overt;
@@ -43,14 +43,11 @@ void check_refused(const SmallExperiment& experiment, const std::string& wrong_p
     CHECK_FALSE(std::filesystem::exists(experiment.sessions()));
 }
 
-void write_picture(const std::filesystem::path& file, int width, int height, float value) {
+void write_grey(const std::filesystem::path& file, int width, int height, float value) {
     std::filesystem::create_directories(file.parent_path());
-    const auto output = OIIO::ImageOutput::create(file.string());
-    REQUIRE(output);
-    REQUIRE(output->open(file.string(), OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::FLOAT)));
     const std::vector<float> pixels(static_cast<std::size_t>(3 * width * height), value);
-    REQUIRE(output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()));
-    REQUIRE(output->close());
+    write_picture(file, {{width, height}, {"R", "G", "B"}, PixelType::float32}, PixelType::float32,
+                  pixels.data());
 }
 
 const std::string with_frames = std::string(small_protocol) + R"(
@@ -62,7 +59,7 @@ files = "frames/##.exr"
 
 void write_good_frames(const SmallExperiment& experiment) {
     for (int frame = 0; frame < 31; ++frame)
-        write_picture(experiment.folder().path() / fmt::format("frames/{:02}.exr", frame), 128, 128, 0.5f);
+        write_grey(experiment.folder().path() / fmt::format("frames/{:02}.exr", frame), 128, 128, 0.5f);
 }
 
 } // namespace
@@ -144,7 +141,7 @@ TEST_CASE("ready-made frames of another size, cut off or with no numbers in them
     const std::string key = "\"frames/##.exr\"";
 
     SECTION("of another size") {
-        write_picture(file, 128, 127, 0.5f);
+        write_grey(file, 128, 127, 0.5f);
         check_refused(experiment, key, {"frames/19.exr", "128 x 127", "128 x 128"});
     }
     SECTION("cut off") {
@@ -152,7 +149,7 @@ TEST_CASE("ready-made frames of another size, cut off or with no numbers in them
         check_refused(experiment, key, {"frames/19.exr"});
     }
     SECTION("not a number") {
-        write_picture(file, 128, 128, std::numeric_limits<float>::quiet_NaN());
+        write_grey(file, 128, 128, std::numeric_limits<float>::quiet_NaN());
         check_refused(experiment, key, {"frames/19.exr", "pixel (0, 0)", "not a finite number"});
     }
     SECTION("missing") {
@@ -165,7 +162,7 @@ TEST_CASE("a light probe that is none is refused", "[session]") {
     const SmallExperiment experiment(
         with(small_protocol, "[schedule]", "[light]\nprobe = \"sky.exr\"\n[schedule]"));
     check_refused(experiment, "\"sky.exr\"", {"there is no file"});
-    write_picture(experiment.folder().path() / "sky.exr", 30, 20, 1.0f);
+    write_grey(experiment.folder().path() / "sky.exr", 30, 20, 1.0f);
     check_refused(experiment, "\"sky.exr\"", {"twice as wide as high"});
 }
 

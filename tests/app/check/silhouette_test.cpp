@@ -1,12 +1,12 @@
 /// Ready-made frames that show the sculpture where the hidden maps have it, and others that do not.
 #include <catch2/catch.hpp>
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "app/check/silhouette_check.h"
 #include "app/inputs/protocol_inputs.h"
+#include "experiment/pictures/picture_file.h"
 #include "render/gl/headless_context.h"
 #include "tests/app/small_experiment.h"
 #include "tests/support/gl_contexts.h"
@@ -45,25 +45,24 @@ class PaintedExperiment {
         for (int frame = 0; frame < experiment->protocol.animation.frame_count; ++frame) {
             const TriangleMap map =
                 read_triangle_map(library.cache().map_file(0, library.cache().poses().pose_of({frame})));
-            const int channels = alpha ? 4 : 3;
+            PictureHeader header{map.size_px, {"R", "G", "B"}, PixelType::bits8};
+            if (alpha) {
+                header.channels.emplace_back("A");
+                header.alpha_channel = 3;
+            }
             std::vector<std::uint8_t> bytes;
             for (int y = 0; y < map.size_px.y; ++y) {
                 for (int x = 0; x < map.size_px.x; ++x) {
                     const glm::ivec2 from = glm::ivec2(x, y) - moved(frame);
                     const bool on = map.code_at(from.x, from.y) != 0;
-                    for (int channel = 0; channel < channels; ++channel)
+                    for (int channel = 0; channel < header.channel_count(); ++channel)
                         bytes.push_back(channel == 3 ? (on ? 255 : 0)
                                         : on         ? static_cast<std::uint8_t>(150 + (x + y) % 90)
                                                      : static_cast<std::uint8_t>(51));
                 }
             }
             const auto file = files.folder().path() / fmt::format("frames/{:04}.png", frame);
-            const auto output = OIIO::ImageOutput::create(file.string());
-            REQUIRE(output);
-            REQUIRE(output->open(file.string(), OIIO::ImageSpec(map.size_px.x, map.size_px.y, channels,
-                                                                OIIO::TypeDesc::UINT8)));
-            REQUIRE(output->write_image(OIIO::TypeDesc::UINT8, bytes.data()));
-            REQUIRE(output->close());
+            write_picture(file, header, PixelType::bits8, bytes.data());
         }
     }
 

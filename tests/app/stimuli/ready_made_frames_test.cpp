@@ -1,12 +1,12 @@
 /// Frames of another renderer, from 16-bit files to the bytes of the display's signal.
 #include <catch2/catch.hpp>
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include "app/inputs/protocol_inputs.h"
 #include "devices/host/clocks.h"
 #include "experiment/base/random.h"
+#include "experiment/pictures/picture_file.h"
 #include "render/gl/headless_context.h"
 #include "render/presenter/page_presenter.h"
 #include "render/stimulus/stimulus_library.h"
@@ -83,25 +83,20 @@ std::vector<std::uint16_t> values_of(int frame, int format) {
     return values;
 }
 
-void write(const std::filesystem::path& file, OIIO::TypeDesc type, const void* values) {
-    const auto output = OIIO::ImageOutput::create(file.string());
-    REQUIRE(output);
-    const OIIO::ImageSpec spec(width, height, 3, type);
-    REQUIRE(output->open(file.string(), spec));
-    REQUIRE(output->write_image(type, values));
-    REQUIRE(output->close());
+void write(const std::filesystem::path& file, PixelType type, const void* values) {
+    write_picture(file, {{width, height}, {"R", "G", "B"}, type}, type, values);
 }
 
 void write_frames(const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder);
     for (int frame = 0; frame < frame_count; ++frame) {
         const std::string name = fmt::format("{:04}", first_number + frame);
-        write(folder / (name + ".png"), OIIO::TypeDesc::UINT16, values_of(frame, 0).data());
-        write(folder / (name + ".tif"), OIIO::TypeDesc::UINT16, values_of(frame, 1).data());
+        write(folder / (name + ".png"), PixelType::bits16, values_of(frame, 0).data());
+        write(folder / (name + ".tif"), PixelType::bits16, values_of(frame, 1).data());
         std::vector<float> light;
         for (const std::uint16_t value : values_of(frame, 2))
             light.push_back(static_cast<float>(value / 65535.0));
-        write(folder / (name + ".exr"), OIIO::TypeDesc::FLOAT, light.data());
+        write(folder / (name + ".exr"), PixelType::float32, light.data());
     }
 }
 

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <OpenImageIO/imageio.h>
-
+#include "experiment/pictures/picture_file.h"
 #include "tests/app/small_experiment.h"
 
 namespace overt::test {
@@ -42,21 +41,16 @@ inline int whole_files_below(const std::filesystem::path& folder) {
 
 /// All channels of a picture as floats.
 inline std::vector<float> values_in(const std::filesystem::path& file) {
-    const auto input = OIIO::ImageInput::open(file.string());
-    if (!input)
-        throw std::runtime_error("no picture: " + file.string());
-    std::vector<float> values(static_cast<std::size_t>(input->spec().image_pixels()) *
-                              static_cast<std::size_t>(input->spec().nchannels));
-    if (!input->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, values.data()))
-        throw std::runtime_error("an unreadable picture: " + file.string());
+    PictureFile picture(file, "picture");
+    const PictureHeader& header = picture.header();
+    std::vector<float> values(static_cast<std::size_t>(header.size_px.x * header.size_px.y) *
+                              header.channels.size());
+    picture.read(header.channel_count(), PixelType::float32, values.data());
     return values;
 }
 
-inline OIIO::ImageSpec spec_of(const std::filesystem::path& file) {
-    const auto input = OIIO::ImageInput::open(file.string());
-    if (!input)
-        throw std::runtime_error("no picture: " + file.string());
-    return input->spec();
+inline PictureHeader header_of(const std::filesystem::path& file) {
+    return PictureFile(file, "picture").header();
 }
 
 /// Whether two folders have the same files with the same pictures.

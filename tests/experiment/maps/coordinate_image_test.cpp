@@ -3,7 +3,6 @@
 #include <fstream>
 #include <iterator>
 
-#include <OpenImageIO/imageio.h>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +10,7 @@
 #include "experiment/base/random.h"
 #include "experiment/maps/coordinate_codec.h"
 #include "experiment/maps/coordinate_image_file.h"
+#include "experiment/pictures/picture_file.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace overt;
@@ -68,17 +68,16 @@ void check_same(const MapDescription& read, const MapDescription& given) {
 
 /// Writes a picture as other programs would, without a word on what it means.
 template <class Value>
-std::filesystem::path foreign(const std::filesystem::path& file, OIIO::TypeDesc type,
+std::filesystem::path foreign(const std::filesystem::path& file, PixelType type,
                               const std::vector<std::string>& channels, const std::vector<Value>& values) {
     const int count = static_cast<int>(channels.size());
-    OIIO::ImageSpec spec(static_cast<int>(values.size()) / count, 1, count, type);
-    spec.channelnames = channels;
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    const auto output = OIIO::ImageOutput::create(file.string());
-    REQUIRE(output);
-    REQUIRE(output->open(file.string(), spec));
-    REQUIRE(output->write_image(type, values.data()));
-    REQUIRE(output->close());
+    write_picture(file,
+                  {{static_cast<int>(values.size()) / count, 1},
+                   channels,
+                   type,
+                   count == 4 ? 3 : -1,
+                   {{"oiio:UnassociatedAlpha", 1}}},
+                  type, values.data());
     return file;
 }
 
@@ -154,18 +153,18 @@ TEST_CASE("another reader finds the coordinates in the channels X, Y, Z and A of
     const test::TemporaryFolder folder;
     const CoordinateImage image = disc({20, 30});
     write_coordinate_exr(folder.path() / "map.exr", image, full_description());
-    const auto input = OIIO::ImageInput::open((folder.path() / "map.exr").string());
-    REQUIRE(input);
-    REQUIRE(input->spec().nchannels == 4);
-    CHECK(input->spec().format == OIIO::TypeDesc::FLOAT);
+    PictureFile picture(folder.path() / "map.exr", "picture");
+    const PictureHeader& header = picture.header();
+    REQUIRE(header.channels.size() == 4);
+    CHECK(header.type == PixelType::float32);
+    std::vector<float> values(4 * image.pixels.size());
+    picture.read(4, PixelType::float32, values.data());
     const std::string names = "XYZA";
     for (int component = 0; component < 4; ++component) {
-        const int channel = input->spec().channelindex(names.substr(static_cast<std::size_t>(component), 1));
+        const int channel = header.channel(names.substr(static_cast<std::size_t>(component), 1));
         REQUIRE(channel >= 0);
-        std::vector<float> values(image.pixels.size());
-        REQUIRE(input->read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT, values.data()));
-        for (std::size_t i = 0; i < values.size(); ++i)
-            REQUIRE(values[i] == image.pixels[i][component]);
+        for (std::size_t i = 0; i < image.pixels.size(); ++i)
+            REQUIRE(values[4 * i + static_cast<std::size_t>(channel)] == image.pixels[i][component]);
     }
 }
 
@@ -193,11 +192,10 @@ TEST_CASE("the codes in the PNG are those of the codec, and nothing asks for ano
     const test::TemporaryFolder folder;
     const CoordinateImage image = disc({32, 32});
     write_coordinate_png(folder.path() / "map.png", image, full_description());
-    const auto input = OIIO::ImageInput::open((folder.path() / "map.png").string());
-    REQUIRE(input);
-    CHECK(input->spec().format == OIIO::TypeDesc::UINT16);
+    PictureFile picture(folder.path() / "map.png", "picture", StraightColours::as_they_stand);
+    CHECK(picture.header().type == PixelType::bits16);
     std::vector<std::uint16_t> codes(image.pixels.size() * 4);
-    REQUIRE(input->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT16, codes.data()));
+    picture.read(4, PixelType::bits16, codes.data());
     const CoordinateCodec codec(box);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         const bool covered = image.pixels[i].w != 0.0f;
@@ -232,7 +230,7 @@ TEST_CASE("maps made elsewhere are read with the box and the scale that are give
 
     SECTION("codes with alpha: what is partly covered mixes surfaces and is left out") {
         const auto file =
-            foreign<std::uint16_t>(folder.path() / "a.png", OIIO::TypeDesc::UINT16, {"R", "G", "B", "A"},
+            foreign<std::uint16_t>(folder.path() / "a.png", PixelType::bits16, {"R", "G", "B", "A"},
                                    {0, 0, 0, full, full, full, full, full, 9, 9, 9, 30000, 0, 0, 0, 0});
         known.scale = 65535;
         const CoordinateImageFile map = read_coordinate_image(file, known);
@@ -242,23 +240,23 @@ TEST_CASE("maps made elsewhere are read with the box and the scale that are give
         CHECK(map.mixed_px == 1);
     }
     SECTION("codes without alpha: black is off the object") {
-        const auto file = foreign<std::uint16_t>(folder.path() / "b.png", OIIO::TypeDesc::UINT16,
-                                                 {"R", "G", "B"}, {0, 0, 0, 32768, 32768, 32768});
+        const auto file = foreign<std::uint16_t>(folder.path() / "b.png", PixelType::bits16, {"R", "G", "B"},
+                                                 {0, 0, 0, 32768, 32768, 32768});
         known.scale = 65536;
         const CoordinateImageFile map = read_coordinate_image(file, known);
         CHECK_FALSE(map.image.covers(0, 0));
         CHECK(map.image.at(1, 0) == glm::vec4(0, 0, 0, 1));
     }
     SECTION("shares of the box as floats") {
-        const auto file = foreign<float>(folder.path() / "c.exr", OIIO::TypeDesc::FLOAT, {"R", "G", "B", "A"},
+        const auto file = foreign<float>(folder.path() / "c.exr", PixelType::float32, {"R", "G", "B", "A"},
                                          {0.25f, 0.5f, 1.0f, 1.0f, 0, 0, 0, 0});
         const CoordinateImageFile map = read_coordinate_image(file, known);
         CHECK(map.image.at(0, 0) == glm::vec4(-0.5f, 0.0f, 3.0f, 1.0f));
         CHECK_FALSE(map.image.covers(1, 0));
     }
     SECTION("the sidecar says what the protocol does not") {
-        const auto file = foreign<std::uint16_t>(folder.path() / "d.png", OIIO::TypeDesc::UINT16,
-                                                 {"R", "G", "B"}, {full, 0, full});
+        const auto file = foreign<std::uint16_t>(folder.path() / "d.png", PixelType::bits16, {"R", "G", "B"},
+                                                 {full, 0, full});
         std::ofstream(folder.path() / "d.json")
             << R"({"scale": 65535, "bounds": {"min": [0, 0, 0], "max": [10, 10, 10]}, "by": "somebody"})";
         CHECK(read_coordinate_image(file).image.at(0, 0) == glm::vec4(10, 0, 10, 1));
@@ -272,7 +270,7 @@ TEST_CASE("maps made elsewhere are read with the box and the scale that are give
 TEST_CASE("a map without its box or scale is refused with the remedy", "[unit]") {
     const test::TemporaryFolder folder;
     const auto png =
-        foreign<std::uint16_t>(folder.path() / "a.png", OIIO::TypeDesc::UINT16, {"R", "G", "B"}, {1, 2, 3});
+        foreign<std::uint16_t>(folder.path() / "a.png", PixelType::bits16, {"R", "G", "B"}, {1, 2, 3});
     CHECK_THROWS_WITH(read_coordinate_image(png), Catch::Contains("a.png") && Catch::Contains("a.json") &&
                                                       Catch::Contains("lut_scale") &&
                                                       Catch::Contains("bounding box"));
@@ -283,7 +281,7 @@ TEST_CASE("a map without its box or scale is refused with the remedy", "[unit]")
     odd.scale = 256;
     CHECK_THROWS_WITH(read_coordinate_image(png, odd), Catch::Contains("a.png") && Catch::Contains("256"));
     const auto exr =
-        foreign<float>(folder.path() / "b.exr", OIIO::TypeDesc::FLOAT, {"R", "G", "B"}, {0.1f, 0.2f, 0.3f});
+        foreign<float>(folder.path() / "b.exr", PixelType::float32, {"R", "G", "B"}, {0.1f, 0.2f, 0.3f});
     CHECK_THROWS_WITH(read_coordinate_image(exr), Catch::Contains("bounding box"));
     CHECK_NOTHROW(read_coordinate_image(exr, no_scale));
 }
@@ -304,19 +302,19 @@ TEST_CASE("pictures that are no maps are refused by name and reason", "[unit]") 
         return std::string("it was read");
     };
     using Catch::Contains;
-    CHECK_THAT(refusal(foreign<std::uint8_t>(folder.path() / "8.png", OIIO::TypeDesc::UINT8, {"R", "G", "B"},
-                                             {1, 2, 3})),
-               Contains("16 bits"));
-    CHECK_THAT(refusal(foreign<std::uint16_t>(folder.path() / "half.exr", OIIO::TypeDesc::HALF,
-                                              {"X", "Y", "Z"}, {1, 2, 3})),
+    CHECK_THAT(
+        refusal(foreign<std::uint8_t>(folder.path() / "8.png", PixelType::bits8, {"R", "G", "B"}, {1, 2, 3})),
+        Contains("16 bits"));
+    CHECK_THAT(refusal(foreign<std::uint16_t>(folder.path() / "half.exr", PixelType::float16, {"X", "Y", "Z"},
+                                              {1, 2, 3})),
                Contains("32-bit floats") && Contains("half"));
-    CHECK_THAT(refusal(foreign<float>(folder.path() / "nan.exr", OIIO::TypeDesc::FLOAT, {"X", "Y", "Z"},
+    CHECK_THAT(refusal(foreign<float>(folder.path() / "nan.exr", PixelType::float32, {"X", "Y", "Z"},
                                       {1, 2, 3, 4, NAN, 6})),
                Contains("pixel (1, 0)") && Contains("finite"));
-    CHECK_THAT(refusal(foreign<float>(folder.path() / "share.exr", OIIO::TypeDesc::FLOAT, {"R", "G", "B"},
+    CHECK_THAT(refusal(foreign<float>(folder.path() / "share.exr", PixelType::float32, {"R", "G", "B"},
                                       {0.5f, 1.5f, 0.5f})),
                Contains("0 … 1"));
-    CHECK_THAT(refusal(foreign<std::uint16_t>(folder.path() / "empty.png", OIIO::TypeDesc::UINT16,
+    CHECK_THAT(refusal(foreign<std::uint16_t>(folder.path() / "empty.png", PixelType::bits16,
                                               {"R", "G", "B", "A"}, {1, 2, 3, 0})),
                Contains("no pixel is covered"));
     std::ofstream(folder.path() / "noise.png") << "this is no picture";

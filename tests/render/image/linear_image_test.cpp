@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include <OpenImageIO/imageio.h>
 #include <catch2/catch.hpp>
 
+#include "experiment/pictures/picture_file.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace overt;
@@ -14,13 +14,8 @@ TEST_CASE("straight colours are decoded before they are multiplied by alpha", "[
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "straight.png";
     const std::uint16_t values[] = {40000, 20000, 60000, 30000, 40000, 20000, 60000, 0};
-    OIIO::ImageSpec spec(2, 1, 4, OIIO::TypeDesc::UINT16);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    const auto output = OIIO::ImageOutput::create(file.string());
-    REQUIRE(output);
-    REQUIRE(output->open(file.string(), spec));
-    REQUIRE(output->write_image(OIIO::TypeDesc::UINT16, values));
-    REQUIRE(output->close());
+    write_picture(file, {{2, 1}, {"R", "G", "B", "A"}, PixelType::bits16, 3, {{"oiio:UnassociatedAlpha", 1}}},
+                  PixelType::bits16, values);
     CHECK(has_alpha(file));
 
     const float alpha = 30000.0f / 65535.0f;

@@ -1,4 +1,4 @@
-#include "experiment/maps/picture_file.h"
+#include "experiment/pictures/picture_file.h"
 
 #include <fstream>
 
@@ -45,7 +45,7 @@ std::string png_claiming(std::uint32_t width, std::uint32_t height) {
 
 std::string refusal(const std::filesystem::path& file) {
     try {
-        open_picture(file, "map");
+        const PictureFile picture(file, "map");
     } catch (const InputError& error) {
         return error.what();
     }
