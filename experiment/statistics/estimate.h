@@ -1,0 +1,30 @@
+/// A number that a study estimates, how far it can be trusted, and why where there is none.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace overt {
+
+/// From low to high, both of them in it.
+struct Interval {
+    double low = 0.0, high = 0.0;
+    bool contains(double value) const { return value >= low && value <= high; }
+    friend bool operator==(const Interval&, const Interval&) = default;
+};
+
+/// Never holds what is no finite number. Without a value, `absent` says why in a few words that fit into a
+/// table's note ("no fixation was counted", "one observer only"); an interval can be absent by itself.
+struct Estimate {
+    std::optional<double> value;
+    std::optional<Interval> interval; ///< of confidence, at the level that the study's parameters name
+    std::string absent;
+
+    static Estimate of(double number, std::optional<Interval> interval = {}) {
+        return {number, interval, {}};
+    }
+    static Estimate none(std::string reason) { return {{}, {}, std::move(reason)}; }
+};
+
+} // namespace overt

@@ -1,0 +1,317 @@
+/// All that a study of one observer or fifty gives: what tables, figures and the report show. Plain data;
+/// analyze_study() fills it in, and nothing reckons with it afterwards.
+///
+/// Lengths on surfaces are in apparent millimetres: the size that the sculpture's picture has on the display,
+/// measured in the depth of the axis about which it turns (StudySculpture::mm_per_unit). Angles are of the
+/// observer's eye.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "experiment/gaze_event.h"
+#include "experiment/scene/mesh.h"
+#include "experiment/scene/viewing.h"
+#include "experiment/screen_geometry.h"
+#include "experiment/statistics/estimate.h"
+
+namespace overt {
+
+/// A column of the table of trials, or a field of the observer's form, and what stands in it.
+struct StudyKey {
+    std::string column;
+    std::string value; ///< as in the exported tables; n/a where nothing stands
+    friend bool operator==(const StudyKey&, const StudyKey&) = default;
+};
+
+/// What was set, for the methods' text: every parameter that decides a number.
+struct StudyParameter {
+    std::string name;    ///< as the option has it, "sigma"
+    std::string value;   ///< "1"
+    std::string unit;    ///< "deg"; empty: none
+    std::string meaning; ///< a whole sentence
+};
+
+/// One session as it was read.
+struct StudySession {
+    std::string folder;   ///< its name, without folders above
+    std::string observer; ///< label
+    int number = 1;       ///< of this observer's sessions
+    std::string protocol; ///< title
+    std::string tracker;  ///< its name, or the file that was imported
+    bool is_simulated = false;
+    std::vector<StudyKey> form; ///< what the observer filled in
+    std::string events;         ///< a sentence: whose fixations, saccades and blinks these are
+    bool is_complete = false;
+    int trials = 0; ///< that count, before exclusions of this analysis
+};
+
+/// A sculpture with all sessions that showed the same mesh.
+struct StudySculpture {
+    std::string id, title;
+    /// Null where the sessions have no mesh, such as imported ones: no maps then, and `remark` says why.
+    std::shared_ptr<const Mesh> mesh;
+    std::vector<std::string> part_names;
+    std::optional<PartIndex> head; ///< the part "head"; nothing if there is none
+    Camera camera;
+    glm::dvec3 axis_point{0.0}; ///< in the mesh's unit; the sculpture turns about the vertical through it
+    ScreenGeometry screen;
+    std::optional<double> mm_per_unit; ///< apparent mm of the mesh's unit; nothing without a known camera
+    std::optional<double> mm_per_deg;  ///< on the surface in the axis's depth: viewing distance * tan 1 deg
+    /// By vertex of the mesh: how long one presentation shows it, in seconds; 0: never visible.
+    std::vector<float> seconds_visible;
+    /// By vertex: density that gaze would have that is spread evenly over the sculpture's picture all the
+    /// time, per mm^2; its integral over the surface is 1.
+    std::vector<float> exposure_density;
+    std::string remark;
+};
+
+/// Why a fixation, or a trial, is not counted.
+enum class NotCounted : std::uint8_t {
+    counted,            ///< it is
+    began_before_onset, ///< under way when the presentation began
+    too_short,          ///< shorter than the least duration of the options
+    no_frame,           ///< no frame was lit during it
+    not_on_surface,     ///< too small a share of its samples met the sculpture
+    no_surface,         ///< the session has no maps of this sculpture
+    trial_excluded,     ///< its trial is
+};
+
+/// A fixation, re-projected sample by sample through the frames lit meanwhile.
+struct StudyFixation {
+    int trial = 0;           ///< index into StudyResults::trials
+    double onset_s = 0.0;    ///< since the presentation's onset
+    double duration_s = 0.0; ///< as its events have it, cut at the presentation's end
+    ScreenPoint place;       ///< mean of its samples, on the screen
+    NotCounted why = NotCounted::counted;
+    int samples = 0;                       ///< with gaze, while a frame was lit
+    double on_surface = 0.0;               ///< share of these that met the sculpture
+    int first_frame = -1, last_frame = -1; ///< of the animation; -1: none
+    double mid_angle_deg = 0.0;            ///< of the sculpture, halfway through
+    // Where it met the surface; meaningful if triangle is set.
+    std::optional<std::uint32_t> triangle; ///< of the point: nothing if no sample met a mesh
+    glm::dvec3 barycentric{0.0};
+    glm::dvec3 position{0.0}; ///< object coordinates, in the mesh's unit: of the sample nearest to all others
+    std::optional<PartIndex> part;      ///< the part with most samples
+    double sigma_mm = 0.0;              ///< of the map's kernel at this depth
+    std::optional<double> spread_mm;    ///< root mean square distance of its samples from the point
+    std::optional<double> spread_deg;   ///< the same, seen by the observer
+    std::optional<double> cone_at_edge; ///< share of the tracker's gaze cone on another sheet, or beside
+    bool counted() const { return why == NotCounted::counted; }
+};
+
+/// One gaze sample of a trace.
+struct StudyTracePoint {
+    double time_s = 0.0;             ///< since the presentation's onset
+    std::optional<ScreenPoint> gaze; ///< nothing: the eye was lost
+    float pupil = 0.0f;              ///< the tracker's own unit
+};
+
+struct StudyTraceEvent {
+    GazeEvent::Kind kind = GazeEvent::Kind::fixation; ///< fixation, saccade or blink
+    double onset_s = 0.0, duration_s = 0.0;
+};
+
+/// Gaze of a trial, thinned to at most 250 samples a second.
+struct StudyTrace {
+    int trial = 0; ///< index into StudyResults::trials
+    std::vector<StudyTracePoint> points;
+    std::vector<StudyTraceEvent> events;
+};
+
+/// When the sculpture came to stand at another angle.
+struct StudyTurn {
+    double time_s = 0.0; ///< since the presentation's onset
+    double angle_deg = 0.0;
+    int frame = 0;
+};
+
+/// Data quality, of a trial or altogether, as the field's minimum reporting guideline asks (Dunn et al.
+/// 2023).
+struct StudyQuality {
+    std::optional<double> accuracy_deg;       ///< mean offset of the validation that was valid then
+    std::optional<double> worst_accuracy_deg; ///< its largest
+    std::optional<double> drift_deg;          ///< gaze error at the drift check
+    std::optional<double> rms_s2s_deg;        ///< of successive samples within fixations, median over these
+    std::optional<double> sd_deg;             ///< standard deviation within fixations, median over these
+    std::optional<double> rate_hz;            ///< from the samples' own time stamps
+    double samples = 0.0, lost = 0.0;         ///< numbers of samples; lost ones outside of blinks
+    double lost_in_blinks = 0.0;
+    int blinks = 0;
+    int refreshes = 0, missed_refreshes = 0;
+    double off_plan = 0.0; ///< samples that the planned times would have put on another frame
+    double lost_share() const { return samples > 0.0 ? lost / samples : 0.0; }
+    double blink_share() const { return samples > 0.0 ? lost_in_blinks / samples : 0.0; }
+};
+
+/// A trial that came to its end.
+struct StudyTrial {
+    int session = 0;            ///< index into StudyResults::sessions
+    int sculpture = 0;          ///< index into StudyResults::sculptures
+    std::string label;          ///< "observer 07, trial 3"
+    int number = 0;             ///< in the observer's order, from 1
+    std::vector<StudyKey> keys; ///< all columns of the table of trials, and the form's fields
+    double presentation_s = 0.0;
+    bool excluded = false;
+    std::string why_excluded;                      ///< whole sentence
+    std::size_t first_fixation = 0, fixations = 0; ///< range of StudyResults::fixations
+    std::vector<StudyTurn> turns;
+    StudyQuality quality;
+    /// The value in a column; n/a if there is no such column.
+    const std::string& key(const std::string& column) const;
+};
+
+/// How a map weighs fixations.
+enum class MapWeighting : std::uint8_t { duration, count };
+
+/// Trials that have the same values in the columns of `--by`.
+struct StudyGroup {
+    std::vector<StudyKey> keys; ///< in the order of the list
+    std::vector<int> trials;    ///< indices, without the excluded
+    int observers = 0;
+    int fixations = 0; ///< counted ones
+};
+
+/// The map of one group on one sculpture.
+struct StudyMap {
+    int group = 0;
+    int sculpture = 0;
+    MapWeighting weighting = MapWeighting::duration;
+    /// By vertex, the mean over trials: by duration in ms of fixation per mm^2, by count in fixations per
+    /// mm^2. Empty if there is none, and `absent` says why.
+    std::vector<float> density;
+    std::string absent;
+    double total = 0.0; ///< integral over the surface: ms, or fixations, of a trial
+    double peak = 0.0;  ///< highest density
+    double mean = 0.0;  ///< total divided by the surface's area
+    double area_mm2 = 0.0;
+    int observers = 0, trials = 0, fixations = 0;
+    double least_sigma_mm = 0.0, most_sigma_mm = 0.0; ///< of the kernel, over the fixations
+    std::optional<double>
+        euclidean_leak; ///< share that a Euclidean kernel puts on other parts of the surface
+    // Error budget: standard deviations on the surface.
+    std::optional<double> accuracy_mm, lut_mm, timing_mm, together_mm;
+    std::optional<double> at_edge; ///< share of fixations with a depth edge in their gaze cone
+};
+
+/// Figure 4: share of fixations on the head, of all that are counted.
+struct HeadFractionRow {
+    std::vector<StudyKey> keys;     ///< a group's, or a single one of these: all trials with it; empty: all
+    Estimate by_count, by_duration; ///< means over observers of their own fractions, with intervals over them
+    std::optional<double> pooled;   ///< all fixations together, as the paper has it
+    std::optional<Interval> pooled_interval; ///< Wilson's, as if fixations were independent
+    int observers = 0, trials = 0, fixations = 0;
+};
+
+/// Figure 5: the distribution of a group's fixations on one sculpture.
+struct DistributionRow {
+    int group = 0, sculpture = 0;
+    Estimate wss_mm2, wss_deg2;                                       ///< sum of the variances, 1 / N
+    std::array<std::optional<double>, 3> variance_mm2, variance_deg2; ///< of x, y, z
+    std::optional<double> map_peak, map_mean; ///< of the map by duration, ms / mm^2 and trial
+    int observers = 0, fixations = 0;
+};
+
+/// A similarity of two maps beside what to compare it with.
+struct SimilarityEstimate {
+    Estimate value;
+    Estimate ceiling; ///< of halves of the fixations of the same condition: what equal distributions give
+    Estimate null;    ///< with the conditions' labels permuted within observers
+    std::optional<double> p; ///< of the permutation: how often chance gives as small a similarity
+};
+
+/// Table 1: two levels of a factor compared within observers, then averaged.
+struct PairRow {
+    std::vector<StudyKey> keys; ///< what is the same in both: task; empty: anything
+    std::string column, a, b;   ///< "material", "rough", "smooth"
+    Estimate wss_difference_mm2, wss_difference_deg2;
+    std::optional<double> wss_p, wss_p_holm; ///< sign flips over observers; Holm over the rows
+    SimilarityEstimate cc, sim_mit, sim_pysaliency;
+    int observers = 0, comparisons = 0; ///< of an observer with one sculpture
+    std::string absent;                 ///< why there is nothing
+};
+
+/// Where two levels differ on one sculpture.
+struct DifferenceMap {
+    std::vector<StudyKey> keys;
+    int sculpture = 0;
+    std::string column, a, b;
+    std::vector<float> difference; ///< by vertex: mean over observers of a less b, shares per mm^2
+    std::vector<float> t;          ///< by vertex: paired t over observers
+    struct Cluster {
+        std::vector<std::uint32_t> vertices;
+        double mass = 0.0; ///< sum of t * area, mm^2
+        double area_mm2 = 0.0;
+        double p = 1.0; ///< corrected over the surface
+    };
+    std::vector<Cluster> clusters; ///< largest first
+    double threshold_t = 0.0;
+    int observers = 0;
+    std::string absent;
+};
+
+/// How well a group's map is determined, and what it tells beyond where the sculpture could be seen.
+struct MapMetricsRow {
+    int group = 0, sculpture = 0;
+    Estimate split_half_cc;    ///< of halves of the observers, mean over random halves
+    Estimate reliability;      ///< the same for all observers together, by Spearman and Brown
+    Estimate kl_from_exposure; ///< bits that the map has beyond the exposure
+    Estimate nss, auc_judd, auc_borji, information_gain; ///< of each observer's fixations by the others' map
+    Estimate exposure_nss, exposure_auc;                 ///< the same by the exposure alone
+};
+
+/// Share of fixations on the head in a stretch of the presentation.
+struct TimeCourseRow {
+    StudyKey key; ///< one level of the first column of `--by`
+    double from_s = 0.0, to_s = 0.0;
+    Estimate head_fraction; ///< by duration within the stretch, over observers
+    int observers = 0;
+};
+
+struct StudyGlance {
+    std::string title; ///< of the protocol, or of several
+    int observers = 0, sessions = 0, trials = 0, excluded_trials = 0;
+    std::int64_t samples = 0;
+    int fixations = 0; ///< all
+    int counted = 0;
+    std::vector<std::pair<NotCounted, int>> not_counted; ///< reasons that occur, and how often
+    double counted_s = 0.0;                              ///< of fixation
+    bool any_simulated = false;
+};
+
+struct StudyResults {
+    StudyGlance glance;
+    std::vector<StudyParameter> parameters;
+    /// What a reader must know, whole sentences: sessions of different protocols, missing maps, one observer.
+    std::vector<std::string> remarks;
+    std::vector<std::string> by; ///< columns that make the groups
+    double confidence = 0.95;
+    std::vector<StudySession> sessions;
+    std::vector<StudySculpture> sculptures;
+    std::vector<StudyTrial> trials;
+    std::vector<StudyFixation> fixations; ///< by trial, in the order of their onsets
+    std::vector<StudyGroup> groups;
+    std::vector<StudyMap> maps; ///< by group, sculpture and weighting
+    std::vector<HeadFractionRow> head_fractions;
+    std::vector<DistributionRow> distributions;
+    std::vector<PairRow> pairs;
+    std::vector<DifferenceMap> differences;
+    std::vector<MapMetricsRow> metrics;
+    std::vector<TimeCourseRow> time_course;
+    std::vector<StudyQuality> session_quality; ///< by session
+    std::vector<StudyTrace> traces;
+};
+
+/// A few words for tables and sentences.
+std::string_view name_of(NotCounted why);
+std::string_view name_of(MapWeighting weighting);
+
+} // namespace overt
