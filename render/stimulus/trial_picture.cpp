@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "experiment/analysis/voxel_density.h"
 #include "experiment/base/parallel.h"
+#include "experiment/surface/voxel_density.h"
 #include "render/image/text_layout.h"
 
 namespace overt {

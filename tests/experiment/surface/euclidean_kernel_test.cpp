@@ -1,0 +1,37 @@
+#include <catch2/catch.hpp>
+
+#include "experiment/surface/euclidean_kernel.h"
+#include "tests/experiment/surface/flat_and_round.h"
+#include "tests/support/figures.h"
+
+using namespace overt;
+using namespace overt::test;
+
+TEST_CASE("on a plane the kernel in space is the Gaussian, with nothing leaked", "[unit]") {
+    const Mesh mesh = flat_square(40.0, 80);
+    const SurfaceGeometry geometry(mesh);
+    const EuclideanKernel kernel(geometry);
+    const EuclideanKernel::Map map =
+        kernel.map(std::vector{SurfaceWeight{place_of_vertex(mesh, 40 * 81 + 40), 2.0, 5.0}});
+    CHECK(mass_of(map.density, geometry) == Approx(2.0));
+    CHECK(map.density[40 * 81 + 40] == Approx(2.0 / (2.0 * std::numbers::pi * 25.0)).epsilon(0.001));
+    CHECK(map.leaked_share == Approx(EuclideanKernel::share_on_a_plane).margin(0.002));
+}
+
+TEST_CASE("half of the kernel leaks to a second sheet that is near", "[unit]") {
+    Mesh mesh = flat_square(40.0, 60);
+    add_part(mesh, flat_square(40.0, 60, 0.01), "lid");
+    const SurfaceGeometry geometry(mesh);
+    const EuclideanKernel::Map map =
+        EuclideanKernel(geometry).map(std::vector{SurfaceWeight{{3600, {0.3, 0.3, 0.4}}, 1.0, 6.0}});
+    CHECK(map.leaked_share == Approx(0.5 + 0.5 * EuclideanKernel::share_on_a_plane).margin(0.003));
+    CHECK(mass_of(map.density, geometry) == Approx(1.0));
+}
+
+TEST_CASE("where no vertex is near, the weight goes to the corners of its triangle", "[unit]") {
+    const Mesh mesh = flat_square(40.0, 2);
+    const SurfaceGeometry geometry(mesh);
+    const EuclideanKernel::Map map =
+        EuclideanKernel(geometry).map(std::vector{SurfaceWeight{{3, {0.2, 0.3, 0.5}}, 1.0, 0.5}});
+    CHECK(mass_of(map.density, geometry) == Approx(1.0));
+}
