@@ -6,7 +6,7 @@
 
 namespace overt {
 
-FlipHistory::FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_out, PageCycle plan)
+FlipHistory::FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_out, const PageCycle& plan)
     : scan_out_(scan_out), refresh_ns_(1e9 / scan_out.refresh_hz) {
     OVERT_EXPECTS(scan_out.refresh_hz > 0.0 && scan_out.screen_rows > 0.0);
     std::vector<FlipRecord> ordered(flips.begin(), flips.end());

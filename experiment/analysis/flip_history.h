@@ -42,7 +42,7 @@ struct Lighting {
 class FlipHistory {
   public:
     /// The ledger's rows of one trial, in any order, and the page cycle that the presentation was to follow.
-    FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_out, PageCycle plan);
+    FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_out, const PageCycle& plan);
 
     /// Nothing before the presentation's onset and after its end.
     std::optional<LitFrame> frame_shown_at(SessionTime time, double row_px) const;

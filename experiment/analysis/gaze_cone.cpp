@@ -66,7 +66,7 @@ GazeCone::Shares GazeCone::shares(const SurfaceLookup& lookup, PoseIndex pose, S
             shares.of_object += 1.0;
         }
     });
-    const double directions = static_cast<double>(directions_.size());
+    const auto directions = static_cast<double>(directions_.size());
     shares.of_object /= directions;
     for (double& share : shares.of_part)
         share /= directions;

@@ -27,9 +27,9 @@ std::vector<TableCell> cells_of(std::string_view line, int number) {
     for (std::size_t begin = 0; begin <= line.size();) {
         const std::size_t end = std::min(line.find(',', begin), line.size());
         std::size_t first = begin, last = end;
-        while (first < last && blanks.find(line[first]) != blanks.npos)
+        while (first < last && blanks.find(line[first]) != std::string_view::npos)
             ++first;
-        while (last > first && blanks.find(line[last - 1]) != blanks.npos)
+        while (last > first && blanks.find(line[last - 1]) != std::string_view::npos)
             --last;
         cells.push_back(
             {line.substr(first, last - first), {number, characters_in(line.substr(0, first)) + 1}});

@@ -16,7 +16,8 @@ std::vector<glm::dvec3> plan_patches(const PatchPlanSettings& settings) {
         }
         // A level that is on the ramp, too, with the others lit: do they leave its light as it is?
         glm::dvec3 step(1.0);
-        step[channel] = static_cast<double>(settings.levels / 2) / (settings.levels - 1);
+        const int middle = settings.levels / 2;
+        step[channel] = static_cast<double>(middle) / (settings.levels - 1);
         patches.push_back(step);
     }
     RandomStream random(settings.seed, "patches of a characterisation");
@@ -24,9 +25,11 @@ std::vector<glm::dvec3> plan_patches(const PatchPlanSettings& settings) {
         // Every third a grey.
         const double grey = random.uniform(0.15, 1.0);
         if (i % 3 == 0)
-            patches.push_back(glm::dvec3(grey));
-        else
-            patches.push_back({random.uniform(0.1, 1.0), random.uniform(0.1, 1.0), random.uniform(0.1, 1.0)});
+            patches.emplace_back(grey);
+        else {
+            const double red = random.uniform(0.1, 1.0), green = random.uniform(0.1, 1.0);
+            patches.emplace_back(red, green, random.uniform(0.1, 1.0));
+        }
     }
     std::vector<glm::dvec3> all;
     for (int repeat = 0; repeat < settings.repeats; ++repeat) {

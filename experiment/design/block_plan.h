@@ -35,7 +35,7 @@ struct BlockScopeOf {
 
 /// The blocks of a group (-1: without groups), as listed, with what they show to it. Blocks that the group
 /// leaves without trials are among them.
-std::vector<BlockScopeOf> blocks_of_group(const Protocol& protocol, int group);
+std::vector<BlockScopeOf> blocks_of_group(const Protocol& protocol, int number);
 
 /// Whether a task is asked once per sculpture in a block, the material going round over the observers.
 bool rotates_materials(const Protocol& protocol, int block, int task);

@@ -34,14 +34,14 @@ class OrderHistory {
 
     /// All that any limit still knows of a level, as a number: two levels with the same mark are alike to
     /// what may follow. 0: nothing.
-    int mark(int factor, int level) const;
+    int mark(int index, int level) const;
 
     /// Steps until the level may come again under the limits of a part: 0 if it may come next. Runs count as
     /// a wait of one step, which anything else ends.
-    int wait(int factor, int level, int part) const;
+    int wait(int index, int level, int part) const;
 
     /// How many more of the level may follow at once: the limit less the present run.
-    int room_in_run(int factor, int level, int longest) const;
+    int room_in_run(int index, int level, int longest) const;
 
   private:
     /// Steps since a level came, 1 for the last; 0: too long ago to matter.

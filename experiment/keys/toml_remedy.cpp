@@ -83,7 +83,7 @@ std::size_t end_of_text(std::string_view text) {
         else if (text[i] == text[0])
             return i + 1;
     }
-    return text.npos;
+    return std::string_view::npos;
 }
 
 /// What is still open where a line begins.
@@ -194,7 +194,7 @@ std::string remedy_of_value(std::string_view value, bool is_in_list) {
     if (begins_with_any(value, {"“", "”", "„", "‘", "’", "«", "»", "‚"}))
         return "texts stand between straight quotation marks: \"…\"";
     if (begins_with_any(value, {"\"", "'"}))
-        return std::string(end_of_text(value) == value.npos ? not_closed : "");
+        return std::string(end_of_text(value) == std::string_view::npos ? not_closed : "");
     const std::size_t end = std::min(value.find_first_of(" \t\r#,]}"), value.size());
     if (end == 0)
         return "the value is missing";
@@ -289,8 +289,8 @@ std::string toml_remedy(std::string_view text, Place place) {
     const std::string_view value = without_blanks_before(rest.substr(1));
     const bool is_list = begins_with_any(value, {"[", "{"});
     const std::size_t begin = line.size() - value.size();
-    const std::string remedy = is_list ? remedy_of_value(item_at(value, at > begin ? at - begin : 0), true)
-                                       : remedy_of_value(value, false);
+    std::string remedy = is_list ? remedy_of_value(item_at(value, at > begin ? at - begin : 0), true)
+                                 : remedy_of_value(value, false);
     if (remedy.empty() && is_set_above(key, above))
         return "a key is set once in a section: leave one of the two lines out";
     return remedy;

@@ -111,7 +111,7 @@ Place place_of_broken_promise(std::string_view text) {
             const std::size_t name = std::min(line.find_first_not_of("[ \t", bracket), line.size());
             const bool has_name =
                 name < line.size() && (std::isalnum(static_cast<unsigned char>(line[name])) ||
-                                       std::string_view("_-\"'").find(line[name]) != line.npos);
+                                       std::string_view("_-\"'").find(line[name]) != std::string_view::npos);
             if (!has_name)
                 return {place.line, static_cast<int>(name) + 1};
         }

@@ -81,7 +81,7 @@ bool CoordinateImageLookup::belong_together(const Patches& patches, glm::ivec2 p
     const glm::vec3 *one = place_of(patches, pixel), *other = place_of(patches, pixel + step);
     if (!one || !other)
         return false;
-    const double apart = double{glm::distance(*one, *other)};
+    const auto apart = double{glm::distance(*one, *other)};
     if (apart <= of_usual_step * patches.usual_step)
         return true;
     const glm::vec3 *before = place_of(patches, pixel - step), *behind = place_of(patches, pixel + 2 * step);

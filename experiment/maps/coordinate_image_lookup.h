@@ -28,7 +28,7 @@ class CoordinateImageLookup final : public SurfaceLookup {
     /// `maps` by PoseIndex. Throws InputError if one has another size than `image_px`.
     CoordinateImageLookup(std::vector<CoordinateImageFile> maps, glm::ivec2 image_px);
 
-    std::optional<SurfacePoint> surface_at(PoseIndex pose, glm::dvec2 image_point_px) const override;
+    std::optional<SurfacePoint> surface_at(PoseIndex pose, glm::dvec2 point_px) const override;
     void look(std::span<const ImagePlace> places, std::span<Sight* const> sights) const override;
 
     /// By the steps of the map, as above.

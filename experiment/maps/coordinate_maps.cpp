@@ -36,7 +36,7 @@ void check_maps(const Mesh& mesh, glm::ivec2 image_px, const std::vector<Triangl
 
 } // namespace
 
-CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene, std::vector<Degrees> angles,
+CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene, const std::vector<Degrees>& angles,
                                std::vector<TriangleMap> maps, Use use)
     : mesh_(&mesh), image_px_(scene.view.image_px), walk_(mesh), caster_(mesh) {
     OVERT_EXPECTS(angles.size() == maps.size());

@@ -31,12 +31,12 @@ class CoordinateMaps final : public SurfaceLookup {
 
     /// `mesh` must outlive this; `angles` and `maps` by PoseIndex, equally long. Throws InputError if a map
     /// has another size than the view or names a triangle that the mesh does not have.
-    CoordinateMaps(const Mesh& mesh, const SceneView& scene, std::vector<Degrees> angles,
+    CoordinateMaps(const Mesh& mesh, const SceneView& scene, const std::vector<Degrees>& angles,
                    std::vector<TriangleMap> maps, Use use = Use::many_lookups);
 
-    std::optional<SurfacePoint> surface_at(PoseIndex pose, glm::dvec2 image_point_px) const override;
+    std::optional<SurfacePoint> surface_at(PoseIndex pose, glm::dvec2 point_px) const override;
     void look(std::span<const ImagePlace> places, std::span<Sight* const> sights) const override;
-    std::optional<PartIndex> part_near(PoseIndex pose, glm::dvec2 image_point_px) const override;
+    std::optional<PartIndex> part_near(PoseIndex pose, glm::dvec2 point_px) const override;
     /// By the mesh: walking along the surface from the one pixel's centre leads to the other's.
     bool goes_on(PoseIndex pose, glm::ivec2 pixel, glm::ivec2 neighbour) const override;
 

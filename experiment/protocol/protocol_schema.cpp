@@ -59,8 +59,9 @@ std::string without_links(std::string_view text) {
     std::string plain;
     while (true) {
         const std::size_t middle = text.find("]("), begin = text.substr(0, middle).rfind('[');
-        const std::size_t end = middle == text.npos ? text.npos : text.find(')', middle);
-        if (begin == text.npos || end == text.npos)
+        const std::size_t end =
+            middle == std::string_view::npos ? std::string_view::npos : text.find(')', middle);
+        if (begin == std::string_view::npos || end == std::string_view::npos)
             return plain + std::string(text);
         plain += std::string(text.substr(0, begin)) + "docs/" +
                  std::string(text.substr(middle + 2, end - middle - 2));

@@ -50,7 +50,7 @@ MeshSource::MeshSource(std::filesystem::path path) : path_(std::move(path)) {
     if (!S_ISREG(status.st_mode))
         fail("this is not a regular file; a mesh is read from one.");
 
-    const std::size_t expected = static_cast<std::size_t>(status.st_size);
+    const auto expected = static_cast<std::size_t>(status.st_size);
     bytes_ = std::make_unique_for_overwrite<char[]>(expected);
     while (size_ < expected) {
         const ::ssize_t got = ::read(file.number(), bytes_.get() + size_, expected - size_);

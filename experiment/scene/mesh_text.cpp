@@ -128,7 +128,7 @@ std::optional<float> MeshText::number_in(std::string_view word) {
         return std::nullopt;
     if (error != std::errc::result_out_of_range)
         return static_cast<float>(*wide);
-    const bool tiny = word.find("e-") != word.npos || word.find("E-") != word.npos;
+    const bool tiny = word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
     return tiny ? 0.0f : std::numeric_limits<float>::infinity();
 }
 

@@ -29,7 +29,7 @@ struct MetalColumns {
 class MetalFile {
   public:
     /// `text` outlives it.
-    MetalFile(const std::filesystem::path& file, std::string_view text) : file_(file), lines_(text) {}
+    MetalFile(std::filesystem::path file, std::string_view text) : file_(std::move(file)), lines_(text) {}
 
     ComplexIndex read() {
         while (lines_.next())

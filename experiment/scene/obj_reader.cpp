@@ -77,7 +77,7 @@ class ObjReader {
         const std::optional<std::int64_t> index = MeshText::integer_in(corner.substr(0, corner.find('/')));
         if (!index)
             text_.fail(fmt::format("{} is no corner of a face.", MeshText::quoted(corner)));
-        const std::int64_t count = static_cast<std::int64_t>(mesh_.positions.size());
+        const auto count = static_cast<std::int64_t>(mesh_.positions.size());
         // Vertices count from 1; negative numbers count back from the last vertex so far.
         const std::int64_t from_zero = *index < 0 ? count + *index : *index - 1;
         if (*index == 0 || from_zero < 0 || *index > static_cast<std::int64_t>(max_mesh_vertices)) {

@@ -155,13 +155,13 @@ const char* PlyBinary::take(std::uint64_t size) {
 float PlyBinary::coordinate(PlyType type, char axis) {
     double value = 0.0;
     if (type == PlyType::float32) {
-        const float stored = stored_value<float>(take(4), order_);
+        const auto stored = stored_value<float>(take(4), order_);
         if (std::isfinite(stored))
             return stored;
         value = static_cast<double>(stored);
     } else if (type == PlyType::float64) {
         value = stored_value<double>(take(8), order_);
-        const float narrow = static_cast<float>(value);
+        const auto narrow = static_cast<float>(value);
         if (std::isfinite(narrow))
             return narrow;
     } else {
@@ -203,7 +203,7 @@ std::int64_t PlyBinary::integer(PlyType type) {
 }
 
 void PlyBinary::skip(PlyType type, std::int64_t count) {
-    const std::uint64_t values = static_cast<std::uint64_t>(count);
+    const auto values = static_cast<std::uint64_t>(count);
     if (values > room_for(type))
         take(remaining() + 1);
     take(values * size_of(type));

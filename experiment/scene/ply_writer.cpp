@@ -84,7 +84,7 @@ std::string header_of(const std::filesystem::path& path, const Mesh& mesh) {
     std::string header = "ply\nformat binary_little_endian 1.0\n";
     for (std::size_t part = 0; part < mesh.part_names.size(); ++part) {
         const std::string& name = mesh.part_names[part];
-        if (name.find_first_of("\r\n") != name.npos)
+        if (name.find_first_of("\r\n") != std::string_view::npos)
             refuse(path, fmt::format("part name {} has a line end", part));
         header += fmt::format("comment part {} {}\n", part, name);
     }

@@ -61,7 +61,7 @@ template <class Real> Real volume_in(const glm::dvec3& from, const glm::dvec3& t
 /// change the sign and nothing else, so both triangles at an edge agree. Where rounding could have turned the
 /// sign it is computed again with 113 bits, lest a ray slip out between all the triangles around a corner.
 double volume(const glm::dvec3& from, const glm::dvec3& to, const NearRay& ray, double doubtful) {
-    const double in_double = volume_in<double>(from, to, ray);
+    const auto in_double = volume_in<double>(from, to, ray);
     return std::abs(in_double) > doubtful ? in_double
                                           : static_cast<double>(volume_in<__float128>(from, to, ray));
 }

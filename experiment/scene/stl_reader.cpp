@@ -33,7 +33,7 @@ bool looks_like_text(std::string_view beginning) {
 }
 
 float finite_coordinate(const MeshSource& source, std::size_t offset, std::size_t triangle) {
-    const float value = stored_value<float>(source.bytes().data() + offset, std::endian::little);
+    const auto value = stored_value<float>(source.bytes().data() + offset, std::endian::little);
     if (!std::isfinite(value)) {
         source.fail_at_byte(offset,
                             fmt::format("a corner of triangle {} (counted from 0) has the coordinate {}; "

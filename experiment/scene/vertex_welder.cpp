@@ -80,7 +80,7 @@ std::uint32_t VertexWelder::index_of(const glm::vec3& position) {
         return found.index;
     if (positions_.size() == max_mesh_vertices)
         throw InputError("this mesh has too many vertices.");
-    const std::uint32_t index = static_cast<std::uint32_t>(positions_.size());
+    const auto index = static_cast<std::uint32_t>(positions_.size());
     positions_.push_back(position);
     next_.push_back(nobody);
     if (positions_.size() > heads_.size()) {

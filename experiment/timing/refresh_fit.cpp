@@ -56,8 +56,9 @@ double interval_by_phase(const std::vector<double>& since_ns, double nominal_ns)
             best = share;
         }
     };
-    for (double share = 1.0 - largest_deviation; share <= 1.0 + largest_deviation; share += step)
-        look(share);
+    const int steps = static_cast<int>(2.0 * largest_deviation / step);
+    for (int i = 0; i <= steps; ++i)
+        look(1.0 - largest_deviation + i * step);
     for (int halving = 0; halving < 8; ++halving) {
         step *= 0.5;
         const double middle = best;
@@ -132,7 +133,7 @@ void RefreshFit::infer_counts(std::span<const StampedRefresh> stamps, double nom
 }
 
 double RefreshFit::residual_ns(std::size_t i) const {
-    const double refresh = static_cast<double>(refreshes_[i] - first_refresh_);
+    const auto refresh = static_cast<double>(refreshes_[i] - first_refresh_);
     return since_ns_[i] - (at_centre_ns_ + (refresh - centre_) * interval_ns_);
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 glm::vec3 scatter(const BakeScene& scene, const SurfaceEvent& event, SampleSequence& sequence,
                   Bins& carried) {
-    const float alpha = static_cast<float>(scene.material().roughness);
+    const auto alpha = static_cast<float>(scene.material().roughness);
     const NormalFrame frame(event.normal);
     const glm::vec3 micro =
         frame.to_world(ggx_visible_normal(frame.to_local(event.to_eye), alpha, sequence.next_two()));

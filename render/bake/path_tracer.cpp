@@ -139,7 +139,7 @@ bool PathTracer::meet_coat(CoatedPath& path, const SurfaceHit& hit, SampleSequen
     }
     const glm::vec3 to_eye = -path.ray.direction;
     glm::vec3 normal = facing(side * hit.shading_normal, to_eye);
-    const float ior =
+    const auto ior =
         static_cast<float>(enters ? scene_->material().coat_ior : 1.0 / scene_->material().coat_ior);
     glm::vec3 inward = glm::refract(path.ray.direction, normal, 1.0f / ior);
     if (inward != glm::vec3(0.0f) && glm::dot(inward, surface_normal) > -1e-5f) {

@@ -53,7 +53,7 @@ glm::vec3 SpectralLight::towards(glm::vec3 direction, float turn) const {
     constexpr float pi = std::numbers::pi_v<float>;
     float around = std::atan2(direction.x, direction.y) / (2.0f * pi) + turn; // -0.5 … 1.5
     around -= std::floor(around);
-    const float height = static_cast<float>(size_.y), width = static_cast<float>(size_.x);
+    const auto height = static_cast<float>(size_.y), width = static_cast<float>(size_.x);
     // +0.5: the middle of the texel in the corner of the padded picture is at -0.5 of the probe.
     const float u = around * width + 0.5f;
     const float v = std::acos(glm::clamp(direction.z, -1.0f, 1.0f)) / pi * height + 0.5f;

@@ -14,7 +14,7 @@ GlName compile(const GlContext& context, std::string_view program, GLenum stage,
     GlName shader(context, gl.CreateShader(stage),
                   [](const GladGLContext& g, GLuint name) { g.DeleteShader(name); });
     const GLchar* text = source.data();
-    const GLint length = static_cast<GLint>(source.size());
+    const auto length = static_cast<GLint>(source.size());
     gl.ShaderSource(*shader, 1, &text, &length);
     gl.CompileShader(*shader);
     GLint compiled = 0;

@@ -6,8 +6,8 @@
 
 #include "render/image/linear_image.h"
 
-typedef struct _cairo cairo_t;
-typedef struct _cairo_surface cairo_surface_t;
+using cairo_t = struct _cairo;                 // NOLINT(bugprone-reserved-identifier): cairo.h calls it so
+using cairo_surface_t = struct _cairo_surface; // NOLINT(bugprone-reserved-identifier)
 
 namespace overt {
 
@@ -20,7 +20,7 @@ class InkCanvas {
   public:
     explicit InkCanvas(glm::ivec2 size_px);
 
-    cairo_t* cairo() const { return cairo_.get(); }
+    cairo_t* cairo() { return cairo_.get(); }
     glm::ivec2 size_px() const { return size_px_; }
 
     /// `strength`: of the ink, 0 … 1, 1 being the colour of the letters. `radius`: of the corners.

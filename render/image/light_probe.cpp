@@ -44,7 +44,7 @@ std::vector<House> row_of_houses() {
     std::vector<House> houses;
     float azimuth = -pi;
     while (azimuth < pi) {
-        const float width = static_cast<float>(random.uniform(0.12, 0.42));
+        const auto width = static_cast<float>(random.uniform(0.12, 0.42));
         const bool gap = random.uniform() < 0.18;
         const float height = gap ? 0.02f : static_cast<float>(random.uniform(0.12, 0.42));
         houses.push_back({azimuth, azimuth + width, height, static_cast<float>(random.uniform(0.05, 0.22))});
@@ -162,7 +162,7 @@ LightProbe blurred_by_ggx(const LightProbe& probe, double alpha, glm::ivec2 size
     if (alpha <= 0.0)
         return probe;
     const LightProbe source = reduced(probe, {256, 128});
-    const float alpha_squared = static_cast<float>(alpha * alpha);
+    const auto alpha_squared = static_cast<float>(alpha * alpha);
     return probe_of(size_px, [&](glm::vec3 mirror) {
         const Frame frame(mirror);
         glm::vec3 sum(0.0f);

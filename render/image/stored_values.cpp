@@ -73,7 +73,8 @@ bool floats_of_halves(std::span<const std::uint16_t> halves, std::span<float> in
     std::size_t done = 0;
     bool finite = true;
 #if defined(__x86_64__)
-    if (__builtin_cpu_supports("f16c")) {
+    // Each processor with AVX2 has F16C, a name that not every compiler knows here.
+    if (__builtin_cpu_supports("avx2")) {
         finite = convert_eights(halves, into.data());
         done = halves.size() / 8 * 8;
     }

@@ -57,7 +57,7 @@ void require_utf8(const std::string& text) {
 
 TextMeasure measure_text(const std::string& text, const TextStyle& style) {
     require_utf8(text);
-    const InkCanvas measuring({1, 1});
+    InkCanvas measuring({1, 1});
     const Layout layout = lay_out(measuring.cairo(), text, style);
     TextMeasure measure;
     PangoRectangle extent{};
@@ -139,7 +139,7 @@ LinearImage draw_fixation_target(double diameter_px, float grey, float backgroun
 }
 
 bool begins_at_the_right(const std::string& text) {
-    const InkCanvas canvas({1, 1});
+    InkCanvas canvas({1, 1});
     const Layout layout = lay_out(canvas.cairo(), text, {});
     return pango_layout_get_direction(layout.get(), 0) == PANGO_DIRECTION_RTL;
 }

@@ -279,7 +279,7 @@ void AscTrial::frame_for_opensesame(const SessionRecord& record, const TrialReco
     lines_.insert(named == lines_.end() ? lines_.begin() : named + 1, first.begin(), first.end());
     for (const auto& [word, phase] : {std::pair{onset_message, "start_phase presentation"},
                                       std::pair{end_message, "end_phase presentation"}}) {
-        const auto found = std::find_if(lines_.begin(), lines_.end(), [&](const Line& line) {
+        const auto found = std::find_if(lines_.begin(), lines_.end(), [word = word](const Line& line) {
             return line.event.kind == Kind::message && Words(line.event.text).next() == word;
         });
         if (found != lines_.end())

@@ -26,7 +26,7 @@ namespace {
 
 class SessionVerification {
   public:
-    explicit SessionVerification(const fs::path& folder) : folder_(folder) {}
+    explicit SessionVerification(fs::path folder) : folder_(std::move(folder)) {}
 
     Verification run() {
         if (!fs::is_directory(folder_) ||
@@ -137,7 +137,7 @@ class SessionVerification {
         if (file_hash_ && !has_log_) {
             // The hash is only ever noted in the log: it can have come into the file with the log alone.
             file_hash_.reset();
-            result_.notes.push_back(
+            result_.notes.emplace_back(
                 "session.sqlite: another program has folded its log into it, as sqlite3 does "
                 "without -readonly; the rows are looked at, bytes between them are not");
         } else {
@@ -145,7 +145,7 @@ class SessionVerification {
         }
         learn_files(database);
         if (!has_seals) {
-            result_.notes.push_back(
+            result_.notes.emplace_back(
                 "an earlier overt recorded this session, without seals: only the structure "
                 "of session.sqlite can be looked at");
             return;
@@ -240,8 +240,8 @@ class SessionVerification {
                     manifest.is_closed ? "it was added later" : "it came after the session was begun"));
         }
         if (!manifest.is_closed && result_.state == Verification::State::closed)
-            result_.notes.push_back("the session ended in order, but its manifest was not finished: "
-                                    "overt run … --resume finishes it");
+            result_.notes.emplace_back("the session ended in order, but its manifest was not finished: "
+                                       "overt run … --resume finishes it");
     }
 
     void look_at_file(const SessionManifest::File& file) {

@@ -122,7 +122,7 @@ class Settling {
         glm::dvec3 sum(0.0);
         for (std::size_t k = first_neighbour_[i]; k < first_neighbour_[i + 1]; ++k)
             sum += net_.positions[neighbours_[k]];
-        const double count = static_cast<double>(first_neighbour_[i + 1] - first_neighbour_[i]);
+        const auto count = static_cast<double>(first_neighbour_[i + 1] - first_neighbour_[i]);
         const glm::dvec3 position = net_.positions[i];
         const glm::dvec3 wish = relaxing_share * (sum / count - position);
         const glm::dvec3 gradient = gradients_[i];

@@ -41,7 +41,7 @@ LaidFold lay(const Clay& base, Fold fold) {
         point = base.foot(point);
     LaidFold laid;
     const std::vector<QuadraticCurve> curves = spline(fold.path);
-    const double n = static_cast<double>(curves.size());
+    const auto n = static_cast<double>(curves.size());
     const double margin = std::max(fold.width_at_start, fold.width_at_end) + reach_mm;
     for (std::size_t i = 0; i < curves.size(); ++i) {
         const QuadraticCurve& c = curves[i];
@@ -158,7 +158,7 @@ Shape common(Shape a, Shape b, double blend_mm) {
 
 Clay twisted_roll(const std::vector<glm::dvec3>& path, double radius, int strands, double turns) {
     Clay roll;
-    const double n = static_cast<double>(path.size() - 1);
+    const auto n = static_cast<double>(path.size() - 1);
     for (int strand = 0; strand < strands; ++strand) {
         std::vector<glm::dvec3> line;
         for (std::size_t i = 0; i < path.size(); ++i) {
