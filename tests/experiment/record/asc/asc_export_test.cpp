@@ -270,9 +270,9 @@ TEST_CASE("an export as ASC replaces an earlier one only when asked, and a sessi
     const Exported exported;
     const SessionRecord record(exported.session);
     CHECK_THROWS_WITH(export_asc(record, exported.target), Contains("exists already"));
-    CHECK_NOTHROW(export_asc(record, exported.target, {true, false, {}}));
+    CHECK_NOTHROW(export_asc(record, exported.target, {true, false, {}, {}}));
     std::ofstream(exported.target / "notes.txt") << "mine";
-    CHECK_THROWS_WITH(export_asc(record, exported.target, {true, false, {}}), Contains("notes.txt"));
+    CHECK_THROWS_WITH(export_asc(record, exported.target, {true, false, {}, {}}), Contains("notes.txt"));
     SessionHeader header = eye_session_header();
     header.schedule.observer.label = "C1";
     const fs::path empty = make_session(exported.root.path(), header);
