@@ -25,7 +25,7 @@ SparseFactor factor_of_step(const SurfaceGeometry& geometry, double step) {
         // A node of no triangle keeps what it has.
         entries.push_back({node, node, diagonal[node] > 0.0 ? diagonal[node] : 1.0});
     }
-    return {diagonal.size(), entries};
+    return {dissection_order(geometry.node_positions_mm(), entries), entries};
 }
 
 // A weight with its share in each step.
