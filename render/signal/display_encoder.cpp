@@ -91,15 +91,26 @@ void DisplayEncoder::encode_row(const Row& row, int width, std::byte* into) cons
         return;
     }
     auto* codes = reinterpret_cast<std::uint16_t*>(into);
-    for (int x = 0; x < width; ++x, codes += 4) {
-        for (int channel = 0; channel < 3; ++channel) {
-            const LevelTable& table = tables_.at(channel);
-            const double position = display_.dither == Dithering::none ? table.level_of(light[x][channel])
-                                                                       : table.position_of(light[x][channel]);
-            codes[channel] = static_cast<std::uint16_t>(position * (65535.0 / table.levels()) + 0.5);
+    const auto put = [&](int x, int channel, double position) {
+        codes[4 * x + channel] =
+            static_cast<std::uint16_t>(position * (65535.0 / tables_.at(channel).levels()) + 0.5);
+    };
+    if (display_.dither == Dithering::none) {
+        RowLevels(tables_, light).for_colours(width, [&](int begin, int count, const ColourRun& run) {
+            for (int i = 0; i < count; ++i) {
+                for (int channel = 0; channel < 3; ++channel)
+                    put(begin + i, channel,
+                        run.levels[static_cast<std::size_t>(channel)][static_cast<std::size_t>(i)]);
+            }
+        });
+    } else {
+        for (int x = 0; x < width; ++x) {
+            for (int channel = 0; channel < 3; ++channel)
+                put(x, channel, tables_.at(channel).position_of(light[x][channel]));
         }
-        codes[3] = 65535;
     }
+    for (int x = 0; x < width; ++x)
+        codes[4 * x + 3] = 65535;
 }
 
 void DisplayEncoder::encode(const LinearImage& picture, glm::ivec2 origin_px,

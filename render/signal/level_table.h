@@ -2,9 +2,9 @@
 #pragma once
 
 #include <bit>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace overt {
@@ -12,8 +12,12 @@ namespace overt {
 /// Levels 0 … n of a signal, of which level i makes the light curve(i / n), such as (i / n)^gamma. The light
 /// at the borders between levels is tabulated in double precision, so that what comes out is floor(n * s +
 /// 0.5) with s the smallest signal that makes the light, a billionth of a level short of a tie going up with
-/// it, without the error of an inverted curve. Light falls into buckets, 128 to each doubling; within one the
-/// levels are taken to lie evenly, which is right or next to right, and the borders there decide.
+/// it, without the error of an inverted curve.
+///
+/// To find a level fast, light is rounded to a float, and floats fall into buckets, 128 to each doubling. In
+/// each a straight line tells the level or the one below it, which the border between the two decides. That
+/// the line does so is checked for each bucket and each border when the table is made; where it does not, and
+/// where a float is the same as that of the border, the borders are searched in double precision.
 class LevelTable {
   public:
     /// `levels`: the highest level n, 1 … 65535. `gamma` > 0.
@@ -23,34 +27,10 @@ class LevelTable {
     LevelTable(int levels, const std::function<double(double)>& curve);
 
     /// The nearest level. Light outside of 0 … 1 is clipped; not a number counts as 0.
-    int level_of(double light) const noexcept {
-        const double inside = clipped(light);
-        if (linear_)
-            return static_cast<int>(inside * levels_ + half);
-        return level_inside(inside);
-    }
+    int level_of(double light) const noexcept;
 
-    /// The same of a table that is not linear, for light from 0 to 1.
-    int level_inside(double light) const noexcept {
-        const auto bits = std::bit_cast<std::uint64_t>(light);
-        const std::uint64_t number = bits >> below_bucket;
-        if (number < first_bucket_)
-            return light > 0.0 ? level_after_zero_ : 0;
-        const Bucket& bucket = buckets_[number - first_bucket_];
-        const std::uint64_t within = bits & ((std::uint64_t{1} << below_bucket) - 1);
-        const int guess =
-            bucket.first + static_cast<int>((within >> 16) * static_cast<std::uint64_t>(bucket.count) >>
-                                            (below_bucket - 16));
-        // The level whose lower border is below this light, and whose upper one is not.
-        // The level whose lower border is below this light, and whose upper one is not: the guess or one
-        // beside it, taken without a branch, for which of them it is nobody can foretell.
-        const double* border = bounded_.data() + guess;
-        border +=
-            static_cast<std::ptrdiff_t>(border[1] < light) - static_cast<std::ptrdiff_t>(light <= border[0]);
-        if (border[0] < light && light <= border[1]) [[likely]]
-            return static_cast<int>(border - bounded_.data());
-        return searched(light);
-    }
+    /// The same of many; `levels` has room for as many. What takes the time when stimuli are loaded.
+    void levels_of(std::span<const double> lights, int* levels) const noexcept;
 
     /// Where a light lies between the light of two neighbouring levels: level 7 and a quarter of the light's
     /// way to level 8 is 7.25. Clipped as above.
@@ -58,34 +38,36 @@ class LevelTable {
 
     int levels() const { return levels_; }
 
-    /// Levels make light in proportion: the level of light x in 0 … 1 is floor(x * levels() + half).
-    bool is_linear() const { return linear_; }
+    /// Tells a level from light.
+    struct Line {
+        float start = 0.0f, slope = 0.0f;
+    };
+
     /// What lies half-way between two levels, but for the rounding of the sums that led there, goes up.
     static constexpr double half = 0.5 + 1e-9;
 
   private:
-    /// Bits of a double below those that number its bucket.
-    static constexpr int below_bucket = 52 - 7;
-    /// Borders that begin in the bucket, from the first on.
-    struct Bucket {
-        int first = 0, count = 0;
-    };
+    /// Bits of a float below those that number its bucket.
+    static constexpr int below_bucket = 23 - 7;
+    static int bucket_of(float light) { return std::bit_cast<std::int32_t>(light) >> below_bucket; }
 
     void tabulate(const std::function<double(double)>& curve);
+    void draw_line(std::size_t bucket, float low, float high);
+    bool tells_levels(std::size_t bucket, float low, float high) const;
+    int told_level(std::size_t bucket, float light) const;
     int searched(double light) const noexcept;
+    void find_levels(const double* lights, int count, int* levels) const noexcept;
+    void search_unsure(const double* lights, int count, int* levels) const noexcept;
     double light_of(int level) const noexcept { return lights_[static_cast<std::size_t>(level)]; }
-    /// Also for what is not a number.
-    static double clipped(double light) { return light > 0.0 ? (light < 1.0 ? light : 1.0) : 0.0; }
 
     int levels_;
     bool linear_;
-    /// Light at which level i begins to be nearer than i - 1; before the first and behind the last, what is
-    /// below and above all light.
-    std::vector<double> bounded_;
-    std::vector<double> lights_; ///< of each level
-    std::vector<Bucket> buckets_;
-    std::uint64_t first_bucket_ = 0;
-    int level_after_zero_ = 0; ///< of light that is hardly any
+    std::vector<double> borders_;     ///< light at which level i + 1 begins to be nearer than i
+    std::vector<float> near_borders_; ///< the same rounded; behind the last what is above all light, and NaN
+    std::vector<double> lights_;      ///< of each level
+    int first_bucket_ = 0;            ///< before the first border; all darker light counts to it
+    std::vector<Line> lines_;         ///< of each bucket
+    std::vector<int> firsts_;         ///< borders below each bucket, and below 1 at the end
 };
 
 } // namespace overt

@@ -11,10 +11,11 @@ namespace overt {
 namespace {
 
 void encode(const RowLevels& row, int width, std::byte* into) {
-    for (int x = 0; x < width; ++x, into += 4) {
-        const int index = row.grey(x);
-        put_bytes(into, index, index, index);
-    }
+    row.for_greys(width, [&](int begin, int count, const ColourRun& run) {
+        const auto& index = run.levels[0];
+        put_pixels(into + 4 * begin, count,
+                   [&](std::size_t i) { return opaque_pixel(index[i], index[i], index[i]); });
+    });
 }
 
 ReceivedLight decode(const ScreenReader& reader) {

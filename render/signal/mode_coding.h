@@ -4,7 +4,10 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 
 #include "experiment/protocol/output_mode.h"
 #include "render/image/linear_image.h"
@@ -38,12 +41,18 @@ template <OutputMode mode> const ModeCoding& mode_coding();
 
 const ModeCoding& coding_of(OutputMode mode);
 
-/// For encoders: an opaque pixel.
-inline void put_bytes(std::byte* pixel, int red, int green, int blue) {
-    pixel[0] = static_cast<std::byte>(red);
-    pixel[1] = static_cast<std::byte>(green);
-    pixel[2] = static_cast<std::byte>(blue);
-    pixel[3] = std::byte{255};
+/// For encoders: an opaque pixel as it lies in memory, red first.
+inline std::uint32_t opaque_pixel(int red, int green, int blue) {
+    static_assert(std::endian::native == std::endian::little);
+    return static_cast<std::uint32_t>(red | green << 8 | blue << 16) | 0xff000000u;
+}
+
+/// Packs pixels into bytes: pixel_of(i) of 0 … count - 1.
+template <class PixelOf> void put_pixels(std::byte* into, int count, const PixelOf& pixel_of) {
+    for (int i = 0; i < count; ++i) {
+        const std::uint32_t pixel = pixel_of(static_cast<std::size_t>(i));
+        std::memcpy(into + 4 * i, &pixel, sizeof pixel);
+    }
 }
 
 } // namespace overt

@@ -9,10 +9,12 @@ namespace overt {
 namespace {
 
 void encode(const RowLevels& row, int width, std::byte* into) {
-    for (int x = 0; x < width; ++x, into += 4) {
-        const int code = row.grey(x);
-        put_bytes(into, code >> 8, code & 255, 0); // blue 0: no overlay
-    }
+    // Blue 0: no overlay.
+    row.for_greys(width, [&](int begin, int count, const ColourRun& run) {
+        const auto& code = run.levels[0];
+        put_pixels(into + 4 * begin, count,
+                   [&](std::size_t i) { return opaque_pixel(code[i] >> 8, code[i] & 255, 0); });
+    });
 }
 
 ReceivedLight decode(const ScreenReader& reader) {

@@ -8,10 +8,11 @@ namespace overt {
 namespace {
 
 void encode(const RowLevels& row, int width, std::byte* into) {
-    for (int x = 0; x < width; ++x, into += 4) {
-        const glm::ivec3 levels = row.colour(x);
-        put_bytes(into, levels.r, levels.g, levels.b);
-    }
+    row.for_colours(width, [&](int begin, int count, const ColourRun& run) {
+        const auto& [red, green, blue] = run.levels;
+        put_pixels(into + 4 * begin, count,
+                   [&](std::size_t i) { return opaque_pixel(red[i], green[i], blue[i]); });
+    });
 }
 
 ReceivedLight decode_8bit(const ScreenReader& reader) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -22,36 +23,86 @@ struct LevelTables {
     }
 };
 
+/// So many pixels or pairs are turned into levels at a time.
+constexpr int level_run = 256;
+
+/// Light of a run, channel by channel, and its levels.
+struct ColourRun {
+    std::array<std::array<double, level_run>, 3> light;
+    std::array<std::array<int, level_run>, 3> levels;
+
+    void put(int i, const glm::dvec3& colour) {
+        const auto place = static_cast<std::size_t>(i);
+        light[0][place] = colour.r;
+        light[1][place] = colour.g;
+        light[2][place] = colour.b;
+    }
+    void find_levels(const LevelTables& tables, int count, int channels = 3) {
+        for (int channel = 0; channel < channels; ++channel) {
+            const auto number = static_cast<std::size_t>(channel);
+            tables.at(channel).levels_of({light[number].data(), static_cast<std::size_t>(count)},
+                                         levels[number].data());
+        }
+    }
+};
+
+/// Calls work(begin, count) for runs that make up 0 … `all` - 1.
+template <class Work> void for_runs(int all, const Work& work) {
+    for (int begin = 0; begin < all; begin += level_run)
+        work(begin, all - begin < level_run ? all - begin : level_run);
+}
+
 class RowLevels {
   public:
     /// `light`: of the row's first pixel; with a pair filter, five more must lie before and behind the row.
     /// Both must outlive this.
     RowLevels(const LevelTables& tables, const glm::dvec3* light) : tables_(&tables), light_(light) {}
 
-    /// Of red, green and blue at a pixel.
-    glm::ivec3 colour(int x) const { return levels_of(light_[x]); }
-
-    /// Of the one colour of the pair that begins at x.
-    glm::ivec3 pair(int x) const {
-        const glm::dvec3* left = light_ + x;
-        if (!tables_->pair_filter)
-            return levels_of(0.5 * (left[0] + left[1]));
-        glm::dvec3 sum(0.0);
-        for (int i = 0; i < 12; ++i)
-            sum += (*tables_->pair_filter)[static_cast<std::size_t>(i)] * left[i - 5];
-        return levels_of(sum);
+    /// Calls put(begin, count, run) for runs of pixels that make up 0 … width - 1, with the levels of each.
+    template <class Put> void for_colours(int width, const Put& put) const {
+        ColourRun run;
+        for_runs(width, [&](int begin, int count) {
+            for (int i = 0; i < count; ++i)
+                run.put(i, light_[begin + i]);
+            run.find_levels(*tables_, count);
+            put(begin, count, run);
+        });
     }
 
-    /// Of a pixel's luminance.
-    int grey(int x) const {
-        const glm::dvec3 &light = light_[x], &luminance = tables_->luminance;
-        return tables_->at(0).level_of(luminance.r * light.r + luminance.g * light.g + luminance.b * light.b);
+    /// The same of the one colour of each pair, 0 … pairs - 1.
+    template <class Put> void for_pairs(int pairs, const Put& put) const {
+        ColourRun run;
+        for_runs(pairs, [&](int begin, int count) {
+            for (int i = 0; i < count; ++i)
+                run.put(i, light_of_pair(light_ + 2 * (begin + i)));
+            run.find_levels(*tables_, count);
+            put(begin, count, run);
+        });
+    }
+
+    /// The same of the luminance of pixels 0 … width - 1, in the first channel.
+    template <class Put> void for_greys(int width, const Put& put) const {
+        ColourRun run;
+        const glm::dvec3& luminance = tables_->luminance;
+        for_runs(width, [&](int begin, int count) {
+            for (int i = 0; i < count; ++i) {
+                const glm::dvec3& light = light_[begin + i];
+                run.light[0][static_cast<std::size_t>(i)] =
+                    luminance.r * light.r + luminance.g * light.g + luminance.b * light.b;
+            }
+            run.find_levels(*tables_, count, 1);
+            put(begin, count, run);
+        });
     }
 
   private:
-    glm::ivec3 levels_of(const glm::dvec3& light) const {
-        return {tables_->at(0).level_of(light.r), tables_->at(1).level_of(light.g),
-                tables_->at(2).level_of(light.b)};
+    glm::dvec3 light_of_pair(const glm::dvec3* left) const {
+        if (!tables_->pair_filter)
+            return 0.5 * (left[0] + left[1]);
+        glm::dvec3 sum(0.0);
+        for (int i = 0; i < 12; ++i)
+            sum += (*tables_->pair_filter)[static_cast<std::size_t>(i)] * left[i - 5];
+        return sum;
     }
 
     const LevelTables* tables_;

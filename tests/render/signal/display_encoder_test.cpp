@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include <catch2/catch.hpp>
 
@@ -100,51 +99,6 @@ TEST_CASE("neighbours one count apart are not mixed into a third value", "[unit]
     CHECK((code == 0xFF || code == 0x100));
 }
 
-TEST_CASE("a table finds the level that a search through all borders finds, whatever the curve", "[unit]") {
-    // Steep, flat at its beginning and its end, in steps, and with kinks.
-    const std::pair<const char*, std::function<double(double)>> curves[] = {
-        {"power", [](double s) { return std::pow(s, 2.2); }},
-        {"steep", [](double s) { return std::pow(s, 7.0); }},
-        {"root", [](double s) { return std::sqrt(s); }},
-        {"dead ends", [](double s) { return s < 0.1   ? 0.0
-                                            : s > 0.9 ? 1.0
-                                                      : (s - 0.1) / 0.8; }},
-        {"steps", [](double s) { return std::floor(s * 9.0) / 9.0; }},
-        {"kinks", [](double s) {
-             return s < 0.3 ? 1e-7 * s : s < 0.31 ? 3e-8 + 60.0 * (s - 0.3) : 0.61 + (s - 0.31) * 0.39 / 0.69;
-         }}};
-    RandomStream random(9, "light");
-    for (const auto& [name, curve] : curves) {
-        for (const int levels : {1, 255, 1023, 65535}) {
-            const auto clean = [&, &shape = curve](double s) {
-                return s >= 1.0 ? 1.0 : std::min(1.0, shape(s));
-            };
-            const LevelTable table(levels, clean);
-            std::vector<double> borders;
-            for (int level = 1; level <= levels; ++level)
-                borders.push_back(std::max(borders.empty() ? 0.0 : borders.back(),
-                                           clean((level - LevelTable::half) / levels)));
-            const auto searched = [&](double light) {
-                return static_cast<int>(std::lower_bound(borders.begin(), borders.end(), light) -
-                                        borders.begin());
-            };
-            int wrong = 0;
-            for (int i = 0; i < 20000; ++i) {
-                const double wide = random.uniform();
-                const double border = borders[random.below(static_cast<std::uint32_t>(borders.size()))];
-                for (const double light : {wide, std::pow(wide, 8.0), std::exp(-700.0 * wide), border,
-                                           std::nextafter(border, 2.0), std::nextafter(border, -1.0)})
-                    wrong += light >= 0.0 && light <= 1.0 && table.level_of(light) != searched(light);
-            }
-            wrong += table.level_of(0.0) != searched(0.0);
-            wrong += table.level_of(5e-324) != searched(5e-324);
-            wrong += table.level_of(1.0) != searched(1.0);
-            CAPTURE(name, levels);
-            CHECK(wrong == 0);
-        }
-    }
-}
-
 TEST_CASE("pairs of pixels are packed alike whether they fill the patch or are filtered in rows", "[unit]") {
     // The same picture at an odd column goes through the rows; a column of background before and behind it.
     RandomStream random(4, "pairs");
@@ -168,35 +122,6 @@ TEST_CASE("pairs of pixels are packed alike whether they fill the patch or are f
         encoder.encode(outer, {16, 0}, at_once);
         CAPTURE(gamma);
         CHECK(by_rows == at_once);
-    }
-}
-
-TEST_CASE("a table of levels agrees with the power function for every float that was tried", "[unit]") {
-    RandomStream random(5, "light");
-    for (const int levels : {255, 1023, 65535}) {
-        for (const double gamma : {0.5, 1.0, 1.8, 2.2, 3.0}) {
-            const LevelTable table(levels, gamma);
-            int wrong = 0, misplaced = 0;
-            for (int i = 0; i < 20000; ++i) {
-                const double wide = random.uniform();
-                const double light = static_cast<float>(i % 3 == 0 ? std::pow(wide, 6.0) : wide);
-                const double exact = levels * std::pow(light, 1.0 / gamma);
-                wrong += table.level_of(light) != static_cast<int>(std::floor(exact + 0.5));
-                // Between the same two levels, and as far from the lower as its light is.
-                const double position = table.position_of(light), low = std::floor(position);
-                const auto light_of = [&](double level) { return std::pow(level / levels, gamma); };
-                const double back = light_of(low) + (position - low) * (light_of(low + 1) - light_of(low));
-                misplaced += std::abs(back - light) > 1e-12;
-            }
-            CAPTURE(levels, gamma);
-            CHECK(wrong == 0);
-            CHECK(misplaced == 0);
-            for (int level = 0; level <= levels; ++level)
-                wrong += table.level_of(std::pow(static_cast<double>(level) / levels, gamma)) != level;
-            CHECK(wrong == 0);
-            CHECK(table.level_of(std::nan("")) == 0);
-            CHECK(table.position_of(7.0) == levels);
-        }
     }
 }
 
