@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -14,10 +15,9 @@ namespace overt {
 /// 0.5) with s the smallest signal that makes the light, a billionth of a level short of a tie going up with
 /// it, without the error of an inverted curve.
 ///
-/// To find a level fast, light is rounded to a float, and floats fall into buckets, 128 to each doubling. In
-/// each a straight line tells the level or the one below it, which the border between the two decides. That
-/// the line does so is checked for each bucket and each border when the table is made; where it does not, and
-/// where a float is the same as that of the border, the borders are searched in double precision.
+/// To find a level fast, light falls into buckets, 64 to each doubling. In each a parabola tells about which
+/// level it is, and by how much at most it may be wrong, which is taken from the borders themselves when the
+/// table is made. Where that leaves open which of two levels it is, the borders are searched.
 class LevelTable {
   public:
     /// `levels`: the highest level n, 1 … 65535. `gamma` > 0.
@@ -38,36 +38,36 @@ class LevelTable {
 
     int levels() const { return levels_; }
 
-    /// Tells a level from light.
-    struct Line {
-        float start = 0.0f, slope = 0.0f;
+    /// Tells a level: start + d (slope + d bend), d being the light's distance from the begin of the bucket,
+    /// is nowhere in the bucket further than `margin` from where a border says that one level ends and the
+    /// next begins. Where it is no nearer than that to a whole number, the number below it is the level.
+    struct Piece {
+        double start = 0.0, slope = 0.0, bend = 0.0, margin = 1e9;
+        double at(double distance) const { return start + distance * (slope + distance * bend); }
     };
+    static constexpr int untold = -1;
 
     /// What lies half-way between two levels, but for the rounding of the sums that led there, goes up.
     static constexpr double half = 0.5 + 1e-9;
 
   private:
-    /// Bits of a float below those that number its bucket.
-    static constexpr int below_bucket = 23 - 7;
-    static int bucket_of(float light) { return std::bit_cast<std::int32_t>(light) >> below_bucket; }
+    /// Bits of a double below those that number its bucket.
+    static constexpr int below_bucket = 52 - 6;
+    static std::int64_t bucket_of(double light) { return std::bit_cast<std::int64_t>(light) >> below_bucket; }
 
     void tabulate(const std::function<double(double)>& curve);
-    void draw_line(std::size_t bucket, float low, float high);
-    bool tells_levels(std::size_t bucket, float low, float high) const;
-    int told_level(std::size_t bucket, float light) const;
+    Piece piece_of(std::size_t bucket, double low, double high) const;
     int searched(double light) const noexcept;
-    void find_levels(const double* lights, int count, int* levels) const noexcept;
-    void search_unsure(const double* lights, int count, int* levels) const noexcept;
+    void find_fours(const double* lights, std::size_t count, int* levels) const noexcept;
     double light_of(int level) const noexcept { return lights_[static_cast<std::size_t>(level)]; }
 
     int levels_;
     bool linear_;
-    std::vector<double> borders_;     ///< light at which level i + 1 begins to be nearer than i
-    std::vector<float> near_borders_; ///< the same rounded; behind the last what is above all light, and NaN
-    std::vector<double> lights_;      ///< of each level
-    int first_bucket_ = 0;            ///< before the first border; all darker light counts to it
-    std::vector<Line> lines_;         ///< of each bucket
-    std::vector<int> firsts_;         ///< borders below each bucket, and below 1 at the end
+    std::vector<double> borders_;   ///< light at which level i + 1 begins to be nearer than i
+    std::vector<double> lights_;    ///< of each level
+    std::int64_t first_bucket_ = 0; ///< before the first border; all darker light counts to it
+    std::vector<Piece> pieces_;     ///< of each bucket
+    std::vector<int> firsts_;       ///< borders below each bucket, and all at the end
 };
 
 } // namespace overt
