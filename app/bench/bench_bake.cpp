@@ -13,6 +13,7 @@
 #include "experiment/base/scratch_folder.h"
 #include "render/bake/eye_rays.h"
 #include "render/bake/frame_baker.h"
+#include "render/bake/material_model.h"
 #include "render/gl/headless_context.h"
 #include "render/stimulus/coordinate_pass.h"
 
@@ -165,6 +166,47 @@ void measure_errors(BenchFigures& figures, const BakeCase& one, const BakeScene&
     }
 }
 
+/// The same frame under the gallery's compact sources, in turn with the sky: what it takes, what error
+/// standard quality has there, and what aiming at the sources brings, by the error that the same time leaves.
+void measure_gallery(BenchFigures& figures, const BakeCase& one, const BakeScene& scene,
+                     const SpectralLight& sky, const SceneView& view, int samples) {
+    LightSettings surroundings;
+    surroundings.probe = "gallery";
+    const SpectralLight gallery(surroundings);
+    SpectralLight unaimed = gallery;
+    unaimed.aim_nowhere();
+    const std::vector<std::uint8_t> covered = covered_pixels(scene, view, {0.0});
+    struct Timed {
+        double seconds = 0.0;
+        SpectralFrame frame;
+    };
+    const auto timed = [&](const SpectralLight& light, int count, std::uint64_t seed) {
+        const double begin = processor_s();
+        SpectralFrame frame =
+            bake_frame(scene, light, view, {0.0}, covered, {.samples = count, .seed = seed});
+        return Timed{processor_s() - begin, std::move(frame)};
+    };
+    const double under_sky_s = timed(sky, samples, 0).seconds;
+    const Timed aimed = timed(gallery, samples, 0), by_chance = timed(unaimed, samples, 0);
+    figures.push_back(
+        {one.name + ", a frame in the gallery by one under the sky", aimed.seconds / under_sky_s, ""});
+    const SpectralFrame reference = timed(gallery, 1024, 1).frame;
+    const double exposure = exposure_below_one(reference, 0.95);
+    const double error = picture_error(aimed.frame, reference, exposure).mean_delta_e;
+    figures.push_back(
+        {fmt::format("{}, gallery, {} samples, mean Delta-E ab", one.name, samples), error, ""});
+    if (!scene.model().scatters)
+        return;
+    const double chance_error = picture_error(by_chance.frame, reference, exposure).mean_delta_e;
+    figures.push_back(
+        {fmt::format("{}, gallery, {} samples, no source aimed at, mean Delta-E ab", one.name, samples),
+         chance_error, ""});
+    // Errors fall with the root of the time.
+    figures.push_back({one.name + ", gallery, time for the same error, aimed by not",
+                       aimed.seconds * error * error / (by_chance.seconds * chance_error * chance_error),
+                       ""});
+}
+
 } // namespace
 
 BenchFigures bench_bake(const BenchOptions& options) {
@@ -216,6 +258,8 @@ BenchFigures bench_bake(const BenchOptions& options) {
         if (exposure == 0.0)
             exposure = exposure_below_one(frame, 0.95);
         measure_errors(figures, one, scene, light, small, exposure);
+        measure_gallery(figures, one, scene, light, small,
+                        settings_of(BakeQuality::standard, one.material.kind).samples);
     }
     figures.push_back(at_most("nine stimuli in 31 poses, standard quality, with two processors",
                               bake_s / 2.0 / 3600.0, "h", 10.0));

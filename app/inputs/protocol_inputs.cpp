@@ -81,7 +81,7 @@ void examine_given_maps(const Protocol& protocol, Diagnostics& diagnostics) {
 
 void examine_surroundings(const Protocol& protocol, Diagnostics& diagnostics) {
     const Place probe = protocol.places.of("light.probe");
-    if (protocol.light.probe != "overcast") {
+    if (protocol.light.is_file()) {
         examine(protocol, probe, diagnostics, [&] {
             if (const int negative = load_light_probe(protocol.light).negative_texels; negative > 0) {
                 diagnostics.warning(protocol.file.string(), probe,

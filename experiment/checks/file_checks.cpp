@@ -40,9 +40,9 @@ void check_sequence(ProtocolExamination& examination, const std::string& path, c
 void check_files(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
     const std::string remedy = "paths count from the folder of the protocol file";
-    if (protocol.light.probe != "overcast" && !is_file(protocol.light.probe))
+    if (protocol.light.is_file() && !is_file(protocol.light.probe))
         examination.error({"light.probe"}, fmt::format("there is no file {}", protocol.light.probe),
-                          remedy + "; \"overcast\" needs none");
+                          remedy + "; \"gallery\" and \"overcast\" need none");
     for (std::size_t i = 0; i < protocol.sculptures.size(); ++i) {
         const SculptureSettings& sculpture = protocol.sculptures[i];
         for (const auto& [key, file] :

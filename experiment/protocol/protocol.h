@@ -116,9 +116,11 @@ struct ViewSettings {
 
 /// [light]: what surrounds the object.
 struct LightSettings {
-    /// "overcast", or a latitude-longitude EXR or HDR file, linear Rec.709, +y up, resolved against the
-    /// protocol's folder.
+    /// "overcast" or "gallery", or a latitude-longitude EXR or HDR file, linear Rec.709, +y up, resolved
+    /// against the protocol's folder.
     std::string probe = "overcast";
+    /// Whether the probe is a file, and not one that the program makes.
+    bool is_file() const { return probe != "overcast" && probe != "gallery"; }
     double exposure = 1.0;     ///< factor from the probe's radiance to the display's white
     double rotation_deg = 0.0; ///< turns the probe about the vertical
 };

@@ -57,7 +57,7 @@ void complete(Protocol& protocol) {
     if (!protocol.display.characterisation_file.empty())
         protocol.display.characterisation_file =
             folder_of(protocol, "display.characterisation") / protocol.display.characterisation_file;
-    if (protocol.light.probe != "overcast")
+    if (protocol.light.is_file())
         protocol.light.probe = (folder_of(protocol, "light.probe") / protocol.light.probe).string();
 }
 

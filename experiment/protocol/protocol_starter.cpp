@@ -30,6 +30,7 @@ const std::map<std::string_view, std::vector<Values>>& starter_values() {
            {"output", "\"native-8bit\""},
            {"gamma", "2.2"}}}},
         {"tracker", {{{"rate_hz", "1000"}}}},
+        {"light", {{{"probe", "\"gallery\""}}}},
         {"consent",
          {{{"text", "\"You will look at sculptures on a screen, and your eyes are recorded.\\n"
                     "You may stop at any time.\\n\\nDo you agree to take part?\""}}}},

@@ -108,8 +108,10 @@ Section light() {
             .keys =
                 {
                     {{.name = "probe",
-                      .explanation = "\"overcast\" for a cloudy sky, or a latitude-longitude picture of the "
-                                     "surroundings (EXR or HDR, linear Rec. 709, +y up)."},
+                      .explanation =
+                          "\"gallery\" for a hall with windows, lamps and a low sun, in which gloss is "
+                          "seen best, \"overcast\" for a cloudy sky, or a latitude-longitude "
+                          "picture of the surroundings (EXR or HDR, linear Rec. 709, +y up)."},
                      &L::probe},
                     {{.name = "exposure",
                       .low = 1e-6,

@@ -1,51 +1,15 @@
 #include "render/bake/coat_surface.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <unordered_map>
 
 #include "experiment/base/parallel.h"
+#include "render/image/lattice_noise.h"
 
 namespace overt {
 
 namespace {
-
-/// Mixes bits: the finaliser of SplitMix64 (Steele, Lea and Flood 2014).
-std::uint64_t mixed(std::uint64_t x) {
-    x += 0x9e3779b97f4a7c15ull;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-    return x ^ (x >> 31);
-}
-
-/// A direction for each corner of the lattice, in the cube -1 … 1.
-glm::dvec3 lattice_gradient(glm::ivec3 corner, std::uint64_t seed) {
-    std::uint64_t hash = seed;
-    for (int axis = 0; axis < 3; ++axis)
-        hash = mixed(hash ^ static_cast<std::uint32_t>(corner[axis]));
-    const auto part = [&](int shift) {
-        return static_cast<double>((hash >> shift) & 0x1fffffu) / 0x100000 - 1.0;
-    };
-    return {part(0), part(21), part(42)};
-}
-
-/// Perlin's noise (2002), with a lattice of 1.
-double lattice_noise(glm::dvec3 place, std::uint64_t seed) {
-    const glm::dvec3 cell = glm::floor(place), f = place - cell;
-    const glm::dvec3 s = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-    std::array<double, 8> corners{};
-    for (int i = 0; i < 8; ++i) {
-        const glm::ivec3 step(i & 1, (i >> 1) & 1, i >> 2);
-        corners[static_cast<std::size_t>(i)] =
-            glm::dot(lattice_gradient(glm::ivec3(cell) + step, seed), f - glm::dvec3(step));
-    }
-    const auto between = [&](std::size_t i, double share) {
-        return glm::mix(corners[i], corners[i + 1], share);
-    };
-    return glm::mix(glm::mix(between(0, s.x), between(2, s.x), s.y),
-                    glm::mix(between(4, s.x), between(6, s.x), s.y), s.z);
-}
 
 /// A mesh with the normals of its vertices, while it is divided.
 struct DividedMesh {
@@ -96,7 +60,7 @@ double stucco(glm::dvec3 place, std::uint64_t seed) {
     constexpr double finer = 2.17, weight = 0.35;
     const glm::dvec3 turned(0.36 * place.x + 0.48 * place.y - 0.8 * place.z, -0.8 * place.x + 0.6 * place.y,
                             0.48 * place.x + 0.64 * place.y + 0.6 * place.z);
-    return 0.75 * (lattice_noise(turned, seed) + weight * lattice_noise(finer * turned, mixed(seed)));
+    return 0.75 * (lattice_noise(turned, seed) + weight * lattice_noise(finer * turned, mixed_bits(seed)));
 }
 
 Mesh coat_over(const Mesh& body, const CoatShape& shape) {

@@ -16,6 +16,9 @@ namespace overt {
 /// Changes whenever the same inputs would give other light: part of the key under which frames are kept.
 constexpr int frame_baker_version = 2;
 
+/// The same for surroundings in which paths may be aimed (SpectralLight::aim): all but the overcast sky.
+constexpr int aimed_paths_version = 1;
+
 /// Told now and then which share of a frame is done, 0 … 1, by one thread at a time; answers whether to go
 /// on.
 using BakeProgress = std::function<bool(double share_done)>;

@@ -14,6 +14,8 @@ LightProbe mirrored(const LightProbe& probe, const MaterialSettings&) {
 
 template <> const MaterialModel& material_model<MaterialKind::coated_conductor>() {
     static constexpr MaterialModel model{.scatter = nullptr,
+                                         .density = nullptr,
+                                         .take = nullptr,
                                          .scatters = false,
                                          .path_cost = 7.8,
                                          .live = {LiveApproximation::Shading::coated_metal, mirrored,

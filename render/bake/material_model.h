@@ -32,6 +32,12 @@ struct MaterialModel {
     glm::vec3 (*scatter)(const BakeScene& scene, const SurfaceEvent& event, SampleSequence& sequence,
                          Bins& carried);
 
+    /// Of a surface that scatters: with what density per solid angle scatter() gives a direction of unit
+    /// length, and what it then takes from `carried`. Null: it gives one direction alone, at which no light
+    /// can be aimed.
+    float (*density)(const BakeScene& scene, const SurfaceEvent& event, glm::vec3 onward);
+    void (*take)(const BakeScene& scene, const SurfaceEvent& event, glm::vec3 onward, Bins& carried);
+
     bool scatters;    ///< no two samples go the same way: a picture needs more of them
     double path_cost; ///< time of a path, that of a smooth metal being 1
     LiveApproximation live;

@@ -19,6 +19,8 @@ LightProbe mirrored(const LightProbe& probe, const MaterialSettings&) { return p
 template <> const MaterialModel& material_model<MaterialKind::smooth_conductor>() {
     static constexpr MaterialModel model{
         .scatter = scatter,
+        .density = nullptr,
+        .take = nullptr,
         .scatters = false,
         .path_cost = 1.0,
         .live = {LiveApproximation::Shading::metal, mirrored, [](const MaterialSettings&) { return 0.0f; }}};

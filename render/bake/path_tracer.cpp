@@ -22,14 +22,20 @@ glm::vec3 facing(glm::vec3 normal, glm::vec3 to_eye) {
     return cosine >= least ? normal : glm::normalize(normal + (least - cosine) * to_eye);
 }
 
+constexpr float least_height = 1e-5f;
+
+bool is_above(glm::vec3 direction, glm::vec3 surface_normal) {
+    return glm::dot(direction, surface_normal) >= least_height;
+}
+
 /// A direction that a shading normal sends below the surface itself is mirrored back above it: nothing gets
 /// lost and nothing leaks.
 glm::vec3 above(glm::vec3 direction, glm::vec3 surface_normal) {
-    constexpr float least = 1e-5f;
     const float height = glm::dot(direction, surface_normal);
-    return height >= least
+    return height >= least_height
                ? direction
-               : glm::normalize(direction + (2.0f * least - 2.0f * std::min(height, 0.0f)) * surface_normal);
+               : glm::normalize(direction +
+                                (2.0f * least_height - 2.0f * std::min(height, 0.0f)) * surface_normal);
 }
 
 /// Ends a path that carries little of what it set out with by chance, and lets it carry more if it goes on:
@@ -66,6 +72,9 @@ bool PathTracer::add_sample(const PathRay& from_eye, SampleSequence& sequence, B
 
 void PathTracer::follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, Bins& sum) {
     Bins carried = Bins::filled(1.0f);
+    const bool aims = light_->aim() != nullptr && scene_->model().density != nullptr;
+    // Density of the path's direction where it could have been aimed, too; 0: where not.
+    float density = 0.0f;
     for (int event = 0; event < most_events; ++event) {
         glm::vec3 surface_normal = hit.triangle_normal, normal = hit.shading_normal;
         const bool from_behind = glm::dot(surface_normal, ray.direction) > 0.0f;
@@ -78,10 +87,16 @@ void PathTracer::follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, B
             ray.origin = hit.position - scene_->step_off() * surface_normal;
         } else {
             const glm::vec3 to_eye = -ray.direction;
-            const glm::vec3 onward =
-                scene_->model().scatter(*scene_, {to_eye, facing(normal, to_eye)}, sequence, carried);
+            const SurfaceEvent surface{to_eye, facing(normal, to_eye)};
+            if (aims)
+                add_aimed(surface, hit, surface_normal, carried, sequence, sum);
+            const glm::vec3 onward = scene_->model().scatter(*scene_, surface, sequence, carried);
             if (onward == glm::vec3(0.0f))
                 return;
+            if (aims) {
+                density = is_above(onward, surface_normal) ? scene_->model().density(*scene_, surface, onward)
+                                                           : 0.0f;
+            }
             ray.direction = above(onward, surface_normal);
             ray.origin = hit.position + scene_->step_off() * surface_normal;
             if (!goes_on(carried, 1.0f, sequence))
@@ -90,10 +105,33 @@ void PathTracer::follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, B
         ++rays_;
         hit = scene_->tree().first_hit(ray, no_limit, false);
         if (hit.surface < 0) {
-            add_lit(sum, carried, light_->basis(), light_->towards(ray.direction, turn_));
+            glm::vec3 light = light_->towards(ray.direction, turn_);
+            if (density > 0.0f)
+                light *= density / (density + light_->aim()->density(ray.direction, turn_));
+            add_lit(sum, carried, light_->basis(), light);
             return;
         }
     }
+}
+
+void PathTracer::add_aimed(const SurfaceEvent& event, const SurfaceHit& hit, glm::vec3 surface_normal,
+                           const Bins& carried, SampleSequence& sequence, Bins& sum) {
+    const glm::vec3 direction = light_->aim()->direction(sequence.next_two(), turn_);
+    if (!is_above(direction, surface_normal))
+        return;
+    // Its share of the sum of both densities, times what the surface passes on by its own.
+    const float own = scene_->model().density(*scene_, event, direction);
+    if (own <= 0.0f)
+        return;
+    const float share = own / (own + light_->aim()->density(direction, turn_));
+    const glm::vec3 light = light_->towards(direction, turn_);
+    ++rays_;
+    if (scene_->tree().first_distance({hit.position + scene_->step_off() * surface_normal, direction},
+                                      false) >= 0.0f)
+        return;
+    Bins passed = carried;
+    scene_->model().take(*scene_, event, direction, passed);
+    add_lit(sum, passed, light_->basis(), share * light);
 }
 
 void PathTracer::follow_coated(CoatedPath& path, SampleSequence sequence, Bins& sum) {

@@ -9,8 +9,13 @@
 
 namespace overt {
 
+struct SurfaceEvent;
+
 /// Follows paths from the eye. The surface is asked for a direction, and what leaves the figure looks up the
-/// light: no lamp is aimed at, which under a broad sky pays as well and has no seams.
+/// light. Where the light has compact sources (SpectralLight::aim), each surface that scatters also sends a
+/// path to one of them, and each path counts by the balance heuristic: its density of the sum of both (Veach
+/// 1997, "Robust Monte Carlo Methods for Light Transport Simulation", 9.2). Under a broad sky no lamp is
+/// aimed at.
 class PathTracer {
   public:
     /// Both must outlive the tracer. `turn`: see SpectralLight::share_of_turn.
@@ -35,6 +40,9 @@ class PathTracer {
         bool has_split = false;
     };
 
+    /// Light from a surface that scatters towards the eye, by way of a source that is aimed at.
+    void add_aimed(const SurfaceEvent& event, const SurfaceHit& hit, glm::vec3 surface_normal,
+                   const Bins& carried, SampleSequence& sequence, Bins& sum);
     void follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, Bins& sum);
     void follow_coated(CoatedPath& path, SampleSequence sequence, Bins& sum);
     bool meet_coat(CoatedPath& path, const SurfaceHit& hit, SampleSequence& sequence, Bins& sum);

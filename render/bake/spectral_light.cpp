@@ -36,6 +36,9 @@ SpectralLight::SpectralLight(const LightProbe& probe, double exposure, double ro
                 probe.radiance.at((x + across + size_.x) % size_.x, row);
         }
     }
+    aim_.emplace(probe);
+    if (!aim_->pays())
+        aim_.reset();
     for (std::size_t channel = 0; channel < 3; ++channel)
         basis_[channel] = Bins::of(light_basis()[channel]);
     if (probe.negative_texels > 0) {

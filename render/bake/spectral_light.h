@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiment/protocol/protocol.h"
+#include "render/bake/light_aim.h"
 #include "render/bake/spectral_bins.h"
 #include "render/image/light_probe.h"
 
@@ -25,6 +27,12 @@ class SpectralLight {
     /// `turn` of share_of_turn(). Bilinear between texels, round the horizon and across the poles.
     glm::vec3 towards(glm::vec3 direction, float turn) const;
 
+    /// Where paths are aimed at, or null where the light is broad: LightAim::pays.
+    const LightAim* aim() const { return aim_ ? &*aim_ : nullptr; }
+
+    /// For comparisons: paths find sources by chance alone.
+    void aim_nowhere() { aim_.reset(); }
+
     /// What an object's turn adds to a direction's place in the probe: the object stays, its surroundings
     /// turn back.
     float share_of_turn(Degrees angle) const;
@@ -40,6 +48,7 @@ class SpectralLight {
     glm::ivec2 size_{0}; ///< of the probe
     int stride_ = 0;     ///< texels of a row, with a column more at each side
     std::vector<glm::vec4> texels_;
+    std::optional<LightAim> aim_;
     RgbBasis basis_;
     double exposure_ = 1.0;
     double rotation_deg_ = 0.0;

@@ -1,5 +1,6 @@
 #include "render/image/light_probe.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -8,6 +9,7 @@
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
 #include "experiment/base/random.h"
+#include "render/image/gallery_probe.h"
 
 namespace overt {
 
@@ -134,6 +136,8 @@ LightProbe load_light_probe(const LightSettings& light) {
     LightProbe probe;
     if (light.probe == "overcast") {
         probe = overcast_city_probe();
+    } else if (light.probe == "gallery") {
+        probe = gallery_probe();
     } else {
         probe.radiance = read_linear_image(light.probe);
         const glm::ivec2 size = probe.radiance.size_px;
@@ -161,13 +165,20 @@ LightProbe load_light_probe(const LightSettings& light) {
 LightProbe blurred_by_ggx(const LightProbe& probe, double alpha, glm::ivec2 size_px) {
     if (alpha <= 0.0)
         return probe;
-    const LightProbe source = reduced(probe, {256, 128});
+    // A sample stands for the directions about it that no other sample stands for: it looks up a picture
+    // whose texels are as large (Krivanek and Colbert 2008, "Real-time Shading with Filtered Importance
+    // Sampling").
+    std::array<LightProbe, 4> sources;
+    for (std::size_t level = 0; level < sources.size(); ++level)
+        sources[level] = reduced(probe, glm::ivec2(256, 128) / (1 << level));
+    constexpr int samples = 192;
+    constexpr float texel_sr = 2.0f * pi * pi / (256.0f * 128.0f);
     const auto alpha_squared = static_cast<float>(alpha * alpha);
     return probe_of(size_px, [&](glm::vec3 mirror) {
         const Frame frame(mirror);
         glm::vec3 sum(0.0f);
         float weights = 0.0f;
-        for (int i = 0; i < 192; ++i) {
+        for (int i = 0; i < samples; ++i) {
             const glm::vec2 point = r2_point(i);
             // Micro-normals by the GGX distribution: tan^2 = alpha^2 u / (1 - u) (Walter et al. 2007, eq.
             // 35).
@@ -181,7 +192,15 @@ LightProbe blurred_by_ggx(const LightProbe& probe, double alpha, glm::ivec2 size
             const float weight = glm::dot(light, mirror);
             if (weight <= 0.0f)
                 continue;
-            sum += weight * source.towards(light);
+            // Of the mirrored direction, head-on: a quarter of the micro-normals' density.
+            const float spread = cosine * cosine * (alpha_squared + tan_squared);
+            const float density = alpha_squared / (4.0f * pi * spread * spread);
+            const float level =
+                glm::clamp(0.5f * std::log2(1.0f / (static_cast<float>(samples) * density * texel_sr)) + 0.5f,
+                           0.0f, static_cast<float>(sources.size() - 1));
+            const auto finer = std::min(static_cast<std::size_t>(level), sources.size() - 2);
+            sum += weight * glm::mix(sources[finer].towards(light), sources[finer + 1].towards(light),
+                                     level - static_cast<float>(finer));
             weights += weight;
         }
         return sum / weights;

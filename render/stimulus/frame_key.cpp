@@ -2,6 +2,7 @@
 
 #include "experiment/scene/metal_table.h"
 #include "render/bake/frame_baker.h"
+#include "render/image/gallery_probe.h"
 #include "render/stimulus/stimulus_renderer.h"
 
 namespace overt {
@@ -38,7 +39,12 @@ void add_to(ContentHasher& hasher, const BakeSettings& settings) {
 ContentHash hash_of_surroundings(const LightSettings& light) {
     const auto& [probe, exposure, rotation_deg] = light;
     ContentHasher hasher;
-    hasher.add(std::string_view(probe == "overcast" ? probe : hash_of_file(probe))).add(rotation_deg);
+    hasher.add(std::string_view(light.is_file() ? hash_of_file(probe) : probe)).add(rotation_deg);
+    // The overcast sky is as it always was, and no path is aimed in it.
+    if (probe == "gallery")
+        hasher.add(gallery_probe_version);
+    if (probe != "overcast")
+        hasher.add(aimed_paths_version);
     return hasher.finish();
 }
 

@@ -61,6 +61,7 @@ TEST_CASE("whatever makes a traced frame changes its key, and nothing else does"
         {"bumps", [](Inputs& i) { i.material.coat_bump *= 1.001; }},
         {"reflectance", [](Inputs& i) { i.material.reflectance[0] *= 1.001; }},
         {"probe", [&](Inputs& i) { i.light.probe = probe.string(); }},
+        {"gallery", [](Inputs& i) { i.light.probe = "gallery"; }},
         {"rotation", [](Inputs& i) { i.light.rotation_deg = 1.0; }},
         {"samples", [](Inputs& i) { i.settings.samples += 1; }},
         {"target error", [](Inputs& i) { i.settings.target_error_de = 0.5; }},
