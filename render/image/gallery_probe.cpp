@@ -52,7 +52,7 @@ constexpr std::array<Lamp, 6> lamps{{{{1.8, -3.4, 3.3}, 0.16, 55.0},
 
 /// The sun stands in a pane of the first window.
 glm::dvec3 sun_direction() { return glm::normalize(Place(-5.0, -4.38, 1.85)); }
-constexpr double sun_radiance = 900.0, sun_radius = 0.024;
+constexpr double sun_radiance = 400.0, sun_radius = 0.024;
 
 /// 0 on a bar of the window's frame, else 1; less than 0: not in the window.
 double glass_at(const Window& window, double along, double z) {

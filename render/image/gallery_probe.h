@@ -9,7 +9,7 @@ namespace overt {
 constexpr int gallery_probe_version = 1;
 
 /// Of the gallery over all directions.
-constexpr double gallery_mean_luminance = 1.0;
+constexpr double gallery_mean_luminance = 0.4;
 
 /// A hall of a museum in the late afternoon, drawn by its geometry: tall windows to the left and one behind
 /// the camera with a bluish sky and a low sun, warm lamps on the ceiling and one that stands, patches of sun,
