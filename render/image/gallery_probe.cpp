@@ -220,7 +220,7 @@ LightProbe make_gallery() {
         light += sine * row_light[static_cast<std::size_t>(row)] / size.x;
         angle += sine;
     }
-    const float factor = static_cast<float>(gallery_mean_luminance * angle / light);
+    const auto factor = static_cast<float>(gallery_mean_luminance * angle / light);
     for (glm::vec4& pixel : probe.radiance.pixels)
         pixel = glm::vec4(factor * glm::vec3(pixel), 1.0f);
     return probe;
