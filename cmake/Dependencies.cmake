@@ -25,3 +25,5 @@ pkg_check_modules(SQLITE REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(PORTAUDIO REQUIRED IMPORTED_TARGET portaudio-2.0)
 pkg_check_modules(SNDFILE REQUIRED IMPORTED_TARGET sndfile)
 find_package(SQLiteCpp REQUIRED)
+# Draws the maps in report.html; r111, with its licence in the page.
+find_file(OVERT_THREE_JS three.min.js PATHS /usr/share/javascript/three REQUIRED)

@@ -2,7 +2,9 @@
 # underscores) in namespace overt::embedded, in a header generated at build time. Shaders travel in the executable this way.
 function(overt_embed_text target header)
     set(output ${CMAKE_CURRENT_BINARY_DIR}/generated/${header})
-    list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE inputs)
+    # Files of a package are named by their whole path.
+    set(inputs ${ARGN})
+    list(TRANSFORM inputs PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ REGEX "^[^/]")
     string(REPLACE ";" "," joined "${inputs}")
     add_custom_command(
         OUTPUT ${output}

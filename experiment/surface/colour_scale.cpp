@@ -1,0 +1,45 @@
+#include "experiment/surface/colour_scale.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "colour_scale_tables.h"
+#include "experiment/base/error.h"
+
+namespace overt {
+namespace {
+
+ColourTable read_table(std::string_view csv) {
+    ColourTable table{};
+    csv.remove_prefix(csv.find('\n') + 1);
+    const char* at = csv.data();
+    for (auto& colour : table) {
+        for (std::uint8_t& channel : colour) {
+            const auto [end, failure] = std::from_chars(at, csv.data() + csv.size(), channel);
+            OVERT_EXPECTS(failure == std::errc{});
+            at = end + 1; // past the comma or the line's end
+        }
+    }
+    return table;
+}
+
+} // namespace
+
+const ColourTable& colour_table(ColourMap map) {
+    static const ColourTable viridis = read_table(embedded::viridis_csv);
+    static const ColourTable cividis = read_table(embedded::cividis_csv);
+    static const ColourTable coolwarm = read_table(embedded::coolwarm_csv);
+    return map == ColourMap::viridis ? viridis : map == ColourMap::cividis ? cividis : coolwarm;
+}
+
+std::string_view name_of(ColourMap map) {
+    return map == ColourMap::viridis ? "viridis" : map == ColourMap::cividis ? "cividis" : "coolwarm";
+}
+
+double linear_of_srgb(std::uint8_t channel) {
+    const double value = channel / 255.0;
+    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+} // namespace overt
