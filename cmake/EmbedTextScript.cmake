@@ -6,7 +6,9 @@ foreach(input IN LISTS INPUTS)
     string(REPLACE "." "_" name ${name})
     string(REPLACE "-" "_" name ${name})
     file(READ ${input} content)
-    string(APPEND text "inline constexpr std::string_view ${name} = R\"overt_text(${content})overt_text\";\n")
+    # Through an array: compilers refuse to count the characters of a long text.
+    string(APPEND text "inline constexpr char ${name}_text[] = R\"overt_text(${content})overt_text\";\n"
+                       "inline constexpr std::string_view ${name}{${name}_text, sizeof(${name}_text) - 1};\n")
 endforeach()
 string(APPEND text "} // namespace overt::embedded\n")
 file(WRITE ${OUTPUT} "${text}")

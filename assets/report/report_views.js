@@ -57,14 +57,14 @@ function lit(scene, camera) {
 }
 
 // One orbit for all linked views: angles about the sculpture and a distance in radii.
-const orbit = {turn: 0, tilt: 0.12, away: 3.3, views: [],
+const orbit = {turn: 0, tilt: 0.12, away: 4.7, views: [],
   change(turn, tilt, factor) {
     this.turn += turn;
     this.tilt = Math.max(-1.5, Math.min(1.5, this.tilt + tilt));
-    this.away = Math.max(1.2, Math.min(9, this.away * factor));
+    this.away = Math.max(1.2, Math.min(12, this.away * factor));
     this.show();
   },
-  look(turn) { this.turn = turn; this.tilt = 0.12; this.away = 3.3; this.show(); },
+  look(turn) { this.turn = turn; this.tilt = 0.12; this.away = 4.7; this.show(); },
   show() { for (const view of this.views) view.draw(); }};
 
 class MapView {

@@ -1,0 +1,89 @@
+// Put into a copy of the page by the test: uses each control and writes what it saw into the page.
+'use strict';
+const seen = {errors: [], steps: []};
+window.addEventListener('error', e => seen.errors.push(String(e.message)));
+for (const level of ['error', 'warn']) console[level] = (...words) => seen.errors.push(words.join(' '));
+
+window.addEventListener('load', () => setTimeout(() => {
+  const by = id => document.getElementById(id);
+  // The share of pixels that are not white, and a number that changes with the picture.
+  const look = stage => {
+    const canvas = by(stage).querySelector('canvas');
+    if (!canvas) return {filled: 0, sum: 0};
+    const small = document.createElement('canvas');
+    small.width = small.height = 64;
+    const pen = small.getContext('2d');
+    pen.drawImage(canvas, 0, 0, 64, 64);
+    const bytes = pen.getImageData(0, 0, 64, 64).data;
+    let filled = 0, sum = 0;
+    for (let i = 0; i < bytes.length; i += 4) {
+      if (bytes[i] + bytes[i + 1] + bytes[i + 2] < 720) ++filled;
+      sum = (sum * 31 + bytes[i] + 7 * bytes[i + 1] + 13 * bytes[i + 2]) % 1000000007;
+    }
+    return {filled: filled / 4096, sum};
+  };
+  const step = (name, change, of) => {
+    const before = of();
+    try { change(); } catch (failure) { seen.errors.push(name + ': ' + failure); }
+    seen.steps.push({name, changed: JSON.stringify(before) !== JSON.stringify(of())});
+  };
+  const choose = (id, index) => {
+    const select = by(id);
+    select.selectedIndex = index;
+    select.dispatchEvent(new Event('change'));
+  };
+  const both = () => [look('stage_a').sum, look('stage_b').sum, by('legend').innerHTML.length];
+  const key = (name, stage) => by(stage).querySelector('canvas').dispatchEvent(new KeyboardEvent('keydown', {key: name, cancelable: true}));
+  seen.blank = ['stage_a', 'stage_b', 'stage_trial'].filter(stage => look(stage).filled < 0.02);
+  step('drag with arrows turns both views', () => key('ArrowLeft', 'stage_a'), () => look('stage_b').sum);
+  step('plus comes nearer', () => key('+', 'stage_b'), () => look('stage_a').sum);
+  step('home', () => key('Home', 'stage_a'), both);
+  step('left', () => by('view_left').click(), both);
+  step('right', () => by('view_right').click(), both);
+  step('front', () => by('view_front').click(), both);
+  step('wheel', () => by('stage_a').querySelector('canvas').dispatchEvent(new WheelEvent('wheel', {deltaY: 300, cancelable: true})), both);
+  step('click tells a value', () => {
+    const canvas = by('stage_a').querySelector('canvas'), box = canvas.getBoundingClientRect();
+    const at = {clientX: box.left + box.width / 2, clientY: box.top + box.height / 2, pointerId: 1, bubbles: true};
+    canvas.setPointerCapture = () => {};
+    canvas.dispatchEvent(new PointerEvent('pointerdown', at));
+    canvas.dispatchEvent(new PointerEvent('pointerup', at));
+  }, () => by('caption_a').textContent);
+  for (const panel of ['a', 'b'])
+    for (const select of [...by('pick_' + panel).querySelectorAll('select')])
+      if (select.options.length > 1)
+        step(select.id, () => choose(select.id, select.selectedIndex ? 0 : 1), () => [look('stage_' + panel).sum, by('caption_' + panel).textContent]);
+  step('weighting', () => choose('map_weighting', 1), () => by('legend').textContent);
+  step('weighting back', () => choose('map_weighting', 0), () => by('legend').textContent);
+  step('own scale', () => choose('map_scale', 1), () => by('legend').textContent);
+  step('common scale', () => choose('map_scale', 0), () => by('legend').textContent);
+  step('cividis', () => choose('map_colours', 1), both);
+  step('viridis', () => choose('map_colours', 0), both);
+  if (!by('map_kind').options[1].disabled) {
+    step('differences', () => choose('map_kind', 1), both);
+    step('densities', () => choose('map_kind', 0), both);
+  }
+  step('unit of figure 5', () => choose('unit5', 1), () => by('figure5').textContent);
+  const trial = () => [by('trial_caption').textContent, by('trace').innerHTML.length];
+  step('next trial', () => by('trial_after').click(), trial);
+  step('trial before', () => by('trial_before').click(), trial);
+  step('trial by list', () => choose('trial', by('trial').options.length - 1), trial);
+  const overlay = () => [by('stage_trial').querySelector('svg').innerHTML, look('stage_trial').sum];
+  step('time', () => { by('time').value = 2.5; by('time').dispatchEvent(new Event('input')); }, overlay);
+  seen.turned = seen.steps[seen.steps.length - 1].changed;
+  step('only the running fixation', () => by('all_fixations').click(), overlay);
+  step('copy', () => by('copy_methods').click(), () => 0);
+  seen.steps.pop();
+  step('play', () => by('play').click(), () => by('play').textContent);
+  setTimeout(() => {
+    seen.played = Number(by('time').value);
+    by('play').click();
+    seen.bad_texts = ['NaN', 'undefined', '[object', 'Infinity'].filter(word => document.body.innerText.includes(word));
+    seen.svg_nan = [...document.querySelectorAll('svg *')].filter(s => [...s.attributes].some(a => a.value.includes('NaN'))).length;
+    const note = document.createElement('script');
+    note.type = 'application/json';
+    note.id = 'seen';
+    note.textContent = JSON.stringify(seen);
+    document.body.append(note);
+  }, 600);
+}, 300));

@@ -1,0 +1,189 @@
+/// A study with something in each of its tables, made up.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include "experiment/study/study_results.h"
+#include "tests/experiment/surface/flat_and_round.h"
+
+namespace overt::test {
+
+namespace made_up {
+
+inline StudySculpture sculpture(const std::string& id, double radius) {
+    StudySculpture made;
+    auto mesh = std::make_shared<Mesh>(icosphere(radius, 3));
+    made.id = id;
+    made.title = fmt::format("The {}", id);
+    made.part_names = {"body", "head"};
+    made.head = PartIndex{1};
+    made.camera = fit_camera(*mesh, Degrees{12.0}, {1024, 1024}, Degrees{25.0}, 0.05);
+    made.mm_per_unit = 1.0;
+    for (const glm::vec3& position : mesh->positions) {
+        made.seconds_visible.push_back(position.y > 0.3f * static_cast<float>(radius) ? 0.0f : 8.0f);
+        made.exposure_density.push_back(1e-4f);
+    }
+    made.mesh = std::move(mesh);
+    return made;
+}
+
+inline StudyMap map(const StudyResults& study, int group, int on, MapWeighting weighting, double height) {
+    StudyMap made;
+    made.group = group;
+    made.sculpture = on;
+    made.weighting = weighting;
+    const Mesh& mesh = *study.sculptures[static_cast<std::size_t>(on)].mesh;
+    const double radius = glm::length(mesh.positions.front());
+    for (const glm::vec3& position : mesh.positions) {
+        const glm::dvec3 away =
+            glm::dvec3(position) / radius - glm::normalize(glm::dvec3(0.2 * group, -1.0, height));
+        made.density.push_back(static_cast<float>((1.0 + group) * std::exp(-4.0 * glm::dot(away, away))));
+        made.peak = std::max<double>(made.peak, made.density.back());
+    }
+    made.observers = 3;
+    made.trials = 6;
+    made.fixations = 80;
+    made.least_sigma_mm = 28.5;
+    made.most_sigma_mm = 31.0;
+    made.euclidean_leak = 0.042;
+    made.together_mm = 12.5;
+    return made;
+}
+
+inline void add_trial(StudyResults& study, int number) {
+    StudyTrial trial;
+    trial.sculpture = number % 2;
+    trial.label = fmt::format("observer 01, trial {}", number + 1);
+    trial.number = number + 1;
+    trial.keys = study.groups[static_cast<std::size_t>(number)].keys;
+    trial.presentation_s = 8.0;
+    if (number == 3) {
+        trial.excluded = true;
+        trial.why_excluded = "More than half of its samples were lost.";
+    }
+    for (int frame = 0; frame < 240; ++frame)
+        trial.turns.push_back(
+            {frame / 30.0, 25.0 * std::sin(2.0 * std::numbers::pi * frame / 60.0), frame % 60});
+    trial.first_fixation = study.fixations.size();
+    trial.fixations = 20;
+    StudyTrace trace;
+    trace.trial = number;
+    const Mesh& mesh = *study.sculptures[static_cast<std::size_t>(trial.sculpture)].mesh;
+    const auto place = [number](int at) {
+        return ScreenPoint{960.0 + 100.0 * std::sin(at + number), 540.0 + 120.0 * std::cos(1.3 * at)};
+    };
+    for (int i = 0; i < 20; ++i) {
+        StudyFixation fixation;
+        fixation.trial = number;
+        fixation.onset_s = 0.4 * i;
+        fixation.duration_s = 0.2 + 0.005 * i;
+        fixation.place = place(i);
+        fixation.triangle = static_cast<std::uint32_t>(i * 61 % 1280);
+        fixation.position = mesh.positions[mesh.triangles[*fixation.triangle].x];
+        fixation.part = PartIndex{0};
+        if (i % 7 == 3)
+            fixation.why = NotCounted::too_short;
+        trace.events.push_back({GazeEvent::Kind::fixation, fixation.onset_s, fixation.duration_s});
+        trace.events.push_back({GazeEvent::Kind::saccade, fixation.onset_s + fixation.duration_s, 0.04});
+        study.fixations.push_back(fixation);
+        for (int k = 0; k < 100; ++k) {
+            const double moved = std::clamp((0.004 * k - fixation.duration_s) / 0.04, 0.0, 1.0);
+            StudyTracePoint point{fixation.onset_s + 0.004 * k, std::nullopt, 1000.0f};
+            if (i != 9 || k > 30)
+                point.gaze = ScreenPoint{std::lerp(place(i).x_px, place(i + 1).x_px, moved),
+                                         std::lerp(place(i).y_px, place(i + 1).y_px, moved)};
+            trace.points.push_back(point);
+        }
+    }
+    study.traces.push_back(std::move(trace));
+    study.trials.push_back(std::move(trial));
+}
+
+} // namespace made_up
+
+/// Two tasks, two sculptures, two materials. Its texts try to break out of the page.
+inline StudyResults made_up_study() {
+    StudyResults study;
+    study.glance = {"A </script><script>throw 1</script> study",
+                    3,
+                    3,
+                    4,
+                    1,
+                    64000,
+                    80,
+                    68,
+                    {{NotCounted::too_short, 12}},
+                    14.0,
+                    true};
+    study.remarks = {"One session has <b>another</b> protocol.", "{{DATA}} </script> <!-- <script>"};
+    study.by = {"task", "sculpture", "material"};
+    study.parameters = {{"sigma", "1", "deg", "The kernel's standard deviation is 1 degree."}};
+    StudySession session;
+    session.folder = "sub-01_ses-01";
+    session.observer = "01";
+    session.tracker = "simulated";
+    session.events = "Fixations are those that the tracker told.";
+    session.is_simulated = true;
+    study.sessions.push_back(session);
+    study.session_quality.push_back({});
+    study.sculptures = {made_up::sculpture("ball", 50.0), made_up::sculpture("globe", 80.0)};
+    for (const std::string task : {"free", "age"}) {
+        for (const int on : {0, 1}) {
+            for (const std::string material : {"smooth", "rough"}) {
+                const auto group = static_cast<int>(study.groups.size());
+                const std::string& id = study.sculptures[static_cast<std::size_t>(on)].id;
+                study.groups.push_back(
+                    {{{"task", task}, {"sculpture", id}, {"material", material}}, {}, 3, 40});
+                const double height = task == "free" ? 0.3 : 0.9;
+                for (const MapWeighting weighting : {MapWeighting::duration, MapWeighting::count})
+                    study.maps.push_back(made_up::map(study, group, on, weighting, height));
+                DistributionRow row;
+                row.group = group;
+                row.sculpture = on;
+                row.wss_mm2 = Estimate::of(500.0 + 20.0 * group, Interval{400.0, 700.0});
+                row.wss_deg2 = Estimate::of(0.5);
+                row.variance_mm2 = {100.0, 200.0, 200.0 + 20.0 * group};
+                study.distributions.push_back(row);
+                study.head_fractions.push_back(
+                    {study.groups.back().keys, Estimate::of(0.3 + 0.05 * group, Interval{0.2, 0.8}),
+                     Estimate::none("one observer only"), 0.31, std::nullopt, 3, 6, 40});
+            }
+        }
+        study.head_fractions.push_back(
+            {{{"task", task}}, Estimate::of(0.4, Interval{0.3, 0.5}), {}, 0.4, {}, 3, 6, 40});
+        for (int second = 0; second < 8; ++second)
+            study.time_course.push_back({{"task", task},
+                                         1.0 * second,
+                                         second + 1.0,
+                                         Estimate::of(0.3 + 0.02 * second, Interval{0.2, 0.6}),
+                                         3});
+    }
+    study.maps.back().density.clear();
+    study.maps.back().absent = "No fixation was counted.";
+    PairRow pair;
+    pair.column = "material";
+    pair.a = "rough";
+    pair.b = "smooth";
+    pair.wss_difference_mm2 = Estimate::of(11.4, Interval{-3.0, 26.0});
+    pair.cc.value = Estimate::of(0.35, Interval{0.3, 0.4});
+    pair.cc.ceiling = Estimate::of(0.36);
+    pair.sim_mit.value = Estimate::none("no visible vertex");
+    study.pairs.push_back(pair);
+    DifferenceMap difference;
+    difference.column = "material";
+    difference.a = "rough";
+    difference.b = "smooth";
+    for (std::size_t v = 0; v < study.maps[0].density.size(); ++v)
+        difference.difference.push_back(study.maps[0].density[v] - study.maps[2].density[v]);
+    difference.clusters.push_back({{1, 2}, 30.0, 12.0, 0.03});
+    study.differences.push_back(difference);
+    study.metrics.emplace_back();
+    for (int trial = 0; trial < 4; ++trial)
+        made_up::add_trial(study, trial);
+    return study;
+}
+
+} // namespace overt::test
