@@ -51,7 +51,8 @@ TEST_CASE("the report's data come back from the page, whatever a session's texts
     CHECK(data["tables"]["heads"][0]["duration"]["v"].is_null());
     CHECK(data["trials"][3]["excluded"] == "More than half of its samples were lost.");
     CHECK(page.find("<title>A &lt;/script>") != page.npos);
-    CHECK(page.find("src=") == page.npos);
+    CHECK(page.find("<script src") == page.npos);
+    CHECK(page.find("<link rel=\"stylesheet") == page.npos);
     CHECK(between(page, "<script>", "</script>").find("REVISION=\"111\"") != std::string::npos);
 }
 

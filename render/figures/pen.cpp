@@ -1,0 +1,126 @@
+#include "render/figures/pen.h"
+
+#include <memory>
+#include <numbers>
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <pango/pangocairo.h>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/base/whole_file.h"
+
+namespace overt {
+namespace {
+
+constexpr double points_per_mm = 72.0 / 25.4;
+
+class CairoPen final : public FigurePen {
+  public:
+    explicit CairoPen(cairo_t* cairo) : cairo_(cairo) {
+        cairo_scale(cairo_, points_per_mm, points_per_mm);
+        cairo_set_line_join(cairo_, CAIRO_LINE_JOIN_ROUND);
+    }
+    void line(glm::dvec2 from, glm::dvec2 to, FigureColour colour, double width_mm) override {
+        path({from, to}, colour, width_mm);
+    }
+    void path(const std::vector<glm::dvec2>& points, FigureColour colour, double width_mm) override {
+        take(colour);
+        cairo_set_line_width(cairo_, width_mm);
+        for (const glm::dvec2& point : points)
+            cairo_line_to(cairo_, point.x, point.y);
+        cairo_stroke(cairo_);
+    }
+    void box(glm::dvec2 corner, glm::dvec2 size, FigureColour colour) override {
+        take(colour);
+        cairo_rectangle(cairo_, corner.x, corner.y, size.x, size.y);
+        cairo_fill(cairo_);
+    }
+    void dot(glm::dvec2 centre, double radius_mm, FigureColour colour, double opacity) override {
+        take(colour, opacity);
+        cairo_arc(cairo_, centre.x, centre.y, radius_mm, 0.0, 2.0 * std::numbers::pi);
+        cairo_fill(cairo_);
+    }
+    void text(glm::dvec2 at, std::string_view text, double points, TextAlign align, FigureColour colour,
+              bool upwards) override {
+        take(colour);
+        const std::unique_ptr<PangoLayout, decltype(&g_object_unref)> layout(
+            pango_cairo_create_layout(cairo_), &g_object_unref);
+        const std::unique_ptr<PangoFontDescription, decltype(&pango_font_description_free)> font(
+            pango_font_description_from_string("DejaVu Sans"), &pango_font_description_free);
+        // The page is scaled to millimetres: letters are given in them.
+        pango_font_description_set_absolute_size(font.get(), points / points_per_mm * PANGO_SCALE);
+        pango_layout_set_font_description(layout.get(), font.get());
+        // No hinting: widths are those of the print, not of a screen.
+        cairo_font_options_t* options = cairo_font_options_create();
+        cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+        cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+        pango_cairo_context_set_font_options(pango_layout_get_context(layout.get()), options);
+        cairo_font_options_destroy(options);
+        pango_layout_set_text(layout.get(), text.data(), static_cast<int>(text.size()));
+        PangoRectangle extent;
+        pango_layout_get_extents(layout.get(), nullptr, &extent);
+        const double width = static_cast<double>(extent.width) / PANGO_SCALE;
+        const double baseline = static_cast<double>(pango_layout_get_baseline(layout.get())) / PANGO_SCALE;
+        cairo_save(cairo_);
+        cairo_translate(cairo_, at.x, at.y);
+        if (upwards)
+            cairo_rotate(cairo_, -0.5 * std::numbers::pi);
+        const double share = align == TextAlign::left ? 0.0 : align == TextAlign::centre ? 0.5 : 1.0;
+        cairo_move_to(cairo_, -share * width, -baseline);
+        pango_cairo_show_layout(cairo_, layout.get());
+        cairo_restore(cairo_);
+    }
+
+  private:
+    void take(FigureColour colour, double opacity = 1.0) {
+        cairo_set_source_rgba(cairo_, colour[0], colour[1], colour[2], opacity);
+    }
+    cairo_t* cairo_;
+};
+
+cairo_status_t append(void* text, const unsigned char* bytes, unsigned count) {
+    static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
+    return CAIRO_STATUS_SUCCESS;
+}
+
+std::string drawn(cairo_surface_t* (*make)(cairo_write_func_t, void*, double, double), glm::dvec2 size_mm,
+                  const std::function<void(FigurePen&)>& draw, bool is_pdf) {
+    std::string bytes;
+    cairo_surface_t* surface = make(&append, &bytes, size_mm.x * points_per_mm, size_mm.y * points_per_mm);
+    // The same figure is the same file.
+    if (is_pdf)
+        cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "1970-01-01T00:00:00Z");
+    cairo_t* cairo = cairo_create(surface);
+    CairoPen pen(cairo);
+    draw(pen);
+    cairo_show_page(cairo);
+    const cairo_status_t status = cairo_status(cairo);
+    cairo_destroy(cairo);
+    cairo_surface_finish(surface);
+    cairo_surface_destroy(surface);
+    if (status != CAIRO_STATUS_SUCCESS)
+        throw Error(fmt::format("a figure cannot be drawn: {}", cairo_status_to_string(status)));
+    return bytes;
+}
+
+} // namespace
+
+FigureColour figure_colour(std::size_t number) {
+    static constexpr FigureColour colours[] = {
+        {0.0, 0.447, 0.698},   {0.902, 0.624, 0.0}, {0.0, 0.620, 0.451},   {0.8, 0.475, 0.655},
+        {0.337, 0.706, 0.914}, {0.835, 0.369, 0.0}, {0.941, 0.894, 0.259}, {0.3, 0.3, 0.3}};
+    return colours[number % std::size(colours)];
+}
+
+void save_figure(const std::filesystem::path& folder, const std::string& name, glm::dvec2 size_mm,
+                 const std::function<void(FigurePen&)>& draw) {
+    write_whole_file(folder / fmt::format("{}.svg", name),
+                     drawn(&cairo_svg_surface_create_for_stream, size_mm, draw, false));
+    write_whole_file(folder / fmt::format("{}.pdf", name),
+                     drawn(&cairo_pdf_surface_create_for_stream, size_mm, draw, true));
+}
+
+} // namespace overt
