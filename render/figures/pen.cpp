@@ -59,6 +59,9 @@ class CairoPen final : public FigurePen {
         cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
         pango_cairo_context_set_font_options(pango_layout_get_context(layout.get()), options);
         cairo_font_options_destroy(options);
+        // A unit is a millimetre: letters would otherwise stand at whole ones of a screen.
+        pango_context_set_round_glyph_positions(pango_layout_get_context(layout.get()), FALSE);
+        pango_layout_context_changed(layout.get());
         pango_layout_set_text(layout.get(), text.data(), static_cast<int>(text.size()));
         PangoRectangle extent;
         pango_layout_get_extents(layout.get(), nullptr, &extent);
@@ -75,7 +78,9 @@ class CairoPen final : public FigurePen {
     }
 
   private:
+    // Colour, and a path that does not begin where the last text was.
     void take(FigureColour colour, double opacity = 1.0) {
+        cairo_new_path(cairo_);
         cairo_set_source_rgba(cairo_, colour[0], colour[1], colour[2], opacity);
     }
     cairo_t* cairo_;
@@ -106,6 +111,16 @@ std::string drawn(cairo_surface_t* (*make)(cairo_write_func_t, void*, double, do
     return bytes;
 }
 
+// Cairo numbers the surfaces of a program; a figure's name for itself must not depend on those before.
+std::string without_numbers(std::string svg) {
+    constexpr std::string_view name = "\"surface";
+    for (std::size_t at = svg.find(name); at != svg.npos; at = svg.find(name, at + 1)) {
+        const std::size_t begin = at + name.size(), end = svg.find_first_not_of("0123456789", begin);
+        svg.erase(begin, end - begin);
+    }
+    return svg;
+}
+
 } // namespace
 
 FigureColour figure_colour(std::size_t number) {
@@ -118,7 +133,7 @@ FigureColour figure_colour(std::size_t number) {
 void save_figure(const std::filesystem::path& folder, const std::string& name, glm::dvec2 size_mm,
                  const std::function<void(FigurePen&)>& draw) {
     write_whole_file(folder / fmt::format("{}.svg", name),
-                     drawn(&cairo_svg_surface_create_for_stream, size_mm, draw, false));
+                     without_numbers(drawn(&cairo_svg_surface_create_for_stream, size_mm, draw, false)));
     write_whole_file(folder / fmt::format("{}.pdf", name),
                      drawn(&cairo_pdf_surface_create_for_stream, size_mm, draw, true));
 }

@@ -82,8 +82,8 @@ bool head_fractions(const StudyResults& results, const std::filesystem::path& fo
             if (row.by_count.interval)
                 whisker(pen, x, axes.up(std::max(0.0, row.by_count.interval->low)),
                         axes.up(std::min(1.0, row.by_count.interval->high)));
-            pen.text({x, axes.floor() + 3.8 + 3.2 * static_cast<double>(i % 2)}, values_of(row.keys), 6.0,
-                     TextAlign::centre);
+            pen.text({x, axes.floor() + 3.8 + (rows.size() > 5 ? 3.2 * static_cast<double>(i % 2) : 0.0)},
+                     values_of(row.keys), 6.0, TextAlign::centre);
         }
     });
     return true;

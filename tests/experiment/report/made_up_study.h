@@ -6,6 +6,8 @@
 #include <numbers>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "experiment/study/study_results.h"
 #include "tests/experiment/surface/flat_and_round.h"
 

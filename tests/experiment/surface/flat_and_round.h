@@ -1,6 +1,7 @@
 /// Surfaces on which distances and heat are known.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
