@@ -17,7 +17,9 @@ class Bids final : public ExportFormat {
     }
 
     std::string write(const ExportRequest& request) const override {
-        RecordedSurfaces surfaces(request.record);
+        // Trials of all sculptures come in turn.
+        RecordedSurfaces surfaces(request.record, RecordedSurfaces::Keep::all,
+                                  CoordinateMaps::Use::few_lookups);
         const BidsExportCounts counts =
             export_bids(request.record, [&](int sculpture) { return surfaces.lookup_of(sculpture); },
                         request.folder, {request.overwrite, with_answers_, request.progress});

@@ -6,7 +6,6 @@
 
 #include "experiment/base/content_hash.h"
 #include "experiment/base/error.h"
-#include "experiment/base/parallel.h"
 #include "experiment/scene/mesh_reader.h"
 #include "experiment/stimulus/sculpture.h"
 
@@ -29,22 +28,21 @@ Mesh recorded_mesh(const std::filesystem::path& file) {
     }
 }
 
-/// Calls read(pose, file) for each map of a sculpture that is of this kind, on all processors, once it is
-/// known that the file is the one recorded.
-template <class Read>
-void read_maps(const SessionRecord& record, int sculpture, RecordedMap::Kind kind, const Read& read) {
-    std::vector<const RecordedMap*> maps;
-    for (const RecordedMap& map : record.header().maps) {
+/// A sculpture's maps of one kind, by pose; null where there is none.
+std::vector<const RecordedMap*> maps_of(const SessionHeader& header, int sculpture, RecordedMap::Kind kind) {
+    std::vector<const RecordedMap*> maps(header.poses.angles.size(), nullptr);
+    for (const RecordedMap& map : header.maps)
         if (map.sculpture == sculpture && map.kind == kind)
-            maps.push_back(&map);
-    }
-    parallel_for(static_cast<int>(maps.size()), [&](int i) {
-        const RecordedMap& map = *maps[static_cast<std::size_t>(i)];
-        const std::filesystem::path file = record.directory() / map.file;
-        if (!std::filesystem::is_regular_file(file) || hash_of_file(file) != map.sha256)
-            throw not_as_recorded(file, "map");
-        read(static_cast<std::size_t>(map.pose.value), file);
-    });
+            maps[static_cast<std::size_t>(map.pose.value)] = &map;
+    return maps;
+}
+
+/// Where a map lies, once it is known that the file is the one recorded.
+std::filesystem::path sound_file(const SessionRecord& record, const RecordedMap& map) {
+    std::filesystem::path file = record.directory() / map.file;
+    if (!std::filesystem::is_regular_file(file) || hash_of_file(file) != map.sha256)
+        throw not_as_recorded(file, "map");
+    return file;
 }
 
 } // namespace
@@ -82,28 +80,33 @@ void RecordedSurfaces::load_maps(Surface& surface, int sculpture) const {
     if (hash_of_mesh(surface.mesh) != recorded.mesh_sha256)
         throw not_as_recorded(mesh_file, "mesh");
     SceneView scene{{recorded.camera, header.display.screen.image_px}, surface.mesh.bounds()};
-    // A pose that was never lit in a session with live maps has an empty one.
     const glm::ivec2 image_px = header.display.screen.image_px;
     const std::size_t pixels = static_cast<std::size_t>(image_px.x) * static_cast<std::size_t>(image_px.y);
-    std::vector<TriangleMap> maps(header.poses.angles.size(), {image_px, std::vector<std::uint32_t>(pixels)});
-    read_maps(
-        *record_, sculpture, RecordedMap::Kind::triangles,
-        [&](std::size_t pose, const std::filesystem::path& file) { maps[pose] = read_triangle_map(file); });
-    surface.maps =
-        std::make_unique<CoordinateMaps>(surface.mesh, scene, header.poses.angles, std::move(maps), use_);
+    const auto maps = maps_of(header, sculpture, RecordedMap::Kind::triangles);
+    surface.maps = std::make_unique<CoordinateMaps>(
+        surface.mesh, scene, header.poses.angles,
+        [&](PoseIndex pose) {
+            // A pose that was never lit in a session with live maps has an empty one.
+            const RecordedMap* const map = maps[static_cast<std::size_t>(pose.value)];
+            return map ? read_triangle_map(sound_file(*record_, *map))
+                       : TriangleMap{image_px, std::vector<std::uint32_t>(pixels)};
+        },
+        use_);
 }
 
 void RecordedSurfaces::load_images(Surface& surface, int sculpture) const {
     const SessionHeader& header = record_->header();
-    std::vector<CoordinateImageFile> maps(header.poses.angles.size());
-    read_maps(*record_, sculpture, RecordedMap::Kind::coordinates,
-              [&](std::size_t pose, const std::filesystem::path& file) {
-                  maps[pose] = read_coordinate_image(file);
-              });
+    const auto maps = maps_of(header, sculpture, RecordedMap::Kind::coordinates);
     // Without maps there is no surface; a sculpture with ready-made maps has one of every pose.
-    if (maps.front().image.pixels.empty())
+    if (!maps.front())
         return;
-    surface.images = std::make_unique<CoordinateImageLookup>(std::move(maps), header.display.screen.image_px);
+    surface.images = std::make_unique<CoordinateImageLookup>(
+        maps.size(),
+        [&](PoseIndex pose) {
+            const RecordedMap* const map = maps[static_cast<std::size_t>(pose.value)];
+            return map ? read_coordinate_image(sound_file(*record_, *map)) : CoordinateImageFile{};
+        },
+        header.display.screen.image_px);
 }
 
 } // namespace overt

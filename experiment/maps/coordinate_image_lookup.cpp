@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/parallel.h"
 #include "experiment/maps/surface_walk.h"
 
 namespace overt {
@@ -35,15 +36,26 @@ double median_step(const CoordinateImage& image) {
 } // namespace
 
 CoordinateImageLookup::CoordinateImageLookup(std::vector<CoordinateImageFile> maps, glm::ivec2 image_px)
+    : CoordinateImageLookup(
+          maps.size(), [&](PoseIndex pose) { return std::move(maps[static_cast<std::size_t>(pose.value)]); },
+          image_px) {}
+
+CoordinateImageLookup::CoordinateImageLookup(std::size_t poses,
+                                             const std::function<CoordinateImageFile(PoseIndex)>& map_of,
+                                             glm::ivec2 image_px)
     : image_px_(image_px) {
-    for (CoordinateImageFile& map : maps) {
+    std::vector<std::optional<Patches>> patches(poses);
+    parallel_for(static_cast<int>(poses), [&](int pose) {
+        const CoordinateImageFile map = map_of({pose});
         if (map.image.size_px != image_px) {
             throw InputError(fmt::format("a map of {} x {} pixels was given for an image of {} x {}",
                                          map.image.size_px.x, map.image.size_px.y, image_px.x, image_px.y));
         }
-        patches_.push_back(patches_of(map, image_px));
-        map.image = {}; // they are large
-    }
+        patches[static_cast<std::size_t>(pose)].emplace(patches_of(map, image_px));
+    });
+    patches_.reserve(poses);
+    for (std::optional<Patches>& of_pose : patches)
+        patches_.push_back(*std::move(of_pose));
 }
 
 CoordinateImageLookup::Patches CoordinateImageLookup::patches_of(const CoordinateImageFile& map,
@@ -61,8 +73,8 @@ CoordinateImageLookup::Patches CoordinateImageLookup::patches_of(const Coordinat
             parts.push_back(image.parts[i]);
         numbers.codes[i] = static_cast<std::uint32_t>(places.size());
     }
-    Patches patches{PoseCells(numbers, PixelFlags(numbers.codes.size(), 0)), std::move(places),
-                    std::move(parts), median_step(image), std::nullopt};
+    Patches patches{PoseCells(numbers), std::move(places), std::move(parts), median_step(image),
+                    std::nullopt};
     const MapDescription& description = map.description;
     if (description.camera && description.bounds && description.angle)
         patches.sight.emplace(SceneView{{*description.camera, image_px}, *description.bounds},
@@ -73,7 +85,7 @@ CoordinateImageLookup::Patches CoordinateImageLookup::patches_of(const Coordinat
 const glm::vec3* CoordinateImageLookup::place_of(const Patches& patches, glm::ivec2 pixel) {
     if (!patches.cells.is_inside(pixel))
         return nullptr;
-    const PixelCell& cell = patches.cells.cell(pixel);
+    const PixelCell cell = patches.cells.cell(pixel);
     return cell.is_covered() ? &patches.places[cell.triangle()] : nullptr;
 }
 

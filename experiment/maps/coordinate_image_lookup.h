@@ -2,6 +2,7 @@
 /// coordinate-encoded maps.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "experiment/maps/coordinate_image_file.h"
@@ -27,6 +28,11 @@ class CoordinateImageLookup final : public SurfaceLookup {
   public:
     /// `maps` by PoseIndex. Throws InputError if one has another size than `image_px`.
     CoordinateImageLookup(std::vector<CoordinateImageFile> maps, glm::ivec2 image_px);
+
+    /// The same from maps that are read one by one, for they are large: `map_of` is asked once for each of
+    /// the `poses`, from several threads at once.
+    CoordinateImageLookup(std::size_t poses, const std::function<CoordinateImageFile(PoseIndex)>& map_of,
+                          glm::ivec2 image_px);
 
     std::optional<SurfacePoint> surface_at(PoseIndex pose, glm::dvec2 point_px) const override;
     void look(std::span<const ImagePlace> places, std::span<Sight* const> sights) const override;

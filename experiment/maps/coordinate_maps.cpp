@@ -18,48 +18,53 @@ namespace {
 /// that is there, the triangle that it shows.
 constexpr std::size_t cells_ahead = 16, triangles_ahead = 8;
 
-void check_maps(const Mesh& mesh, glm::ivec2 image_px, const std::vector<TriangleMap>& maps) {
-    for (const TriangleMap& map : maps) {
-        if (map.size_px != image_px) {
-            throw InputError(fmt::format("a map of {} x {} pixels was given for an image of {} x {}",
-                                         map.size_px.x, map.size_px.y, image_px.x, image_px.y));
-        }
-        if (*std::max_element(map.codes.begin(), map.codes.end()) > mesh.triangles.size()) {
-            throw InputError(fmt::format(
-                "a map names a triangle that the mesh of {} does not have: it belongs to another mesh",
-                mesh.triangles.size()));
-        }
+void check_map(const Mesh& mesh, glm::ivec2 image_px, const TriangleMap& map) {
+    if (map.size_px != image_px) {
+        throw InputError(fmt::format("a map of {} x {} pixels was given for an image of {} x {}",
+                                     map.size_px.x, map.size_px.y, image_px.x, image_px.y));
     }
-    if (mesh.triangles.size() > PixelCell::most_triangles)
-        throw InputError(fmt::format("a mesh of {} triangles is too large for a map", mesh.triangles.size()));
+    if (*std::max_element(map.codes.begin(), map.codes.end()) > mesh.triangles.size()) {
+        throw InputError(fmt::format(
+            "a map names a triangle that the mesh of {} does not have: it belongs to another mesh",
+            mesh.triangles.size()));
+    }
 }
 
 } // namespace
 
 CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene, const std::vector<Degrees>& angles,
                                std::vector<TriangleMap> maps, Use use)
+    : CoordinateMaps(
+          mesh, scene, angles,
+          [&](PoseIndex pose) {
+              OVERT_EXPECTS(angles.size() == maps.size());
+              return std::move(maps[static_cast<std::size_t>(pose.value)]);
+          },
+          use) {}
+
+CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene, const std::vector<Degrees>& angles,
+                               const std::function<TriangleMap(PoseIndex)>& map_of, Use use)
     : mesh_(&mesh), image_px_(scene.view.image_px), walk_(mesh), caster_(mesh) {
-    OVERT_EXPECTS(angles.size() == maps.size());
-    check_maps(mesh, image_px_, maps);
+    if (mesh.triangles.size() > PixelCell::most_triangles)
+        throw InputError(fmt::format("a mesh of {} triangles is too large for a map", mesh.triangles.size()));
     for (const Degrees angle : angles)
         sight_lines_.emplace_back(scene, angle);
     std::optional<Contours> contours;
     if (use == Use::many_lookups)
         contours.emplace(mesh);
-    std::vector<std::optional<PoseCells>> cells(maps.size());
-    parallel_for(static_cast<int>(maps.size()), [&](int index) {
+    std::vector<std::optional<PoseCells>> cells(angles.size());
+    parallel_for(static_cast<int>(angles.size()), [&](int index) {
         const auto pose = static_cast<std::size_t>(index);
-        PixelFlags contested;
-        if (contours) {
-            contested =
-                contours->touched_pixels(sight_lines_[pose], image_px_,
-                                         farthest_visible_depths(maps[pose], sight_lines_[pose], walk_));
-            flag_discontinuities(maps[pose], sight_lines_[pose], walk_, contested);
-        } else {
-            contested.assign(maps[pose].codes.size(), 1);
+        const TriangleMap map = map_of({index});
+        check_map(mesh, image_px_, map);
+        if (!contours) {
+            cells[pose].emplace(map);
+            return;
         }
-        cells[pose].emplace(maps[pose], contested);
-        maps[pose] = {};
+        PixelFlags contested = contours->touched_pixels(
+            sight_lines_[pose], image_px_, farthest_visible_depths(map, sight_lines_[pose], walk_));
+        flag_discontinuities(map, sight_lines_[pose], walk_, contested);
+        cells[pose].emplace(map, contested);
     });
     cells_.reserve(cells.size());
     for (std::optional<PoseCells>& of_pose : cells)
@@ -117,9 +122,7 @@ std::optional<SurfacePoint> CoordinateMaps::surface_at(PoseIndex pose, glm::dvec
 void CoordinateMaps::fetch_cell(const ImagePlace& place) const {
     if (!is_in_image(place.point_px))
         return;
-    const PoseCells& of_pose = cells(place.pose);
-    __builtin_prefetch(&of_pose.cell(glm::ivec2(place.point_px)));
-    of_pose.fetch_outline(glm::ivec2(place.point_px));
+    cells(place.pose).fetch(glm::ivec2(place.point_px));
 }
 
 void CoordinateMaps::fetch_triangle(const ImagePlace& place) const {

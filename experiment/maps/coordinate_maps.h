@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "experiment/maps/pose_cells.h"
@@ -33,6 +34,11 @@ class CoordinateMaps final : public SurfaceLookup {
     /// has another size than the view or names a triangle that the mesh does not have.
     CoordinateMaps(const Mesh& mesh, const SceneView& scene, const std::vector<Degrees>& angles,
                    std::vector<TriangleMap> maps, Use use = Use::many_lookups);
+
+    /// The same from maps that are made one by one, so that never all of them are in memory: `map_of` is
+    /// asked once for each pose, from several threads at once.
+    CoordinateMaps(const Mesh& mesh, const SceneView& scene, const std::vector<Degrees>& angles,
+                   const std::function<TriangleMap(PoseIndex)>& map_of, Use use = Use::many_lookups);
 
     std::optional<SurfacePoint> surface_at(PoseIndex pose, glm::dvec2 point_px) const override;
     void look(std::span<const ImagePlace> places, std::span<Sight* const> sights) const override;

@@ -11,7 +11,15 @@ namespace {
 
 constexpr std::int16_t none = -1;
 
-/// By pixel, the row of the nearest pixel of the set in the same column, or none.
+/// The parabola (x - column)² + height², which a column's nearest pixel of the set raises over a row.
+struct Parabola {
+    int column;
+    std::int64_t height_squared;
+    int from; ///< first x at which it is the lowest
+};
+
+} // namespace
+
 std::vector<std::int16_t> nearest_rows(const std::vector<std::uint8_t>& in_set, glm::ivec2 size) {
     const auto width = static_cast<std::size_t>(size.x), height = static_cast<std::size_t>(size.y);
     std::vector<std::int16_t> rows(in_set.size());
@@ -32,15 +40,6 @@ std::vector<std::int16_t> nearest_rows(const std::vector<std::uint8_t>& in_set, 
     }
     return rows;
 }
-
-/// The parabola (x - column)² + height², which a column's nearest pixel of the set raises over a row.
-struct Parabola {
-    int column;
-    std::int64_t height_squared;
-    int from; ///< first x at which it is the lowest
-};
-
-} // namespace
 
 std::vector<glm::i16vec2> nearest_pixels(const std::vector<std::uint8_t>& in_set, glm::ivec2 size) {
     OVERT_EXPECTS(size.x > 0 && size.y > 0 && size.x <= 16384 && size.y <= 16384);

@@ -17,7 +17,8 @@ std::size_t area_of(glm::ivec2 size) {
 
 } // namespace
 
-PoseCells::PoseCells(const TriangleMap& map, const PixelFlags& contested) : size_px_(map.size_px) {
+PoseCells::PoseCells(const TriangleMap& map, const PixelFlags& contested)
+    : size_px_(map.size_px), cells_size_(map.size_px) {
     OVERT_EXPECTS(map.codes.size() == area_of(size_px_) && contested.size() == map.codes.size());
     PixelFlags covered(map.codes.size());
     std::transform(map.codes.begin(), map.codes.end(), covered.begin(),
@@ -33,12 +34,30 @@ PoseCells::PoseCells(const TriangleMap& map, const PixelFlags& contested) : size
                     : PixelCell::uncovered(glm::ivec2(nearest_covered[i]) - glm::ivec2(x, y), contested[i]));
         }
     }
-    measure_extents();
+    measure_extents(map);
     if (any_covered_ && any_uncovered_)
         find_outline_from_inside(map);
 }
 
-void PoseCells::measure_extents() {
+PoseCells::PoseCells(const TriangleMap& map) : size_px_(map.size_px) {
+    OVERT_EXPECTS(map.codes.size() == area_of(size_px_));
+    measure_extents(map);
+    if (!any_covered_)
+        return;
+    cells_begin_ = box_begin_;
+    cells_size_ = box_end_ - box_begin_;
+    cells_.reserve(area_of(cells_size_));
+    for (int y = box_begin_.y; y < box_end_.y; ++y) {
+        for (int x = box_begin_.x; x < box_end_.x; ++x) {
+            const std::uint32_t code = map.code_at(x, y);
+            cells_.push_back(code != 0 ? PixelCell::covered(code - 1, true) : beside_cells_);
+        }
+    }
+    if (any_uncovered_)
+        find_rows_of_other_kind(map);
+}
+
+void PoseCells::measure_extents(const TriangleMap& map) {
     row_extents_.resize(static_cast<std::size_t>(size_px_.y));
     column_extents_.resize(static_cast<std::size_t>(size_px_.x));
     box_begin_ = size_px_;
@@ -48,17 +67,24 @@ void PoseCells::measure_extents() {
         extent.last = std::max(extent.last, static_cast<std::int16_t>(to));
     };
     for (int y = 0; y < size_px_.y; ++y) {
-        for (int x = 0; x < size_px_.x; ++x) {
-            if (!cell({x, y}).is_covered()) {
-                any_uncovered_ = true;
+        const auto row = map.codes.begin() + static_cast<std::ptrdiff_t>(y) * size_px_.x;
+        const auto row_end = row + size_px_.x;
+        const auto is_covered = [](std::uint32_t code) { return code != 0; };
+        const auto first = std::find_if(row, row_end, is_covered);
+        any_uncovered_ = any_uncovered_ || first != row || std::find(row, row_end, 0u) != row_end;
+        if (first == row_end)
+            continue;
+        any_covered_ = true;
+        for (auto at = first; at != row_end; ++at) {
+            if (*at == 0)
                 continue;
-            }
-            any_covered_ = true;
+            const int x = static_cast<int>(at - row);
             widen(row_extents_[static_cast<std::size_t>(y)], x);
             widen(column_extents_[static_cast<std::size_t>(x)], y);
-            box_begin_ = glm::min(box_begin_, glm::ivec2(x, y));
-            box_end_ = glm::max(box_end_, glm::ivec2(x + 1, y + 1));
         }
+        const Extent extent = row_extents_[static_cast<std::size_t>(y)];
+        box_begin_ = glm::min(box_begin_, glm::ivec2(extent.first, y));
+        box_end_ = glm::max(box_end_, glm::ivec2(extent.last + 1, y + 1));
     }
 }
 
@@ -97,6 +123,71 @@ void PoseCells::find_outline_from_inside(const TriangleMap& map) {
         }
     }
     OVERT_EXPECTS(rim_.size() <= 1u << 24);
+}
+
+void PoseCells::find_rows_of_other_kind(const TriangleMap& map) {
+    // Uncovered pixels also above and below the box, where the image has any.
+    const int top = std::max(box_begin_.y - 1, 0), bottom = std::min(box_end_.y + 1, size_px_.y);
+    const glm::ivec2 size(cells_size_.x, bottom - top);
+    PixelFlags covered(area_of(size)), uncovered(area_of(size));
+    std::size_t i = 0;
+    for (int y = top; y < bottom; ++y) {
+        for (int x = box_begin_.x; x < box_end_.x; ++x, ++i) {
+            covered[i] = map.code_at(x, y) != 0;
+            uncovered[i] = !covered[i];
+        }
+    }
+    const std::vector<std::int16_t> to_covered = nearest_rows(covered, size),
+                                    to_uncovered = nearest_rows(uncovered, size);
+    row_of_other_kind_.resize(area_of(cells_size_));
+    const std::size_t skipped =
+        static_cast<std::size_t>(box_begin_.y - top) * static_cast<std::size_t>(size.x);
+    for (std::size_t k = 0; k < row_of_other_kind_.size(); ++k) {
+        const std::int16_t row = covered[k + skipped] ? to_uncovered[k + skipped] : to_covered[k + skipped];
+        row_of_other_kind_[k] = static_cast<std::int16_t>(row < 0 ? row : row + top);
+    }
+}
+
+/// The row of a column's pixel that is nearest to a row and covered, or not; -1 if there is none. Uncovered
+/// ones are only asked for from within the box.
+int PoseCells::nearest_row_in_column(int column, int row, bool covered) const {
+    if (is_in_box({column, row})) {
+        const std::size_t place = place_in_box({column, row});
+        return cells_[place].is_covered() == covered ? row : row_of_other_kind_[place];
+    }
+    if (!covered)
+        return row;
+    const Extent extent = column_extents_[static_cast<std::size_t>(column)];
+    return extent.first > extent.last ? -1 : row < box_begin_.y ? extent.first : extent.last;
+}
+
+/// The pixel that is covered, or not, whose centre is nearest; of several the one farthest to the left.
+glm::ivec2 PoseCells::nearest_along_row(glm::ivec2 pixel, bool covered) const {
+    // Beside the box nothing is covered, and the first column beside it is uncovered all along.
+    const int margin = covered ? 0 : 1;
+    const int first = std::max(box_begin_.x - margin, 0), end = std::min(box_end_.x + margin, size_px_.x);
+    glm::ivec2 nearest(-1);
+    std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    const auto try_column = [&](int column) {
+        if (column < first || column >= end)
+            return;
+        const int row = nearest_row_in_column(column, pixel.y, covered);
+        if (row < 0)
+            return;
+        const std::int64_t across = column - pixel.x, along = row - pixel.y;
+        const std::int64_t squared = across * across + along * along;
+        if (squared < least || (squared == least && column < nearest.x)) {
+            least = squared;
+            nearest = {column, row};
+        }
+    };
+    const int begin = std::max({0, first - pixel.x, pixel.x - (end - 1)});
+    for (std::int64_t step = begin; step <= size_px_.x && step * step <= least; ++step) {
+        try_column(pixel.x - static_cast<int>(step));
+        if (step > 0)
+            try_column(pixel.x + static_cast<int>(step));
+    }
+    return nearest;
 }
 
 glm::dvec2 PoseCells::outline_from_beyond_the_image(glm::dvec2 point) const {
@@ -140,25 +231,39 @@ std::optional<glm::dvec2> PoseCells::outline_near(glm::dvec2 point, bool on_surf
     const PixelCell here = cell(pixel);
     if (here.is_covered() != on_surface)
         return point;
+    if (!row_of_other_kind_.empty())
+        return nearest_place_of(nearest_along_row(pixel, !on_surface), point);
     return nearest_place_of(on_surface ? nearest_uncovered(pixel) : pixel + here.to_outline(), point);
 }
 
-void PoseCells::fetch_outline(glm::ivec2 pixel) const {
-    if (pixel.x >= box_begin_.x && pixel.y >= box_begin_.y && pixel.x < box_end_.x && pixel.y < box_end_.y &&
-        !nearest_rim_.empty())
+void PoseCells::fetch(glm::ivec2 pixel) const {
+    const glm::ivec2 at = pixel - cells_begin_;
+    if (at.x >= 0 && at.y >= 0 && at.x < cells_size_.x && at.y < cells_size_.y)
+        __builtin_prefetch(&cells_[cell_index(at)]);
+    if (!is_in_box(pixel))
+        return;
+    if (!nearest_rim_.empty())
         __builtin_prefetch(&nearest_rim_[place_in_box(pixel)]);
+    else if (!row_of_other_kind_.empty())
+        __builtin_prefetch(&row_of_other_kind_[place_in_box(pixel)]);
 }
 
 TriangleMap PoseCells::map() const {
-    TriangleMap map{size_px_, std::vector<std::uint32_t>(cells_.size())};
-    std::transform(cells_.begin(), cells_.end(), map.codes.begin(),
-                   [](PixelCell cell) { return cell.is_covered() ? cell.triangle() + 1 : 0u; });
+    TriangleMap map{size_px_, {}};
+    map.codes.reserve(area_of(size_px_));
+    for (int y = 0; y < size_px_.y; ++y) {
+        for (int x = 0; x < size_px_.x; ++x) {
+            const PixelCell here = cell({x, y});
+            map.codes.push_back(here.is_covered() ? here.triangle() + 1 : 0u);
+        }
+    }
     return map;
 }
 
 std::size_t PoseCells::memory_bytes() const {
     return cells_.capacity() * sizeof(PixelCell) + rim_.capacity() * sizeof(glm::i16vec2) +
            nearest_rim_.capacity() * sizeof(std::uint16_t) + nearest_rim_high_.capacity() +
+           row_of_other_kind_.capacity() * sizeof(std::int16_t) +
            (row_extents_.capacity() + column_extents_.capacity()) * sizeof(Extent);
 }
 

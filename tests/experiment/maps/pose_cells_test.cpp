@@ -115,8 +115,32 @@ TEST_CASE("without an object in the image, or without background, there is no ou
 }
 
 TEST_CASE("cells give the map back", "[unit]") {
-    const TriangleMap map = blobs({60, 48}, 3, 6);
-    CHECK(PoseCells(map, PixelFlags(map.codes.size(), 1)).map().codes == map.codes);
+    for (const int discs : {0, 1, 6}) {
+        const TriangleMap map = blobs({60, 48}, 3, discs);
+        CHECK(PoseCells(map, PixelFlags(map.codes.size(), 1)).map().codes == map.codes);
+        CHECK(PoseCells(map).map().codes == map.codes);
+    }
+}
+
+TEST_CASE("cells for few questions answer what those for many do, to the last bit", "[unit]") {
+    RandomStream random(7, "points");
+    for (const glm::ivec2 size : {glm::ivec2(60, 48), {1, 30}, {30, 1}, {3, 3}, {16, 90}}) {
+        for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+            const TriangleMap map = blobs(size, seed, static_cast<int>(seed) - 1);
+            const PoseCells many(map, PixelFlags(map.codes.size(), 1)), few(map);
+            for (int i = 0; i < 400; ++i) {
+                const glm::dvec2 point(random.uniform(-0.3, 1.3) * size.x,
+                                       random.uniform(-0.3, 1.3) * size.y);
+                CHECK(few.outline_near(point, false) == many.outline_near(point, false));
+                CHECK(few.outline_near(point, true) == many.outline_near(point, true));
+                const glm::ivec2 pixel(glm::floor(point));
+                if (!many.is_inside(pixel))
+                    continue;
+                CHECK(few.cell(pixel).is_covered() == many.cell(pixel).is_covered());
+                CHECK(few.cell(pixel).is_contested());
+            }
+        }
+    }
 }
 
 TEST_CASE("an outline of more than 65,536 pixels is kept in full", "[unit]") {
