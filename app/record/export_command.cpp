@@ -77,6 +77,8 @@ int run_export(const ExportOptions& options) {
         bar.finish();
         fmt::print("{}", said);
     }
+    if (options.sessions.size() > 1 && !options.out.empty() && !entry->joins_sessions)
+        fmt::print("{}", format->write_pooled(options.format, options.sessions, options.out));
     return 0;
 }
 

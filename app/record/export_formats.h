@@ -33,6 +33,14 @@ class ExportFormat {
     /// Adds what only this format takes. Its values live as long as the format.
     virtual void add_options(CLI::App& /*command*/) {}
 
+    /// Where several sessions are written to folders of their own in one: what belongs to all of them
+    /// together. Gives the lines that tell of it. Throws RecordError.
+    virtual std::string write_pooled(std::string_view /*format*/,
+                                     const std::vector<std::filesystem::path>& /*sessions*/,
+                                     const std::filesystem::path& /*folder*/) const {
+        return {};
+    }
+
     /// Writes the session and gives the lines that tell of it. Throws InputError and RecordError.
     virtual std::string write(const ExportRequest& request) const = 0;
 };

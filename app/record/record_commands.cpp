@@ -14,7 +14,7 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
     CLI::App& command = add_command(
         app, "import", "Makes an EyeLink recording (ASC) into a session, or its gaze into that of one",
         "overt import p07.asc --observer 07 --screen-mm 698.4 392.9 --distance-mm 1750\n"
-        "  overt import p07.asc --into sessions/overt_2019/sub-07_ses-01 --out with_gaze");
+        "  overt import p07.asc --into sessions/overt_2019/sub-07_ses-01");
     command
         .add_option(
             "FILE", options.files,
@@ -30,7 +30,7 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
     command
         .add_option("--out", options.out,
                     "The new session's folder (default: by task and observer in --sessions; with --into "
-                    "beside the session, as NAME_gaze)")
+                    "the session's name in a folder FOLDER_imports beside the FOLDER that holds it)")
         ->type_name("DIR");
     command.add_option("--sessions", options.sessions, "Folder of all sessions")
         ->type_name("DIR")

@@ -29,9 +29,7 @@ class Tables final : public ExportFormat {
                                   cone_deg_ ? CoordinateMaps::Use::many_lookups
                                             : CoordinateMaps::Use::few_lookups);
         TableExportOptions options;
-        for (const TableFormat format : {TableFormat::tsv, TableFormat::csv, TableFormat::jsonl})
-            if (request.format == ending_of(format))
-                options.format = format;
+        options.format = format_named(request.format);
         options.overwrite = request.overwrite;
         if (cone_deg_)
             options.cone_accuracy = Degrees{*cone_deg_};
@@ -52,7 +50,23 @@ class Tables final : public ExportFormat {
                            request.folder.string());
     }
 
+    std::string write_pooled(std::string_view format, const std::vector<std::filesystem::path>& sessions,
+                             const std::filesystem::path& folder) const override {
+        std::vector<ParticipantRow> rows;
+        for (const std::filesystem::path& session : sessions)
+            rows.push_back(participant_row(SessionRecord(session)));
+        return fmt::format("participants: {}\n",
+                           write_participants(rows, folder, format_named(format)).string());
+    }
+
   private:
+    static TableFormat format_named(std::string_view name) {
+        for (const TableFormat format : {TableFormat::csv, TableFormat::jsonl})
+            if (name == ending_of(format))
+                return format;
+        return TableFormat::tsv;
+    }
+
     std::optional<double> cone_deg_;
 };
 

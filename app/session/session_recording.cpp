@@ -51,6 +51,7 @@ void describe_sculptures(SessionHeader& header, const Protocol& protocol,
         recorded.title = protocol.sculptures[i].title;
         recorded.mesh_sha256 = sculpture.mesh_hash;
         recorded.part_names = sculpture.mesh.part_names;
+        recorded.unit = unit_of_lengths(protocol.sculptures[i]);
         if (sculpture.has_mesh()) {
             recorded.mesh_file = fmt::format("meshes/{}.ply", sculpture.id);
             recorded.camera = sculpture.scene.view.camera;

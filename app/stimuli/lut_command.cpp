@@ -18,8 +18,8 @@ namespace overt {
 
 namespace {
 
-constexpr const char* unit_of_shipped = "mm";
-constexpr const char* unit_of_others = "that of the mesh file, times the protocol's scale";
+/// Where the protocol says that nobody knows it.
+constexpr const char* own_unit = "that of the mesh file, times the protocol's scale";
 
 /// The frames to write, by the distinct pose that they show: each pose is drawn once.
 std::map<PoseIndex, std::vector<int>> frames_by_pose(const Animation& animation, const PoseTable& poses,
@@ -89,10 +89,10 @@ class MapFiles {
     bool exr_, png_;
 };
 
-MapDescription description_of(const Sculpture& sculpture, bool shipped, int scale) {
+MapDescription description_of(const Sculpture& sculpture, std::string_view unit, int scale) {
     MapDescription description;
     description.sculpture = sculpture.id;
-    description.unit = shipped ? unit_of_shipped : unit_of_others;
+    description.unit = unit == "mm" ? unit : own_unit;
     description.bounds = sculpture.scene.bounds;
     description.scale = scale;
     description.camera = sculpture.scene.view.camera;
@@ -163,7 +163,7 @@ int run_lut(const LutOptions& options) {
         rays.emplace(sculpture.mesh);
     std::optional<MapCheck> check;
     std::vector<std::string> written;
-    MapDescription description = description_of(sculpture, !settings.shipped.empty(), options.scale);
+    MapDescription description = description_of(sculpture, unit_of_lengths(settings), options.scale);
     std::future<void> writing; // one map is compressed and written while the next is worked out
     int drawn = 0;
     for (const auto& [pose, numbers] : frames) {

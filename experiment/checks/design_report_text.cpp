@@ -13,6 +13,17 @@ namespace overt {
 
 namespace {
 
+/// What the display makes of a frame rate that it only comes near to; nothing where it is exact.
+std::string difference_of_rates(const DesignReport& report) {
+    const double asked = report.motion.frame_rate_hz;
+    const double shown = report.display.refresh_hz / report.animation.refreshes_per_frame;
+    const double percent = 100.0 * (shown / asked - 1.0);
+    if (std::abs(percent) < 1e-3)
+        return "";
+    return fmt::format(" ({:.2g} % {} than the protocol's {} Hz)", std::abs(percent),
+                       percent < 0.0 ? "slower" : "faster", asked);
+}
+
 std::string in_bytes(double bytes) {
     return bytes < 9.5e6 ? fmt::format("{:.2g} MB", bytes / 1e6)
            : bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6)
@@ -100,9 +111,9 @@ void add_overview(std::string& text, const DesignReport& report) {
          fmt::format("shown: {} at {:.6g} Hz = {:.3f} s = {:.4g} swings to and fro",
                      counted(animation.shown_frames, "frame"), animation.shown_frames / animation.duration_s,
                      animation.duration_s, animation.periods),
-         fmt::format("each frame is lit for {} at {} Hz: {} refreshes",
+         fmt::format("each frame is lit for {} at {} Hz: {} refreshes{}",
                      counted(animation.refreshes_per_frame, "refresh", "refreshes"),
-                     report.display.refresh_hz, animation.refreshes)});
+                     report.display.refresh_hz, animation.refreshes, difference_of_rates(report))});
     add_facts(
         text, "Screen",
         {fmt::format("{} x {} px, {} x {} mm, seen from {} mm: {:.2f} x {:.2f} deg", report.display.width_px,

@@ -47,12 +47,15 @@ bool is_interior(const Hits& hits, glm::ivec2 size, int x, int y, double deepest
     return true;
 }
 
+/// An LSB is the extent of the bounding box on an axis divided by this, whatever the factor of the codes.
+constexpr double lsb_per_extent = 65536.0;
+
 double worst_axis_lsb(const glm::dvec3& difference, const Bounds& bounds) {
     double worst = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
         const double extent = bounds.max[axis] - bounds.min[axis];
         if (extent > 0.0)
-            worst = std::max(worst, std::abs(difference[axis]) * 65536.0 / extent);
+            worst = std::max(worst, std::abs(difference[axis]) * lsb_per_extent / extent);
     }
     return worst;
 }
@@ -86,9 +89,24 @@ double distance_from_surface(const RayCaster& rays, glm::dvec3 place, glm::dvec3
     return nearest;
 }
 
+/// What is left of a place by rounding each of its coordinates to a whole number of `scale` steps of the box;
+/// in LSB. Reckoned without the codec, whose own faults it must not share.
+double rounding_lsb(glm::dvec3 place, const Bounds& bounds, int scale) {
+    const glm::dvec3 extent = bounds.max - bounds.min;
+    double worst = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(extent[axis] > 0.0))
+            continue;
+        const double codes = scale * (place[axis] - bounds.min[axis]) / extent[axis];
+        const double nearest = std::min(std::round(codes), 65535.0);
+        worst = std::max(worst, std::abs(nearest - codes) * lsb_per_extent / scale);
+    }
+    return worst;
+}
+
 /// What the check of some rows finds; errors in LSB.
 struct Findings {
-    std::vector<double> as_float, as_codes;
+    std::vector<double> as_float, as_codes, rounding;
     int covered = 0, differs = 0;
     double farthest = 0.0;
 };
@@ -129,22 +147,28 @@ MapCheck check_map(const CoordinateImage& map, const RayCaster& rays, const Scen
             row.as_float.push_back(worst_axis_lsb(place - hit->position, scene.bounds));
             row.as_codes.push_back(
                 worst_axis_lsb(codec.decode(codec.encode(place)) - hit->position, scene.bounds));
+            row.rounding.push_back(rounding_lsb(hit->position, scene.bounds, scale));
         }
     });
     Findings all;
     for (const Findings& row : of_row) {
         all.as_float.insert(all.as_float.end(), row.as_float.begin(), row.as_float.end());
         all.as_codes.insert(all.as_codes.end(), row.as_codes.begin(), row.as_codes.end());
+        all.rounding.insert(all.rounding.end(), row.rounding.begin(), row.rounding.end());
         all.covered += row.covered;
         all.differs += row.differs;
         all.farthest = std::max(all.farthest, row.farthest);
     }
-    return {all.covered,
-            all.differs,
-            static_cast<int>(all.as_float.size()),
-            errors_of(all.as_float),
-            errors_of(all.as_codes),
-            all.farthest};
+    MapCheck check;
+    check.covered_px = all.covered;
+    check.coverage_differs_px = all.differs;
+    check.interior_px = static_cast<int>(all.as_float.size());
+    check.as_float = errors_of(all.as_float);
+    check.as_codes = errors_of(all.as_codes);
+    check.rounding_mean_lsb = errors_of(all.rounding).mean_lsb;
+    check.excess_lsb = check.as_codes.mean_lsb - check.rounding_mean_lsb;
+    check.farthest_off_surface = all.farthest;
+    return check;
 }
 
 MapCheck worst_of(const MapCheck& one, const MapCheck& other) {
@@ -152,10 +176,16 @@ MapCheck worst_of(const MapCheck& one, const MapCheck& other) {
         return MapErrors{std::max(a.mean_lsb, b.mean_lsb), std::max(a.p99_9_lsb, b.p99_9_lsb),
                          std::max(a.max_lsb, b.max_lsb)};
     };
-    return {
-        one.covered_px + other.covered_px,   std::max(one.coverage_differs_px, other.coverage_differs_px),
-        one.interior_px + other.interior_px, worst(one.as_float, other.as_float),
-        worst(one.as_codes, other.as_codes), std::max(one.farthest_off_surface, other.farthest_off_surface)};
+    MapCheck check;
+    check.covered_px = one.covered_px + other.covered_px;
+    check.coverage_differs_px = std::max(one.coverage_differs_px, other.coverage_differs_px);
+    check.interior_px = one.interior_px + other.interior_px;
+    check.as_float = worst(one.as_float, other.as_float);
+    check.as_codes = worst(one.as_codes, other.as_codes);
+    check.rounding_mean_lsb = std::max(one.rounding_mean_lsb, other.rounding_mean_lsb);
+    check.excess_lsb = std::max(one.excess_lsb, other.excess_lsb);
+    check.farthest_off_surface = std::max(one.farthest_off_surface, other.farthest_off_surface);
+    return check;
 }
 
 } // namespace overt

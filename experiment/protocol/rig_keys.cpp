@@ -46,8 +46,10 @@ Section display() {
                   .unit = "Hz",
                   .low = 1,
                   .high = 1000,
-                  .explanation = "Refresh rate; a whole multiple of `animation.frame_rate_hz`, so that every "
-                                 "frame is lit equally long."},
+                  .explanation =
+                      "Refresh rate; to within 0.2 % a whole multiple of `animation.frame_rate_hz`, so that "
+                      "every frame is lit equally long: at 59.94 Hz a frame of 30 Hz is held for "
+                      "two refreshes, which is 29.97 frames a second, and 8 s last 8.008 s."},
                  &D::refresh_hz},
                 {{.name = "width_mm",
                   .unit = "mm",

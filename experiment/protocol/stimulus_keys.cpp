@@ -4,7 +4,7 @@ namespace overt::key_rows {
 
 namespace {
 
-constexpr std::string_view units[] = {"own", "mm", "cm", "m", "in"};
+constexpr std::string_view units[] = {"mm", "cm", "m", "in", "own"};
 constexpr std::string_view axes[] = {"x", "y", "z", "-x", "-y", "-z"};
 
 Section head() {
@@ -145,7 +145,8 @@ Section animation() {
                   .unit = "Hz",
                   .low = 0.1,
                   .high = 1000,
-                  .explanation = "Frames per second."},
+                  .explanation = "Frames per second, if the refresh rate is a whole multiple of it; see "
+                                 "`display.refresh_hz`."},
                  &A::frame_rate_hz},
                 {{.name = "amplitude_deg",
                   .unit = "deg",
@@ -161,7 +162,7 @@ Section animation() {
                   .unit = "s",
                   .low = 0.01,
                   .high = 3600,
-                  .explanation = "Length of one presentation, a whole number of frames."},
+                  .explanation = "Length of one presentation at `frame_rate_hz`, a whole number of frames."},
                  &A::duration_s},
                 {{.name = "when_late",
                   .explanation = "What becomes of the animation when a picture comes late: it keeps time and "
@@ -207,8 +208,10 @@ Section sculpture() {
                  &S::scale},
                 {{.name = "unit",
                   .choices = units,
-                  .explanation = "Unit of the mesh file. Surface points are recorded in millimetres then; "
-                                 "with \"own\" in whatever unit the file has."},
+                  .explanation =
+                      "Unit of the mesh file's coordinates times `scale`. Surface points, maps and "
+                      "the camera are in millimetres, whatever it is; with \"own\", for a mesh "
+                      "whose unit nobody knows, in the file's, and every export says so."},
                  &S::unit},
                 {{.name = "labels",
                   .if_left_out = "the labels of the mesh file, if it has any",

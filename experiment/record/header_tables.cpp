@@ -64,10 +64,13 @@ constexpr RowColumn<SessionHeader> session_columns[] = {
     column<&Header::display, &Display::output_mode>("output_mode", "by the protocol's word"),
     column<&Header::display, &Display::background>("background", "linear grey, 0 … 1 of the display's white"),
     column<&Header::animation, &Animation::frame_count>("frame_count", "frames of the animation"),
-    column<&Header::animation, &Animation::frame_rate_hz>("frame_rate_hz", "frames to a second"),
+    column<&Header::animation, &Animation::frame_rate_hz>(
+        "frame_rate_hz", "frames to a second, by the protocol; the display shows the nearest rate that its "
+                         "own is a multiple of"),
     column<&Header::animation, &Animation::amplitude>("amplitude_deg", "turn to each side of the front view"),
     column<&Header::animation, &Animation::playback>("playback", "`cycle` or `ping-pong`"),
-    column<&Header::animation, &Animation::duration_s>("duration_s", "of one presentation"),
+    column<&Header::animation, &Animation::duration_s>("duration_s",
+                                                       "of one presentation, by the protocol, at that rate"),
     column<&Header::animation, &Animation::when_late>(
         "when_late", "what becomes of the plan when a picture comes late: `drop` or `stretch`", "'drop'"),
 };
@@ -116,6 +119,10 @@ constexpr RowColumn<RecordedSculpture> sculpture_columns[] = {
     column<&Sculpture::bounds, &Bounds::max, 0>("max_x", "its other corner"),
     column<&Sculpture::bounds, &Bounds::max, 1>("max_y", "likewise"),
     column<&Sculpture::bounds, &Bounds::max, 2>("max_z", "likewise"),
+    column<&Sculpture::unit>("unit",
+                             "of all lengths of the sculpture: `mm`; `own` if nobody knows the unit of its "
+                             "mesh; empty if not recorded",
+                             "''"),
 };
 
 } // namespace

@@ -99,6 +99,9 @@ struct RecordedSculpture {
     Camera camera;              ///< a field of view of 0 if it is not known, as ready-made maps may leave it
     glm::dvec3 axis_point{0.0}; ///< through which the vertical axis of the turn goes
     Bounds bounds;              ///< by which the maps are coded
+    /// Of all its lengths: "mm"; "own" if the protocol does not know it, or if maps came without a mesh and
+    /// do not say it; empty in sessions of earlier programs, which did not write it down.
+    std::string unit = "mm";
 };
 
 struct RecordedMaterial {

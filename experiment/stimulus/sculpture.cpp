@@ -27,6 +27,14 @@ double mm_of(std::string_view unit) {
     return unit == "in" ? 25.4 : 1.0;
 }
 
+} // namespace
+
+std::string_view unit_of_lengths(const SculptureSettings& settings) {
+    return settings.shipped.empty() && settings.unit == "own" ? "own" : "mm";
+}
+
+namespace {
+
 MeshImport import_of(const SculptureSettings& settings) {
     MeshImport import;
     import.up = up_axis_named(settings.up);

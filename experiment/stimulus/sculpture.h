@@ -14,6 +14,9 @@
 
 namespace overt {
 
+/// Of a sculpture's lengths: "mm", or "own" where the protocol does not know the unit of its mesh.
+std::string_view unit_of_lengths(const SculptureSettings& settings);
+
 struct Sculpture {
     std::string id;
     /// Without triangles if the protocol gives none: then its stimuli are frames. Where it gives ready-made

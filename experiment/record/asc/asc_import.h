@@ -49,7 +49,8 @@ AscImportSummary import_asc(const AscFiles& files, const AscImportOptions& optio
 /// the session's readings of the tracker's clock do not go with the file's times, the two are related by the
 /// messages that say when a trial's screens came (see asc_trial.h). The session itself is left as it is.
 ///
-/// `options.out` names the copy, or else it lies beside the session as NAME_gaze. Throws InputError as above,
+/// `options.out` names the copy, or else it has the session's name in the folder FOLDER_imports beside the
+/// FOLDER that the session lies in. Throws InputError as above,
 /// or if no trial fits, or if nothing relates the clocks; RecordError.
 AscImportSummary import_asc_into(const AscFiles& files, const std::filesystem::path& session,
                                  const AscImportOptions& options);

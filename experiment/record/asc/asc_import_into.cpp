@@ -105,6 +105,14 @@ std::vector<ClockPair> pairs_of(const TrialRecord& attempt, const AscTrialTimes&
     return pairs;
 }
 
+/// Beside the folder that holds the sessions, not in it: a pattern such as sessions/NAME/* takes each
+/// observer's session once.
+fs::path place_of_copy(const fs::path& session) {
+    const fs::path sessions = session.parent_path();
+    return sessions.parent_path() / fmt::format("{}_imports", sessions.filename().string()) /
+           session.filename();
+}
+
 void copy_files(const fs::path& from, const fs::path& to) {
     for (auto entry = fs::recursive_directory_iterator(from); entry != fs::recursive_directory_iterator();
          ++entry) {
@@ -169,8 +177,7 @@ AscImportSummary import_asc_into(const AscFiles& files, const fs::path& session,
     const SessionRecord record(session);
     const fs::path folder = fs::absolute(record.directory()).lexically_normal();
     const fs::path named = folder.has_filename() ? folder : folder.parent_path();
-    const fs::path out =
-        options.out.empty() ? named.parent_path() / (named.filename().string() + "_gaze") : options.out;
+    const fs::path out = options.out.empty() ? place_of_copy(named) : options.out;
     if (fs::exists(out))
         throw InputError(fmt::format(
             "{}: exists already and is not overwritten. Name another folder with --out.", out.string()));

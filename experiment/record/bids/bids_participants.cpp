@@ -10,6 +10,7 @@
 #include "experiment/base/json_text.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/record/tables/export_tables.h"
+#include "experiment/record/tables/participant_rows.h"
 #include "experiment/record/tables/table_writer.h"
 
 namespace fs = std::filesystem;
@@ -80,29 +81,9 @@ struct Participants {
     }
 };
 
-TableColumn usual_column(const std::string& name, const std::string& title) {
-    if (name == "participant_id")
-        return {name, "Which observer", "", {}};
-    if (name == "species")
-        return {name, "Species of the observer", "", {}};
-    if (name == "age")
-        return {name, "Age of the observer", "year", {}};
-    if (name == "sex")
-        return {name,
-                "Sex as the observer gave it",
-                "",
-                {{"female", "female"}, {"male", "male"}, {"other", "other, or not to be said"}}};
-    if (name == "handedness")
-        return {name,
-                "Handedness as the observer gave it",
-                "",
-                {{"left", "left"}, {"right", "right"}, {"ambidextrous", "both alike"}}};
-    return {name, title.empty() ? name : title, "", {}};
-}
-
 /// Ages and the like that BIDS knows by certain words only.
 bool is_usual_value(const std::string& name, const std::string& value) {
-    const TableColumn column = usual_column(name, "");
+    const TableColumn column = participant_column(name, "");
     return column.levels.empty() || std::any_of(column.levels.begin(), column.levels.end(),
                                                 [&](const auto& level) { return level.first == value; });
 }
@@ -111,7 +92,8 @@ bool is_usual_value(const std::string& name, const std::string& value) {
 
 std::vector<std::string> add_bids_participant(const fs::path& dataset, const SessionRecord& record) {
     const fs::path table_file = dataset / "participants.tsv", json_file = dataset / "participants.json";
-    const std::string id = "sub-" + record.header().schedule.observer.label;
+    const ParticipantRow participant = participant_row(record);
+    const std::string id = participant.id();
     Participants participants(table_file);
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     if (fs::exists(json_file)) {
@@ -132,13 +114,13 @@ std::vector<std::string> add_bids_participant(const fs::path& dataset, const Ses
                             "stays as it is.",
                             id, name, cell, text));
         if (!json.contains(name))
-            json.update(describe_columns({usual_column(name, title)}, TableFormat::tsv));
+            json.update(describe_columns({participant_column(name, title)}, TableFormat::tsv));
     };
     set("participant_id", "", id);
     set("species", "", "homo sapiens");
     for (const char* name : {"age", "sex", "handedness"})
         set(name, "", "");
-    for (const RecordedObserverField& field : record.observer_fields()) {
+    for (const RecordedObserverField& field : participant.fields) {
         if (is_usual_value(field.id, field.value))
             set(field.id, field.title, field.value);
         else

@@ -25,15 +25,31 @@ std::string_view description_of(TableFormat format) {
 } // namespace
 
 ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& shared,
-                           std::optional<Degrees> cone_accuracy, const std::string& event_origins)
+                           std::optional<Degrees> cone_accuracy, const std::string& event_origins,
+                           const std::vector<ParticipantRow>& participant)
     : trials(trials_layout(shared, header)), flips(ledger_layout(shared, header)),
       samples(samples_layout(shared, header, cone_accuracy)), gaze_events(gaze_events_layout(event_origins)),
       events(events_layout()), responses(responses_layout(shared, header)),
-      stimuli(stimuli_layout(shared, header)), display_box(display_box_layout()) {}
+      stimuli(stimuli_layout(shared, header)), display_box(display_box_layout()),
+      participants(participants_layout(participant)) {
+    const std::vector<LeadingColumn> leading{
+        {{"observer", "Label of the observer", "", {}}, header.schedule.observer.label},
+        {{"session", "Which session of this observer, from 1", "", {}},
+         std::to_string(header.session_number),
+         true}};
+    trials.lead_with(leading);
+    flips.lead_with(leading);
+    samples.lead_with(leading);
+    gaze_events.lead_with(leading);
+    events.lead_with(leading);
+    responses.lead_with(leading);
+    stimuli.lead_with(leading);
+    display_box.lead_with(leading);
+}
 
 std::vector<const Table*> ExportTables::all() const {
-    return {&trials.table(), &flips.table(),     &samples.table(), &gaze_events.table(),
-            &events.table(), &responses.table(), &stimuli.table(), &display_box.table()};
+    return {&trials.table(),    &flips.table(),   &samples.table(),     &gaze_events.table(), &events.table(),
+            &responses.table(), &stimuli.table(), &display_box.table(), &participants.table()};
 }
 
 nlohmann::ordered_json describe_columns(const std::vector<TableColumn>& columns, TableFormat format) {
@@ -55,7 +71,7 @@ std::string table_dictionary(const ExportTables& tables, TableFormat format) {
     dictionary["Description"] = std::string(description_of(format));
     for (const Table* table : tables.all())
         dictionary["Files"][fmt::format("{}.{}", table->name, ending_of(format))] = {
-            {"Description", table->description}, {"Columns", describe_columns(table->columns, format)}};
+            {"Description", table->description}, {"Columns", describe_columns(table->all_columns(), format)}};
     return json_text(dictionary);
 }
 

@@ -11,6 +11,7 @@
 #include "experiment/record/session_header.h"
 #include "experiment/record/tables/gaze_event_rows.h"
 #include "experiment/record/tables/ledger_rows.h"
+#include "experiment/record/tables/participant_rows.h"
 #include "experiment/record/tables/session_tables.h"
 #include "experiment/record/tables/trial_tables.h"
 #include "experiment/units.h"
@@ -21,10 +22,12 @@ namespace overt {
 class ExportTables {
   public:
     /// With the columns of a gaze cone if its accuracy is given. `event_origins`: see gaze_events_layout().
-    /// `header` must outlive it.
+    /// `participant` is the session's. All tables begin with the observer and the number of the session, so
+    /// that those of several sessions can be put one below the other. `header` must outlive it.
     explicit ExportTables(const SessionHeader& header, std::optional<Degrees> cone_accuracy = {},
-                          const std::string& event_origins = {})
-        : ExportTables(header, SharedColumns(header), cone_accuracy, event_origins) {}
+                          const std::string& event_origins = {},
+                          const std::vector<ParticipantRow>& participant = {})
+        : ExportTables(header, SharedColumns(header), cone_accuracy, event_origins, participant) {}
 
     RowLayout<TrialRow> trials;
     RowLayout<LedgerRow> flips;
@@ -34,12 +37,14 @@ class ExportTables {
     RowLayout<TrialRecord> responses;
     RowLayout<RecordedStimulus> stimuli;
     RowLayout<DisplayBoxRow> display_box;
+    RowLayout<ParticipantRow> participants;
 
     std::vector<const Table*> all() const;
 
   private:
     ExportTables(const SessionHeader& header, const SharedColumns& shared,
-                 std::optional<Degrees> cone_accuracy, const std::string& event_origins);
+                 std::optional<Degrees> cone_accuracy, const std::string& event_origins,
+                 const std::vector<ParticipantRow>& participant);
 };
 
 /// Of each column Description, Units and Levels, as in BIDS side cars.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/base/number_text.h"
 #include "experiment/maps/surface_walk.h"
@@ -50,6 +51,32 @@ std::vector<std::string> part_cells_of(const SessionHeader& header, int sculptur
     return cells;
 }
 
+LengthWords length_words(const SessionHeader& header) {
+    std::vector<std::string> own, unknown;
+    for (const RecordedSculpture& sculpture : header.sculptures) {
+        if (sculpture.unit == "own")
+            own.push_back(sculpture.id);
+        else if (sculpture.unit != "mm")
+            unknown.push_back(sculpture.id);
+    }
+    if (own.empty() && unknown.empty())
+        return {"mm", ""};
+    LengthWords words;
+    words.unit = own.size() + unknown.size() < header.sculptures.size() ? "mm, or as the description says"
+                                                                        : "as the description says";
+    if (!own.empty())
+        words.remark += fmt::format("; of {} in the unit of the mesh or map, times the protocol's scale: the "
+                                    "protocol does not know which that is",
+                                    fmt::join(own, ", "));
+    if (!unknown.empty())
+        words.remark +=
+            fmt::format("; of {} in millimetres if the protocol names the unit of the mesh, else in "
+                        "that of the mesh, times the protocol's scale: this session was recorded by "
+                        "an earlier program, which did not write the unit down",
+                        fmt::join(unknown, ", "));
+    return words;
+}
+
 JoinedColumns time_columns() {
     return {
         {session_seconds("time_s", "When the sample was taken"),
@@ -63,7 +90,8 @@ JoinedColumns place_columns(const SessionHeader& header) {
     TableColumn part{"part", "Part of the figure that is looked at", "", {}};
     for (const std::string& name : all_part_names(header))
         part.levels.emplace_back(name, fmt::format("the triangles labelled \"{}\"", name));
-    const std::string mesh_unit = "unit of the mesh";
+    const LengthWords length = length_words(header);
+    const std::string& mesh_unit = length.unit;
     return {
         {{"frame", "Animation frame lit at the gaze's row", "", {}},
          [](auto& to, auto& row) {
@@ -82,17 +110,17 @@ JoinedColumns place_columns(const SessionHeader& header) {
          [](auto& to, auto& row) {
              row.joined.image_px ? to.fixed(row.joined.image_px->y, pixel_decimals) : to.missing();
          }},
-        {{"surface_x", "Place on the unturned surface", mesh_unit, {}},
+        {{"surface_x", fmt::format("Place on the unturned surface{}", length.remark), mesh_unit, {}},
          [](auto& to, auto& row) {
              const auto& surface = row.joined.sight.surface;
              surface ? to.fixed(surface->position.x, surface_decimals) : to.missing();
          }},
-        {{"surface_y", "Place on the unturned surface", mesh_unit, {}},
+        {{"surface_y", fmt::format("Place on the unturned surface{}", length.remark), mesh_unit, {}},
          [](auto& to, auto& row) {
              const auto& surface = row.joined.sight.surface;
              surface ? to.fixed(surface->position.y, surface_decimals) : to.missing();
          }},
-        {{"surface_z", "Place on the unturned surface, upwards", mesh_unit, {}},
+        {{"surface_z", fmt::format("Place on the unturned surface, upwards{}", length.remark), mesh_unit, {}},
          [](auto& to, auto& row) {
              const auto& surface = row.joined.sight.surface;
              surface ? to.fixed(surface->position.z, surface_decimals) : to.missing();
@@ -111,7 +139,10 @@ JoinedColumns place_columns(const SessionHeader& header) {
              const auto index = surface ? static_cast<std::size_t>(surface->part) : row.part_cells.size();
              index < row.part_cells.size() ? to.ready(row.part_cells[index]) : to.missing();
          }},
-        {{"depth", "Distance of the surface from the camera along the viewing direction", mesh_unit, {}},
+        {{"depth",
+          fmt::format("Distance of the surface from the camera along the viewing direction{}", length.remark),
+          mesh_unit,
+          {}},
          [](auto& to, auto& row) {
              const auto& surface = row.joined.sight.surface;
              surface ? to.fixed(surface->depth, surface_decimals) : to.missing();

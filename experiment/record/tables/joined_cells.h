@@ -25,6 +25,13 @@ using JoinedColumns = std::vector<RowLayout<JoinedRow>::Column>;
 /// The names of a sculpture's parts as cells, made once for many rows.
 std::vector<std::string> part_cells_of(const SessionHeader& header, int sculpture, TableFormat format);
 
+/// The unit of lengths on and before the sculptures, and what has to be added to a column's meaning where not
+/// all of them are known to be in millimetres; else empty.
+struct LengthWords {
+    std::string unit, remark;
+};
+LengthWords length_words(const SessionHeader& header);
+
 /// By the session's clock, and how far that can be off.
 JoinedColumns time_columns();
 /// The frame that was lit, the place in the image and on the surface. `header` must outlive them.

@@ -19,7 +19,7 @@ template <class Row> class RowLayout {
     };
 
     RowLayout(std::string name, std::string description, std::vector<Column> columns)
-        : table_{std::move(name), std::move(description), {}} {
+        : table_{std::move(name), std::move(description), {}, {}} {
         add<Row>(std::move(columns));
     }
 
@@ -30,6 +30,9 @@ template <class Row> class RowLayout {
             cells_.push_back(std::move(column.cell));
         }
     }
+
+    /// Columns with one value in all rows, to the left of all others.
+    void lead_with(std::vector<LeadingColumn> leading) { table_.leading = std::move(leading); }
 
     /// For the line of names and the dictionary.
     const Table& table() const { return table_; }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/export_folder.h"
+#include "experiment/base/whole_file.h"
 #include "experiment/record/tables/export_tables.h"
 
 namespace fs = std::filesystem;
@@ -28,7 +29,9 @@ class TableExport {
   public:
     TableExport(const SessionRecord& record, const fs::path& directory, const TableExportOptions& options)
         : record_(record), header_(record.header()), format_(options.format), words_(trial_words(record)),
-          tables_(with_words(ExportTables(header_, options.cone_accuracy, record.event_origins()), words_)),
+          participant_(participant_row(record)),
+          tables_(with_words(
+              ExportTables(header_, options.cone_accuracy, record.event_origins(), {participant_}), words_)),
           trials_(directory, tables_.trials.table(), format_),
           flips_(directory, tables_.flips.table(), format_),
           samples_(directory, tables_.samples.table(), format_),
@@ -36,7 +39,8 @@ class TableExport {
           events_(directory, tables_.events.table(), format_),
           responses_(directory, tables_.responses.table(), format_),
           stimuli_(directory, tables_.stimuli.table(), format_),
-          display_box_(directory, tables_.display_box.table(), format_), directory_(directory),
+          display_box_(directory, tables_.display_box.table(), format_),
+          participants_(directory, tables_.participants.table(), format_), directory_(directory),
           sample_rows_(tables_.samples, record, format_, options.cone_accuracy) {}
 
     /// Puts the samples of the trial aside: those of trials of one sculpture come one after another.
@@ -54,8 +58,10 @@ class TableExport {
     const SessionHeader& header_;
     const TableFormat format_;
     const TrialWords words_;
+    const ParticipantRow participant_;
     const ExportTables tables_;
-    TableWriter trials_, flips_, samples_, gaze_events_, events_, responses_, stimuli_, display_box_;
+    TableWriter trials_, flips_, samples_, gaze_events_, events_, responses_, stimuli_, display_box_,
+        participants_;
     const fs::path directory_;
     SampleRows sample_rows_;
     TableExportCounts counts_;
@@ -94,6 +100,7 @@ void TableExport::write_trial(const TrialRecord& trial) {
 void TableExport::write_what_belongs_to_no_trial() {
     write_gaze_events_outside(gaze_events_, tables_.gaze_events, record_);
     record_.read_events([this](const RecordedEvent& event) { tables_.events.write(events_, event); });
+    tables_.participants.write(participants_, participant_);
     for (const RecordedStimulus& stimulus : header_.stimuli)
         tables_.stimuli.write(stimuli_, stimulus);
     for (const auto& [sitting, box] : record_.display_boxes()) {
@@ -105,8 +112,8 @@ void TableExport::write_what_belongs_to_no_trial() {
 }
 
 void TableExport::close() {
-    for (TableWriter* writer :
-         {&trials_, &flips_, &samples_, &gaze_events_, &events_, &responses_, &stimuli_, &display_box_}) {
+    for (TableWriter* writer : {&trials_, &flips_, &samples_, &gaze_events_, &events_, &responses_, &stimuli_,
+                                &display_box_, &participants_}) {
         counts_.rows += writer->rows();
         counts_.bytes += writer->bytes();
         writer->close();
@@ -161,6 +168,21 @@ TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lo
     tables.close();
     folder.publish();
     return tables.counts();
+}
+
+fs::path write_participants(const std::vector<ParticipantRow>& rows, const fs::path& directory,
+                            TableFormat format) {
+    const RowLayout<ParticipantRow> layout = participants_layout(rows);
+    const fs::path file = participants_file(directory, format);
+    TableText text(layout.table(), format);
+    for (const ParticipantRow& row : rows)
+        layout.write(text, row);
+    write_whole_file(file, names_line(layout.table(), format) + text.all());
+    return file;
+}
+
+fs::path participants_file(const fs::path& directory, TableFormat format) {
+    return directory / fmt::format("participants.{}", ending_of(format));
 }
 
 } // namespace overt

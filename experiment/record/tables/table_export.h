@@ -8,6 +8,7 @@
 
 #include "experiment/maps/surface_point.h"
 #include "experiment/record/read/session_record.h"
+#include "experiment/record/tables/participant_rows.h"
 #include "experiment/record/tables/table_writer.h"
 
 namespace overt {
@@ -45,5 +46,12 @@ using LookupFor = std::function<const SurfaceLookup*(int sculpture)>;
 TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lookup_for,
                                 const std::filesystem::path& directory,
                                 const TableExportOptions& options = {});
+
+/// The table "participants" of several sessions together, which each export has of its own session alone; in
+/// place of one that is there. Gives its file. Throws RecordError.
+std::filesystem::path write_participants(const std::vector<ParticipantRow>& rows,
+                                         const std::filesystem::path& directory, TableFormat format);
+/// Where it lies.
+std::filesystem::path participants_file(const std::filesystem::path& directory, TableFormat format);
 
 } // namespace overt

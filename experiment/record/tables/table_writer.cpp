@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -56,20 +57,36 @@ std::string_view separator_of(TableFormat format) {
 
 std::string_view missing_in(TableFormat format) { return format == TableFormat::jsonl ? "null" : "n/a"; }
 
-/// What a row has before each of its cells.
+/// What a row has before each of its cells: before the first also the leading columns.
 std::vector<std::string> befores(const Table& table, TableFormat format) {
     std::vector<std::string> list;
-    for (const TableColumn& column : table.columns) {
-        const bool is_first = list.empty();
+    std::string before = format == TableFormat::jsonl ? "{" : "";
+    const auto begin = [&](const std::string& name) {
         if (format == TableFormat::jsonl)
-            list.push_back((is_first ? '{' : ',') + json_quoted(column.name) + ':');
-        else
-            list.emplace_back(is_first ? "" : separator_of(format));
+            before += json_quoted(name) + ':';
+    };
+    const std::string_view separator = format == TableFormat::jsonl ? "," : separator_of(format);
+    for (const LeadingColumn& column : table.leading) {
+        begin(column.what.name);
+        before += column.is_number ? column.value : text_cell(column.value, format);
+        before += separator;
+    }
+    for (const TableColumn& column : table.columns) {
+        begin(column.name);
+        list.push_back(std::exchange(before, std::string(separator)));
     }
     return list;
 }
 
 } // namespace
+
+std::vector<TableColumn> Table::all_columns() const {
+    std::vector<TableColumn> all;
+    for (const LeadingColumn& column : leading)
+        all.push_back(column.what);
+    all.insert(all.end(), columns.begin(), columns.end());
+    return all;
+}
 
 std::string_view ending_of(TableFormat format) {
     return format == TableFormat::tsv ? "tsv" : format == TableFormat::csv ? "csv" : "jsonl";
@@ -87,6 +104,18 @@ std::string text_cell(std::string_view text, TableFormat format) {
         break;
     }
     return json_quoted(text);
+}
+
+std::string names_line(const Table& table, TableFormat format) {
+    std::string names;
+    if (format == TableFormat::jsonl)
+        return names;
+    for (const TableColumn& column : table.all_columns()) {
+        if (!names.empty())
+            names += separator_of(format);
+        names += text_cell(column.name, format);
+    }
+    return names + '\n';
 }
 
 TableCells::TableCells(const Table& table, TableFormat format, std::string& into)
@@ -157,10 +186,7 @@ TableWriter::TableWriter(const std::filesystem::path& file, const Table& table, 
     : TableCells(table, format, file_.text()), file_(file, packing) {
     if (header == Header::none)
         return;
-    for (const TableColumn& column : table.columns)
-        text(column.name);
-    end_row();
-    rows_ = 0;
+    file_.text() += names_line(table, format);
 }
 
 void TableWriter::take(const TableText& rows) {

@@ -20,11 +20,22 @@ struct TableColumn {
     std::vector<std::pair<std::string, std::string>> levels; ///< value and what it means; empty: any value
 };
 
+/// A column at the left that has one value in all rows.
+struct LeadingColumn {
+    TableColumn what;
+    std::string value;
+    bool is_number = false;
+};
+
 /// One file of an export, and what stands in it.
 struct Table {
     std::string name; ///< of the file, without its ending
     std::string description;
-    std::vector<TableColumn> columns;
+    std::vector<TableColumn> columns;        ///< whose cells are written
+    std::vector<LeadingColumn> leading = {}; ///< before them
+
+    /// Of the whole table, as its file has them.
+    std::vector<TableColumn> all_columns() const;
 };
 
 /// How cells become lines, each with a newline at its end. Missing values and empty texts are n/a or null.
@@ -40,6 +51,9 @@ std::string_view ending_of(TableFormat format);
 
 /// A text as a cell: see TableWriter::ready().
 std::string text_cell(std::string_view text, TableFormat format);
+
+/// The line of column names with its newline; empty where the format has none.
+std::string names_line(const Table& table, TableFormat format);
 
 /// Makes the rows of one table, cell by cell from left to right. Nothing depends on a locale.
 class TableCells {

@@ -1,3 +1,5 @@
+#include <fstream>
+
 #include <catch2/catch.hpp>
 
 #include "experiment/record/asc/asc_import.h"
@@ -30,6 +32,14 @@ TEST_CASE(
     REQUIRE(exported({"scenes/sub-01_ses-01/", "scenes/sub-02_ses-01/"}, "one") == 0);
     CHECK(fs::exists(root.path() / "one/sub-01_ses-01/trials.tsv"));
     CHECK(fs::exists(root.path() / "one/sub-02_ses-01/trials.tsv"));
+    // All observers in one table.
+    std::ifstream participants(root.path() / "one/participants.tsv");
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(participants, line);)
+        lines.push_back(line);
+    REQUIRE(lines.size() == 3);
+    CHECK(lines[0].starts_with("observer\tsession\tparticipant_id\t"));
+    CHECK(lines[1].starts_with("01\t1\tsub-01\t"));
     REQUIRE(exported({"faces/sub-01_ses-01", "scenes/sub-01_ses-01", "scenes/sub-02_ses-01"}, "all") == 0);
     CHECK(fs::exists(root.path() / "all/faces/sub-01_ses-01/trials.tsv"));
     CHECK(fs::exists(root.path() / "all/scenes/sub-01_ses-01/trials.tsv"));

@@ -123,6 +123,13 @@ TEST_CASE("a frame rate that the display only comes near to is said as it is sho
     Protocol protocol = paper_protocol();
     protocol.display.refresh_hz = 119.88;
     CHECK_THAT(to_text(make_design_report(protocol, {})), Contains("240 frames at 29.97 Hz = 8.008 s"));
+    protocol.display.refresh_hz = 59.94;
+    const std::string text = to_text(make_design_report(protocol, {}));
+    CHECK_THAT(text, Contains("240 frames at 29.97 Hz = 8.008 s"));
+    CHECK_THAT(text,
+               Contains("2 refreshes at 59.94 Hz: 480 refreshes (0.1 % slower than the protocol's 30 Hz)"));
+    protocol.display.refresh_hz = 60.0;
+    CHECK_THAT(to_text(make_design_report(protocol, {})), Contains("2 refreshes at 60 Hz: 480 refreshes\n"));
 }
 
 TEST_CASE("weights and groups that show some stimuli more often are no imbalance, lost rotations are",

@@ -73,6 +73,7 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
     CHECK(bust.axis_point == given.axis_point);
     CHECK(bust.bounds.min == given.bounds.min);
     CHECK(bust.bounds.max == given.bounds.max);
+    CHECK(bust.unit == given.unit);
     REQUIRE(out.stimuli.size() == 2);
     CHECK(out.stimuli[1].condition == in.stimuli[1].condition);
     CHECK(out.stimuli[1].source == in.stimuli[1].source);

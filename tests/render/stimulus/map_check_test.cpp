@@ -1,5 +1,7 @@
-#include "render/gl/headless_context.h"
 #include "experiment/maps/map_check.h"
+#include "render/gl/headless_context.h"
+
+#include <cmath>
 
 #include <catch2/catch.hpp>
 
@@ -79,11 +81,54 @@ TEST_CASE("the drawn map holds what rays in double precision meet, within the ro
 
 TEST_CASE("16-bit codes of a map are off by the floor of rounding and no more", "[gl]") {
     const MappedFigure figure = figure_of(test::ball({3.0, 2.0, 1.0}, 60.0, 300, 600), {512, 512});
-    const MapCheck check = check_map(images_of(figure)[1], RayCaster(figure.mesh), figure.scene, map_angles[1]);
+    const MapCheck check =
+        check_map(images_of(figure)[1], RayCaster(figure.mesh), figure.scene, map_angles[1]);
     // The mean of the largest of three errors that are even within half a code is 3/8.
     CHECK(check.as_codes.mean_lsb == Approx(0.375).margin(0.002));
     CHECK(check.as_codes.p99_9_lsb < 0.51);
     CHECK(check.as_float.mean_lsb < 0.007);
+}
+
+TEST_CASE("no sound map exceeds what rounding allows, whatever its mesh and size", "[gl]") {
+    // A box has faces along the axes, whose pixels have one rounding error all over: no mean of 0.375.
+    Mesh slanted;
+    test::add_part(slanted, test::box({-31.3, -20.7, 0.1}, {40.9, 33.3, 80.6}), "body");
+    for (const Mesh& mesh :
+         {test::bust(), bust_and_ball(), slanted, test::ball({3.0, 2.0, 1.0}, 60.0, 90, 180),
+          test::ball({0.0, 0.0, 0.0}, 0.006, 40, 80)}) {
+        for (const glm::ivec2 size : {glm::ivec2(64, 64), {200, 160}, {256, 256}, {420, 300}}) {
+            const MappedFigure figure = figure_of(mesh, size);
+            const RayCaster rays(figure.mesh);
+            const std::vector<CoordinateImage> images = images_of(figure);
+            for (std::size_t pose = 0; pose < map_angles.size(); ++pose) {
+                const MapCheck check = check_map(images[pose], rays, figure.scene, map_angles[pose]);
+                CAPTURE(size.x, pose, check.as_codes.mean_lsb, check.rounding_mean_lsb);
+                CHECK(check.excess_lsb <= 2.0 * check.as_float.mean_lsb);
+                CHECK(check.excess_lsb < 0.014);
+                CHECK(check.as_codes.mean_lsb < 0.5 + 2.0 * 0.007);
+            }
+        }
+    }
+}
+
+TEST_CASE("a map that is off by a quarter of a code exceeds what rounding allows", "[gl]") {
+    const MappedFigure figure = figure_of(test::ball({3.0, 2.0, 1.0}, 60.0, 150, 300), {256, 256});
+    const RayCaster rays(figure.mesh);
+    const CoordinateImage sound = images_of(figure)[0];
+    const glm::dvec3 code = (figure.scene.bounds.max - figure.scene.bounds.min) / 65536.0;
+    const auto excess_of = [&](glm::vec3 codes_off) {
+        CoordinateImage off = sound;
+        for (glm::vec4& pixel : off.pixels)
+            if (pixel.w != 0.0f)
+                pixel += glm::vec4(codes_off * glm::vec3(code), 0.0f);
+        return check_map(off, rays, figure.scene, map_angles[0]).excess_lsb;
+    };
+    CHECK(std::abs(excess_of({0.0f, 0.0f, 0.0f})) < 0.001);
+    // By integrating 1 - F^3 with F(e) = min(2 e, e + 1/4), the distribution of |U(-1/2, 1/2) + 1/4|: the
+    // mean of the largest of three is 0.5078; of one such and two that are centred 0.4219 - each less 3/8.
+    CHECK(excess_of({0.25f, 0.25f, 0.25f}) == Approx(0.5078 - 0.375).margin(0.01));
+    CHECK(excess_of({0.25f, 0.0f, 0.0f}) > 0.03);
+    CHECK(excess_of({0.0f, 0.0f, -0.25f}) > 0.03);
 }
 
 TEST_CASE("the check finds a map that is shifted, turned, thinned or off the surface", "[gl]") {

@@ -24,6 +24,27 @@ AscImportOptions into_options(const fs::path& out) {
 
 } // namespace
 
+TEST_CASE("a copy with gaze lies where the pattern of its experiment's sessions does not find it", "[unit]") {
+    const test::TemporaryFolder root;
+    const fs::path session = make_eye_session(root.path() / "sessions");
+    export_asc(SessionRecord(session), root.path() / "asc");
+    const fs::path file =
+        write_asc(root.path() / "tracker.asc", text_of(root.path() / "asc" / "sub-AB7_ses-01_run-01.asc"));
+    AscImportOptions options = into_options({});
+    options.out.clear();
+    const AscImportSummary summary = import_asc_into(file, session / "", options);
+    const fs::path folder = session.parent_path();
+    CHECK(summary.session ==
+          folder.parent_path() / (folder.filename().string() + "_imports") / session.filename());
+    CHECK(SessionRecord(summary.session).gaze_source(1));
+    // As a shell's sessions/NAME/*.
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (!entry.path().filename().string().starts_with("."))
+            found.push_back(entry.path());
+    CHECK(found == std::vector<fs::path>{session});
+}
+
 TEST_CASE("the gaze of a file comes into the trials that its messages name, in a copy of the session",
           "[unit]") {
     const test::TemporaryFolder root;

@@ -158,7 +158,8 @@ TEST_CASE("an export holds each row of the completed trials, and its counts are 
     CHECK(row_of(trials, 3)["samples"] == "n/a");
     const auto events = rows_of(recorded.target() / "events.tsv");
     REQUIRE(events.size() == 2);
-    CHECK(events[1] == std::vector<std::string>{"0.005000000", "n/a", "calibration", "0.3\\tdeg"});
+    CHECK(events[1] ==
+          std::vector<std::string>{"AB7", "3", "0.005000000", "n/a", "calibration", "0.3\\tdeg"});
     CHECK(row_of(rows_of(recorded.target() / "responses.tsv"), 1)["answer"] == "forty\\tor\\nfifty");
     CHECK(row_of(rows_of(recorded.target() / "responses.tsv"), 2)["response_time_s"] == "0.990000000");
 }
@@ -232,14 +233,14 @@ TEST_CASE("two exports of one session are the same, byte for byte", "[unit]") {
         CHECK(text.find('\r') == std::string::npos);
         ++files;
     }
-    CHECK(files == 9);
+    CHECK(files == 10);
 }
 
 TEST_CASE("the dictionary explains each column of each file, in the files' order", "[unit]") {
     const Recorded recorded;
     export_tables(SessionRecord(recorded.session), bust_only, recorded.target());
     const auto dictionary = nlohmann::ordered_json::parse(text_of(recorded.target() / "dictionary.json"));
-    REQUIRE(dictionary["Files"].size() == 8);
+    REQUIRE(dictionary["Files"].size() == 9);
     for (const auto& [file, description] : dictionary["Files"].items()) {
         std::vector<std::string> explained;
         for (const auto& [column, entry] : description["Columns"].items()) {
@@ -312,8 +313,8 @@ TEST_CASE("commas and JSON hold the same cells as tab-separated tables, with the
     };
     std::int64_t rows = 0, quoted = 0;
     std::map<std::string, bool> holds_numbers; // by column, in all tables alike
-    for (const char* name :
-         {"trials", "flips", "samples", "gaze_events", "events", "responses", "stimuli", "display_box"}) {
+    for (const char* name : {"trials", "flips", "samples", "gaze_events", "events", "responses", "stimuli",
+                             "display_box", "participants"}) {
         auto expected = rows_of(recorded.root.path() / "tsv" / (std::string(name) + ".tsv"));
         for (auto& row : expected)
             for (std::string& cell : row)
@@ -331,9 +332,11 @@ TEST_CASE("commas and JSON hold the same cells as tab-separated tables, with the
         CHECK(row == expected.size());
     }
     CHECK(quoted > 0);
-    for (const char* column : {"trial", "attempt", "refresh", "time_s", "x_px", "surface_z", "planned_frame"})
+    for (const char* column :
+         {"session", "trial", "attempt", "refresh", "time_s", "x_px", "surface_z", "planned_frame"})
         CHECK(holds_numbers.at(column));
     CHECK_FALSE(holds_numbers.at("task"));
+    CHECK_FALSE(holds_numbers.at("observer"));
     CHECK(counts.rows == rows);
     const auto dictionary = nlohmann::json::parse(text_of(recorded.root.path() / "csv" / "dictionary.json"));
     CHECK(dictionary["Files"].contains("samples.csv"));
