@@ -95,8 +95,9 @@ void add_show(CLI::App& app, ChosenCommand& chosen) {
                     "Write a PNG: a frame, its map, and the gaze on the surface")
         ->type_name("FILE");
     command
-        .add_option("--plot", options.plot,
-                    "Write an SVG of the presentations' timing: intervals of refreshes, trial by trial")
+        .add_option(
+            "--plot", options.plot,
+            "Draw the presentations' timing, intervals of refreshes and trial by trial, to a .svg or .png")
         ->type_name("FILE");
     command.add_flag(
         "--order", options.order,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/record/plot_canvas.h"
 #include "app/record/record_commands.h"
 #include "app/record/recorded_order.h"
 #include "app/record/recorded_surface.h"
@@ -105,9 +106,11 @@ void print_session(const SessionRecord& record) {
 
 void write_plot(const SessionRecord& record, const std::filesystem::path& file) {
     const SessionHeader& header = record.header();
-    write_to(file, timing_plot(timing_report(record),
-                               fmt::format("Timing of {}, observer {}, session {}", header.protocol.name,
-                                           header.schedule.observer.label, header.session_number)));
+    PlotCanvas::check_ending(file); // before the session is read
+    write_timing_plot(timing_report(record),
+                      fmt::format("Timing of {}, observer {}, session {}", header.protocol.name,
+                                  header.schedule.observer.label, header.session_number),
+                      file);
     fmt::print("plot: {}\n", file.string());
 }
 

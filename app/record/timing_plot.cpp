@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "app/record/plot_canvas.h"
+
 namespace overt {
 
 namespace {
@@ -16,21 +18,6 @@ constexpr double width = 900.0, left = 90.0, right = 870.0;
 constexpr const char* cause_colours[] = {"#d55e00", "#e69f00", "#0072b2"};
 constexpr const char* ink = "#333333";
 constexpr const char* grid = "#dddddd";
-
-std::string escaped(const std::string& text) {
-    std::string safe;
-    for (const char letter : text) {
-        if (letter == '&')
-            safe += "&amp;";
-        else if (letter == '<')
-            safe += "&lt;";
-        else if (letter == '>')
-            safe += "&gt;";
-        else
-            safe += letter;
-    }
-    return safe;
-}
 
 /// From values to places along an axis.
 struct Scale {
@@ -48,29 +35,12 @@ double round_step(double span, int wanted) {
     return 10.0 * power;
 }
 
-class Drawing {
+using Anchor = PlotCanvas::Anchor;
+
+/// The canvas, and what all panels have.
+class Drawing : public PlotCanvas {
   public:
-    void text(double x, double y, const std::string& words, const char* anchor = "middle", double size = 12.0,
-              const std::string& more = {}) {
-        add("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" font-size=\"{}\" fill=\"{}\"{}>{}</text>\n",
-            x, y, anchor, size, ink, more, escaped(words));
-    }
-    void line(double x1, double y1, double x2, double y2, const char* colour, double thickness = 1.0) {
-        add("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" stroke=\"{}\" "
-            "stroke-width=\"{}\"/>\n",
-            x1, y1, x2, y2, colour, thickness);
-    }
-    void box(double x, double y, double w, double h, const char* colour) {
-        add("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n", x, y, w, h,
-            colour);
-    }
-    void dot(double x, double y, double radius, const char* colour) {
-        add("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{}\" fill=\"{}\"/>\n", x, y, radius, colour);
-    }
-    void frame(double top, double bottom) {
-        add("<rect x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\" fill=\"none\" stroke=\"{}\"/>\n",
-            left, top, right - left, bottom - top, ink);
-    }
+    void frame(double top, double bottom) { outline(left, top, right - left, bottom - top, ink); }
     void x_axis(const Scale& x, double step, double top, double bottom, const std::string& name) {
         const int decimals = step < 1.0 ? static_cast<int>(std::ceil(-std::log10(step) - 1e-9)) : 0;
         for (double at = std::ceil(x.low / step - 1e-9) * step; at <= x.high + 1e-9 * step; at += step) {
@@ -81,22 +51,8 @@ class Drawing {
         text(0.5 * (left + right), bottom + 34.0, name);
     }
     void y_name(double top, double bottom, const std::string& name) {
-        const double y = 0.5 * (top + bottom);
-        text(0.0, 0.0, name, "middle", 12.0,
-             fmt::format(" transform=\"translate(24 {:.1f}) rotate(-90)\"", y));
+        text(24.0, 0.5 * (top + bottom), name, Anchor::middle, 12.0, true);
     }
-    std::string finish(double height) const {
-        return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1:.0f}\" "
-                           "viewBox=\"0 0 {0} {1:.0f}\" font-family=\"sans-serif\">\n"
-                           "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{2}</svg>\n",
-                           width, height, body_);
-    }
-
-  private:
-    template <class... Values> void add(fmt::format_string<Values...> format, Values&&... values) {
-        body_ += fmt::format(format, std::forward<Values>(values)...);
-    }
-    std::string body_;
 };
 
 void draw_histogram(Drawing& drawing, const TimingReport& report, double top, double bottom) {
@@ -115,7 +71,7 @@ void draw_histogram(Drawing& drawing, const TimingReport& report, double top, do
                    "from flip to flip by the time stamps, ms");
     for (int decade = 0; decade <= decades; ++decade) {
         drawing.line(left, y(decade), right, y(decade), grid);
-        drawing.text(left - 8.0, y(decade) + 4.0, fmt::format("{:.0f}", std::pow(10.0, decade)), "end");
+        drawing.text(left - 8.0, y(decade) + 4.0, fmt::format("{:.0f}", std::pow(10.0, decade)), Anchor::end);
     }
     for (const IntervalBin& bin : bins)
         if (bin.count > 0)
@@ -130,7 +86,7 @@ void label_trials(Drawing& drawing, const TimingReport& report, const Scale& y) 
     const std::size_t every = std::max<std::size_t>(1, (report.trials.size() + 19) / 20);
     for (std::size_t i = 0; i < report.trials.size(); i += every)
         drawing.text(left - 8.0, y(static_cast<double>(i) + 0.5) + 4.0,
-                     fmt::format("{}", report.trials[i].trial.index + 1), "end", 11.0);
+                     fmt::format("{}", report.trials[i].trial.index + 1), Anchor::end, 11.0);
 }
 
 void draw_misses(Drawing& drawing, const TimingReport& report, double top, double bottom) {
@@ -162,11 +118,11 @@ void draw_key(Drawing& drawing, double y) {
     double x = left;
     for (const MissCause cause : {MissCause::asked_late, MissCause::drawn_late, MissCause::shown_late}) {
         drawing.box(x, y - 9.0, 12.0, 10.0, cause_colours[static_cast<int>(cause)]);
-        drawing.text(x + 17.0, y, fmt::format("missed, {}", name_of(cause)), "start");
+        drawing.text(x + 17.0, y, fmt::format("missed, {}", name_of(cause)), Anchor::start);
         x += 160.0;
     }
     drawing.dot(x + 6.0, y - 4.0, 2.5, "#cc79a7");
-    drawing.text(x + 17.0, y, "time stamp contradicts the others", "start");
+    drawing.text(x + 17.0, y, "time stamp contradicts the others", Anchor::start);
 }
 
 void draw_onsets(Drawing& drawing, const TimingReport& report, double top, double bottom) {
@@ -193,9 +149,10 @@ void draw_onsets(Drawing& drawing, const TimingReport& report, double top, doubl
 
 } // namespace
 
-std::string timing_plot(const TimingReport& report, const std::string& title) {
+void write_timing_plot(const TimingReport& report, const std::string& title,
+                       const std::filesystem::path& file) {
     Drawing drawing;
-    drawing.text(0.5 * width, 26.0, title, "middle", 16.0);
+    drawing.text(0.5 * width, 26.0, title, Anchor::middle, 16.0);
     const std::string kind = report.has_simulated_faults ? "the display's faults were simulated; "
                              : report.is_virtual         ? "virtual time; "
                                                          : "";
@@ -211,7 +168,7 @@ std::string timing_plot(const TimingReport& report, const std::string& title) {
     draw_misses(drawing, report, top, top + rows);
     top += rows + 60.0;
     draw_onsets(drawing, report, top, top + rows);
-    return drawing.finish(top + rows + 50.0);
+    drawing.write(file, width, top + rows + 50.0);
 }
 
 } // namespace overt

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "experiment/pictures/picture_file.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/record/read/timing_report.h"
 #include "tests/app/small_experiment.h"
@@ -98,6 +100,26 @@ TEST_CASE("a session with faults has exactly these in its ledger, its report and
     CHECK(svg.starts_with("<svg"));
     CHECK(svg.ends_with("</svg>\n"));
     CHECK(svg.find("7 of 360 refreshes missed") != std::string::npos);
+
+    // The same as PNG: twice as many pixels as the SVG has points, white at the corner, vermillion for a
+    // miss.
+    const std::filesystem::path picture = experiment.folder().path() / "timing.png";
+    REQUIRE(experiment.overt({"show", session, "--plot", picture.string()}).exit_code == 0);
+    PictureFile png(picture, "plot");
+    const glm::ivec2 size = png.header().size_px;
+    CHECK(size.x == 1800);
+    CHECK(svg.find(fmt::format("height=\"{}\"", size.y / 2)) != std::string::npos);
+    std::vector<std::uint8_t> pixels(static_cast<std::size_t>(3 * size.x * size.y));
+    png.read(3, PixelType::bits8, pixels.data());
+    CHECK(pixels[0] == 255);
+    int vermillion = 0;
+    for (std::size_t i = 0; i + 2 < pixels.size(); i += 3)
+        vermillion += pixels[i] == 0xd5 && pixels[i + 1] == 0x5e && pixels[i + 2] == 0x00;
+    CHECK(vermillion > 100);
+    const auto refused =
+        experiment.overt({"show", session, "--plot", (experiment.folder().path() / "t.pdf").string()});
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.err.find("written as .svg or as .png") != std::string::npos);
 }
 
 TEST_CASE("stretching shows every frame for its refreshes, and says how much longer it took", "[session]") {
