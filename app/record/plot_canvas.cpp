@@ -16,10 +16,10 @@ namespace overt {
 
 namespace {
 
-constexpr const char* ink = "#333333";
+constexpr const char* ink_of_words = "#333333";
 constexpr double png_scale = 2.0; ///< 1800 pixels for a plot of 900 points
 
-std::string escaped(const std::string& text) {
+std::string svg_escaped(const std::string& text) {
     std::string safe;
     for (const char letter : text) {
         if (letter == '&')
@@ -84,7 +84,7 @@ cairo_status_t add_bytes(void* into, const unsigned char* bytes, unsigned int co
 } // namespace
 
 void PlotCanvas::text(double x, double y, const std::string& words, Anchor anchor, double size, bool turned) {
-    marks_.push_back({Mark::Kind::text, x, y, 0.0, 0.0, size, ink, words, anchor, turned});
+    marks_.push_back({Mark::Kind::text, x, y, 0.0, 0.0, size, ink_of_words, words, anchor, turned});
 }
 void PlotCanvas::line(double x1, double y1, double x2, double y2, const char* colour, double thickness) {
     marks_.push_back({Mark::Kind::line, x1, y1, x2, y2, thickness, colour});
@@ -112,7 +112,7 @@ std::string PlotCanvas::svg(double width, double height) const {
             else
                 add("<text x=\"{:.1f}\" y=\"{:.1f}\"", mark.x, mark.y);
             add(" text-anchor=\"{}\" font-size=\"{}\" fill=\"{}\">{}</text>\n", svg_word(mark.anchor),
-                mark.size, mark.colour, escaped(mark.words));
+                mark.size, mark.colour, svg_escaped(mark.words));
             break;
         case Mark::Kind::line:
             add("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" stroke=\"{}\" "
