@@ -117,7 +117,7 @@ function draw_legend(panels) {
   pen.putImageData(line, 0, 0);
   const most = is_difference ? common_difference : common[weighting.value];
   const unit = is_difference ? 'share of fixation time per mm²' : weighting.value === 'duration' ? 'ms of fixation per mm² and trial' : 'fixations per mm² and trial';
-  const svg = shape('svg', {width: 620, height: 62, viewBox: '0 0 620 62', role: 'img', 'aria-label': 'Legend: ' + unit});
+  const svg = shape('svg', {width: 680, height: 62, viewBox: '0 0 680 62', role: 'img', 'aria-label': 'Legend: ' + unit});
   svg.append(shape('image', {href: canvas.toDataURL(), x: 10, y: 6, width: 300, height: 18, preserveAspectRatio: 'none'}));
   if (scale.value === 'common')
     for (const v of ticks(is_difference ? -most : 0, most, 4))

@@ -142,10 +142,10 @@ bool distribution_boxes(const StudyResults& results, const std::filesystem::path
             pen.box(corner + 0.2, {wide - 0.4, high - 0.4}, {0.95, 0.96, 0.97});
             pen.box({corner.x + 0.2, corner.y + 0.2 + (1.0 - share) * (high - 0.4)},
                     {wide - 0.4, share * (high - 0.4)}, {0.82, 0.88, 0.95});
-            pen.text(corner + glm::dvec2(0.8, 6.2), number_text(row.wss_mm2.value), 1.35 * points);
-            pen.text(corner + glm::dvec2(0.64 * wide, 4.4), number_text(row.map_peak), points,
+            pen.text(corner + glm::dvec2(0.8, 6.2), number_text(row.wss_mm2.value), 1.1 * points);
+            pen.text(corner + glm::dvec2(0.66 * wide, 3.4), number_text(row.map_peak), points,
                      TextAlign::right);
-            pen.text(corner + glm::dvec2(0.64 * wide, 8.0), number_text(row.map_mean), points,
+            pen.text(corner + glm::dvec2(0.66 * wide, 9.4), number_text(row.map_mean), points,
                      TextAlign::right);
             for (std::size_t axis = 0; axis < 3; ++axis)
                 pen.text(corner + glm::dvec2(wide - 0.7, 3.4 + 3.0 * static_cast<double>(axis)),
