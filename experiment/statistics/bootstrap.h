@@ -1,0 +1,50 @@
+/// Intervals of confidence by drawing observers again, with replacement.
+///
+/// Observers are drawn and not fixations, since one observer's fixations depend on each other and the study
+/// is meant to speak of other observers. Everything follows from the seed, whatever the number of threads.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "experiment/statistics/estimate.h"
+
+namespace overt {
+
+struct BootstrapSettings {
+    int resamples = 2000;
+    double confidence = 0.95;
+    std::uint64_t seed = 1;
+};
+
+/// A number of some of 0 … count-1, each as often as it was drawn; nothing if these have none. Is called from
+/// several threads.
+using StatisticOf = std::function<std::optional<double>(std::span<const std::uint32_t>)>;
+
+/// Efron's interval, corrected for bias and acceleration (BCa; Efron 1987, JASA 82, 171-185), with the
+/// acceleration by the jackknife. Draws for which the statistic has no value are left out. Nothing for fewer
+/// than three items, if the statistic of all has no value, or if fewer than half of the draws have one. Where
+/// all draws give the same, that is both ends.
+std::optional<Interval> bootstrap_interval(std::uint32_t count, const StatisticOf& statistic,
+                                           const BootstrapSettings& settings);
+
+/// The same of the mean of numbers.
+std::optional<Interval> bootstrap_interval_of_mean(std::span<const double> values,
+                                                   const BootstrapSettings& settings);
+
+/// The mean with that interval. Without values, absent for the `reason`.
+Estimate estimated_mean(std::span<const double> values, const BootstrapSettings& settings,
+                        const std::string& reason);
+
+/// The ends of the interval from the draws' values, the value of all, and the values of the jackknife.
+Interval bca_interval(std::vector<double> draws, double observed, std::span<const double> jackknife,
+                      double confidence);
+
+/// The value below which a share of the sorted values lies, between them linearly (type 7 of Hyndman and Fan
+/// 1996, numpy's default). At least one value; 0 <= share <= 1.
+double quantile_of_sorted(std::span<const double> sorted, double share);
+
+} // namespace overt

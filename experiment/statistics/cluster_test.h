@@ -1,0 +1,50 @@
+/// Where on a surface two conditions differ, corrected for having looked everywhere: the permutation test by
+/// the largest cluster (Maris and Oostenveld 2007, J. Neurosci. Methods 164, 177-190), on any graph.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace overt {
+
+/// Who is next to whom: the neighbours of vertex v are neighbours[begin[v]] … neighbours[begin[v + 1] - 1].
+struct Adjacency {
+    std::span<const std::uint32_t> begin; ///< one more than vertices
+    std::span<const std::uint32_t> neighbours;
+    std::size_t vertices() const { return begin.empty() ? 0 : begin.size() - 1; }
+};
+
+struct ClusterTestSettings {
+    double threshold_p = 0.05; ///< two-sided, of a single vertex: what belongs to a cluster
+    int permutations = 1000;   ///< random ones, where there are too many for all
+    std::uint64_t most_exact = 4096;
+    std::uint64_t seed = 1;
+    int most_threads = 0; ///< 0: all processors; the result is the same
+};
+
+struct Cluster {
+    std::vector<std::uint32_t> vertices; ///< rising
+    double mass = 0.0;                   ///< sum of t times area; negative where the differences are
+    double area = 0.0;
+    double p = 1.0; ///< that chance alone makes a cluster of this size anywhere, in either direction
+};
+
+struct ClusterTest {
+    std::vector<float> mean; ///< by vertex, over observers
+    std::vector<float> t;    ///< by vertex; 0 where all differences are equal to 0 or there is no area
+    double threshold_t = 0.0;
+    std::vector<Cluster> clusters; ///< by falling size of their mass
+    std::uint64_t permutations = 0;
+    bool is_exact = false;
+};
+
+/// `differences`: of each observer one number by vertex (a less b); at least two observers. t is the mean
+/// divided by its standard error; clusters are connected vertices beyond the threshold of the same sign. The
+/// null: each observer's map of differences may as well have the other sign. All sign flips are made where
+/// they are few enough; else random ones, of which the observed one is the first. Vertices without area are
+/// left out.
+ClusterTest cluster_test(std::span<const std::vector<float>> differences, std::span<const double> areas,
+                         const Adjacency& adjacency, const ClusterTestSettings& settings);
+
+} // namespace overt
