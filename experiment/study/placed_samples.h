@@ -1,0 +1,39 @@
+/// The gaze of one eye during one trial, each sample with the place where it met the surface.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "experiment/record/read/sample_join.h"
+#include "experiment/record/tables/sample_rows.h"
+
+namespace overt {
+
+struct PlacedSample {
+    TrackerTime sampled_at;
+    double time_s = 0.0; ///< since the presentation's onset; meaningless without a time
+    ScreenPoint gaze;
+    float pupil = 0.0f;
+    bool has_gaze = false;
+    bool has_time = false;
+    int frame = -1; ///< lit then on the gaze's row; -1: none
+    PoseIndex pose;
+    bool is_on_surface = false;
+    SurfacePoint surface; ///< meaningful on the surface
+};
+
+struct PlacedSamples {
+    std::vector<PlacedSample> samples; ///< of `eye`, by time
+    Eye eye = Eye::right;
+    bool had_both_eyes = false;       ///< of a binocular recording, one eye is taken
+    SampleCounts counts;              ///< of all eyes, as the exported table of trials has them
+    double clock_uncertainty_s = 0.0; ///< largest bound on the error of a sample's time
+};
+
+/// Reads the trial's samples in pieces. Of two eyes `preferred` is taken if it has gaze. `lookup` is null
+/// without a surface. Throws RecordError.
+PlacedSamples placed_samples(const SessionRecord& record, const TrialRecord& trial,
+                             const std::optional<TrialLedger>& ledger, const SurfaceLookup* lookup,
+                             SessionTime onset, Eye preferred);
+
+} // namespace overt

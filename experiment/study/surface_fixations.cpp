@@ -1,0 +1,154 @@
+#include "experiment/study/surface_fixations.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace overt {
+
+namespace {
+
+/// Where the fixation's samples met the surface; those that share a place of the mesh to within rounding stay
+/// apart, since each stands for its time.
+void find_point(StudyFixation& fixation, std::span<const PlacedSample* const> on_surface,
+                const FixationContext& context) {
+    if (!context.field) {
+        // Without a mesh there are no ways along the surface: the sample nearest to the mean.
+        glm::dvec3 mean{0.0};
+        for (const PlacedSample* sample : on_surface)
+            mean += sample->surface.position;
+        mean /= static_cast<double>(on_surface.size());
+        const auto nearest = std::min_element(
+            on_surface.begin(), on_surface.end(), [&](const PlacedSample* a, const PlacedSample* b) {
+                return glm::distance(a->surface.position, mean) < glm::distance(b->surface.position, mean);
+            });
+        fixation.position = (*nearest)->surface.position;
+        fixation.part = (*nearest)->surface.part;
+        return;
+    }
+    // Samples come at equal steps of time, so equal weights are weights of duration. Of long fixations at
+    // high rates every n-th is enough to find the middle: they lie closer together than the tracker's noise.
+    const std::size_t step = std::max<std::size_t>(1, on_surface.size() / 128);
+    std::vector<SurfaceWeight> weights;
+    std::vector<const PlacedSample*> taken;
+    for (std::size_t i = step / 2; i < on_surface.size(); i += step) {
+        const SurfacePoint& point = on_surface[i]->surface;
+        weights.push_back({{point.triangle, glm::max(point.barycentric, glm::dvec3(0.0))}, 1.0, 0.0});
+        taken.push_back(on_surface[i]);
+    }
+    const SurfacePoint& median = taken[geodesic_median(*context.field, weights).index]->surface;
+    fixation.triangle = median.triangle;
+    fixation.barycentric = glm::max(median.barycentric, glm::dvec3(0.0));
+    fixation.barycentric /= fixation.barycentric.x + fixation.barycentric.y + fixation.barycentric.z;
+    fixation.position = median.position;
+    if (context.scale)
+        fixation.sigma_mm = context.scale->sigma_mm(context.options.sigma, median.depth);
+}
+
+void find_part(StudyFixation& fixation, std::span<const PlacedSample* const> on_surface) {
+    std::array<int, 256> counts{};
+    for (const PlacedSample* sample : on_surface)
+        ++counts[sample->surface.part];
+    fixation.part = static_cast<PartIndex>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+}
+
+void find_spread(StudyFixation& fixation, std::span<const PlacedSample* const> on_surface,
+                 const SurfaceScale& scale) {
+    double squares = 0.0, depth = 0.0;
+    for (const PlacedSample* sample : on_surface) {
+        const glm::dvec3 off = sample->surface.position - fixation.position;
+        squares += glm::dot(off, off);
+        depth += sample->surface.depth;
+    }
+    const auto count = static_cast<double>(on_surface.size());
+    fixation.spread_mm = std::sqrt(squares / count) * scale.mm_per_unit;
+    fixation.spread_deg = *fixation.spread_mm / (scale.mm_per_deg * depth / count / scale.axis_depth);
+}
+
+/// The share of a gaze cone around the fixation's middle sample that lands beside the sculpture, or on a
+/// sheet of surface whose depth differs by more than the kernel's sigma.
+double share_at_edge(const PlacedSample& middle, const StudyFixation& fixation,
+                     const FixationContext& context) {
+    double same_sheet = 0.0;
+    const double limit = std::max(fixation.sigma_mm / context.scale->mm_per_unit, 1e-12);
+    for (const WeightedSurfacePoint& place :
+         context.cone->on_surface(*context.lookup, middle.pose, middle.gaze)) {
+        if (std::abs(place.point.depth - middle.surface.depth) <= limit)
+            same_sheet += place.weight;
+    }
+    return std::clamp(1.0 - same_sheet, 0.0, 1.0);
+}
+
+} // namespace
+
+std::pair<std::size_t, std::size_t> samples_between(std::span<const PlacedSample> samples, TrackerTime from,
+                                                    TrackerTime to) {
+    const auto begin = std::partition_point(
+        samples.begin(), samples.end(), [&](const PlacedSample& sample) { return sample.sampled_at < from; });
+    const auto end = std::partition_point(
+        begin, samples.end(), [&](const PlacedSample& sample) { return sample.sampled_at <= to; });
+    return {static_cast<std::size_t>(begin - samples.begin()),
+            static_cast<std::size_t>(end - samples.begin())};
+}
+
+std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const FixationContext& context) {
+    StudyFixation fixation;
+    if (!context.clock_map) {
+        fixation.duration_s = std::chrono::duration<double>(event.duration).count();
+        fixation.why = NotCounted::no_frame;
+        fixation.place = event.place.value_or(ScreenPoint{});
+        return fixation;
+    }
+    fixation.onset_s = to_seconds(context.clock_map->to_session(event.start).time - context.onset);
+    const double end_s = std::min(fixation.onset_s + std::chrono::duration<double>(event.duration).count(),
+                                  context.presentation_s);
+    if (end_s <= 0.0 || fixation.onset_s >= context.presentation_s)
+        return std::nullopt;
+    fixation.duration_s = end_s - fixation.onset_s;
+
+    std::vector<const PlacedSample*> lit, on_surface;
+    const auto [begin, end] = samples_between(context.samples, event.start, event.end);
+    glm::dvec2 sum{0.0};
+    for (std::size_t i = begin; i < end; ++i) {
+        const PlacedSample& sample = context.samples[i];
+        if (!sample.has_gaze || sample.frame < 0)
+            continue;
+        lit.push_back(&sample);
+        sum += glm::dvec2(sample.gaze.x_px, sample.gaze.y_px);
+        if (sample.is_on_surface)
+            on_surface.push_back(&sample);
+    }
+    fixation.samples = static_cast<int>(lit.size());
+    fixation.place = event.place.value_or(ScreenPoint{});
+    if (!lit.empty()) {
+        sum /= static_cast<double>(lit.size());
+        fixation.place = {sum.x, sum.y};
+        fixation.on_surface = static_cast<double>(on_surface.size()) / static_cast<double>(lit.size());
+        fixation.first_frame = lit.front()->frame;
+        fixation.last_frame = lit.back()->frame;
+        fixation.mid_angle_deg =
+            context.angles[static_cast<std::size_t>(lit[lit.size() / 2]->pose.value)].value;
+    }
+    if (!on_surface.empty()) {
+        find_point(fixation, on_surface, context);
+        find_part(fixation, on_surface);
+        if (context.scale) {
+            find_spread(fixation, on_surface, *context.scale);
+            if (context.cone && context.lookup)
+                fixation.cone_at_edge = share_at_edge(*on_surface[on_surface.size() / 2], fixation, context);
+        }
+    }
+    if (fixation.onset_s < 0.0)
+        fixation.why = NotCounted::began_before_onset;
+    else if (fixation.duration_s < context.options.shortest_fixation_s)
+        fixation.why = NotCounted::too_short;
+    else if (lit.empty())
+        fixation.why = NotCounted::no_frame;
+    else if (!context.has_surface)
+        fixation.why = NotCounted::no_surface;
+    else if (on_surface.empty() || fixation.on_surface < context.options.least_on_surface)
+        fixation.why = NotCounted::not_on_surface;
+    return fixation;
+}
+
+} // namespace overt
