@@ -12,7 +12,7 @@ std::string_view name_of(NotCounted why) {
         return "began before onset";
     case NotCounted::too_short:
         return "too short";
-    case NotCounted::no_frame:
+    case NotCounted::no_frame_lit:
         return "no frame lit";
     case NotCounted::not_on_surface:
         return "not on the surface";

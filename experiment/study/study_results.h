@@ -79,7 +79,7 @@ enum class NotCounted : std::uint8_t {
     counted,            ///< it is
     began_before_onset, ///< under way when the presentation began
     too_short,          ///< shorter than the least duration of the options
-    no_frame,           ///< no frame was lit during it
+    no_frame_lit,       ///< no frame was lit during it
     not_on_surface,     ///< too small a share of its samples met the sculpture
     no_surface,         ///< the session has no maps of this sculpture
     trial_excluded,     ///< its trial is
@@ -164,6 +164,7 @@ struct StudyTrial {
     std::string why_excluded;                      ///< whole sentence
     std::size_t first_fixation = 0, fixations = 0; ///< range of StudyResults::fixations
     std::vector<StudyTurn> turns;
+    double clock_uncertainty_s = 0.0; ///< bound on the error of its samples' times by the session's clock
     StudyQuality quality;
     /// The value in a column; n/a if there is no such column.
     const std::string& key(const std::string& column) const;

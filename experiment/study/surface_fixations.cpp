@@ -95,7 +95,7 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
     StudyFixation fixation;
     if (!context.clock_map) {
         fixation.duration_s = std::chrono::duration<double>(event.duration).count();
-        fixation.why = NotCounted::no_frame;
+        fixation.why = NotCounted::no_frame_lit;
         fixation.place = event.place.value_or(ScreenPoint{});
         return fixation;
     }
@@ -143,7 +143,7 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
     else if (fixation.duration_s < context.options.shortest_fixation_s)
         fixation.why = NotCounted::too_short;
     else if (lit.empty())
-        fixation.why = NotCounted::no_frame;
+        fixation.why = NotCounted::no_frame_lit;
     else if (!context.has_surface)
         fixation.why = NotCounted::no_surface;
     else if (on_surface.empty() || fixation.on_surface < context.options.least_on_surface)

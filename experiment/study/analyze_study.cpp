@@ -1,0 +1,107 @@
+#include "experiment/study/analyze_study.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiment/base/counted.h"
+#include "experiment/study/head_fractions.h"
+#include "experiment/study/point_distributions.h"
+#include "experiment/study/study_maps.h"
+
+namespace overt {
+
+namespace {
+
+void glance_at(StudyResults& results) {
+    StudyGlance& glance = results.glance;
+    std::set<std::string> observers;
+    std::vector<std::string> protocols;
+    for (const StudySession& session : results.sessions) {
+        observers.insert(session.observer);
+        if (std::find(protocols.begin(), protocols.end(), session.protocol) == protocols.end())
+            protocols.push_back(session.protocol);
+        glance.any_simulated |= session.is_simulated;
+    }
+    glance.title = fmt::format("{}", fmt::join(protocols, "; "));
+    glance.observers = static_cast<int>(observers.size());
+    glance.sessions = static_cast<int>(results.sessions.size());
+    glance.trials = static_cast<int>(results.trials.size());
+    for (const StudyTrial& trial : results.trials)
+        glance.excluded_trials += trial.excluded;
+    std::map<NotCounted, int> reasons;
+    for (const StudyFixation& fixation : results.fixations) {
+        ++glance.fixations;
+        if (fixation.counted()) {
+            ++glance.counted;
+            glance.counted_s += fixation.duration_s;
+        } else {
+            ++reasons[fixation.why];
+        }
+    }
+    glance.not_counted.assign(reasons.begin(), reasons.end());
+
+    std::vector<std::string>& remarks = results.remarks;
+    if (protocols.size() > 1)
+        remarks.push_back(fmt::format(
+            "The sessions are of {} protocols: {}. Groups with the same words are pooled; a sculpture "
+            "with another mesh or camera is one of its own.",
+            protocols.size(), fmt::join(protocols, "; ")));
+    if (glance.observers < 3)
+        remarks.push_back(fmt::format("There {} only {}: intervals over observers need three.",
+                                      glance.observers == 1 ? "is" : "are",
+                                      counted(glance.observers, "observer")));
+    for (const StudySession& session : results.sessions) {
+        if (!session.is_complete)
+            remarks.push_back(fmt::format("{} is not complete: {} of it count.", session.folder,
+                                          counted(session.trials, "trial")));
+    }
+    if (glance.counted == 0)
+        remarks.push_back("No fixation was counted: there are no maps and no fractions.");
+    if (glance.any_simulated)
+        remarks.push_back("The gaze of some sessions is that of simulated observers.");
+}
+
+void analyze_sculpture(ReadStudy& study, int sculpture, const StudyOptions& options) {
+    StudyResults& results = study.results;
+    const SculptureSurface& surface = study.surfaces[static_cast<std::size_t>(sculpture)];
+    const StudySculpture& shown = results.sculptures[static_cast<std::size_t>(sculpture)];
+    const double widest = widest_sigma_mm(results, sculpture);
+    std::optional<MapMaker> maker;
+    if (surface.geometry && surface.scale && widest > 0.0)
+        maker.emplace(surface, *shown.mesh, options, widest);
+    add_maps(results, sculpture, surface, maker ? &*maker : nullptr, options);
+}
+
+} // namespace
+
+StudyResults analyze_study(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
+                           const StudyOptions& options, const StudyProgress& progress) {
+    ReadStudy study = read_study(sessions, surface_for, options, progress);
+    StudyResults& results = study.results;
+    results.parameters = parameters_of(options);
+    results.by = options.by;
+    results.confidence = options.confidence;
+    glance_at(results);
+    results.groups = make_groups(results, options.by, study.levels);
+
+    const int sculptures = static_cast<int>(results.sculptures.size());
+    for (int sculpture = 0; sculpture < sculptures; ++sculpture) {
+        progress("maps", sculpture, sculptures);
+        analyze_sculpture(study, sculpture, options);
+    }
+    progress("maps", sculptures, sculptures);
+    std::stable_sort(results.maps.begin(), results.maps.end(), [](const StudyMap& a, const StudyMap& b) {
+        return std::tie(a.group, a.sculpture, a.weighting) < std::tie(b.group, b.sculpture, b.weighting);
+    });
+    results.head_fractions = head_fractions(results, study.levels, options);
+    results.distributions = point_distributions(results, study.surfaces, options);
+    results.time_course = head_time_course(results, study.levels, options);
+    return std::move(study.results);
+}
+
+} // namespace overt

@@ -1,0 +1,15 @@
+/// A study from its sessions: everything that tables, figures and the report show.
+#pragma once
+
+#include "experiment/study/study_reader.h"
+
+namespace overt {
+
+/// Reads the sessions and reckons. Bad input that leaves something to say is said in the results: sessions of
+/// different protocols, missing maps, groups without fixations, a single observer. Throws InputError for a
+/// column that no trial has, and as read_study does. The same sessions and options give the same results on
+/// any number of processors.
+StudyResults analyze_study(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
+                           const StudyOptions& options, const StudyProgress& progress);
+
+} // namespace overt

@@ -1,0 +1,50 @@
+/// The tables of a study, column by column.
+#pragma once
+
+#include "experiment/record/tables/row_layout.h"
+#include "experiment/study/study_results.h"
+
+namespace overt {
+
+/// A fixation with its trial.
+struct FixationRow {
+    const StudyFixation& fixation;
+    const StudyTrial& trial;
+};
+
+/// A trial with what its counted fixations come to: for models that take trials as they are.
+struct TrialSummaryRow {
+    const StudyTrial& trial;
+    int counted = 0, on_head = 0;
+    std::optional<bool> has_head; ///< whether its sculpture has a head
+    double counted_s = 0.0, head_s = 0.0;
+    std::optional<double> wss_mm2; ///< of its counted fixations, two at least
+};
+
+// `results` must outlive the layouts.
+RowLayout<FixationRow> study_fixations_layout(const StudyResults& results);
+RowLayout<TrialSummaryRow> study_trials_layout(const StudyResults& results);
+RowLayout<StudyMap> study_maps_layout(const StudyResults& results);
+RowLayout<HeadFractionRow> head_fractions_layout(const StudyResults& results);
+RowLayout<DistributionRow> distributions_layout(const StudyResults& results);
+RowLayout<PairRow> pairs_layout(const StudyResults& results);
+RowLayout<TimeCourseRow> time_course_layout(const StudyResults& results);
+RowLayout<MapMetricsRow> map_metrics_layout(const StudyResults& results);
+
+/// A cluster of a map of differences.
+struct ClusterRow {
+    const DifferenceMap& map;
+    const DifferenceMap::Cluster* cluster; ///< null: there is none
+    int number = 0;                        ///< from 1, the largest first
+};
+RowLayout<ClusterRow> clusters_layout(const StudyResults& results);
+
+/// One of a trial or of a session.
+struct QualityRow {
+    const StudySession& session;
+    const StudyTrial* trial; ///< null: of the whole session
+    const StudyQuality& quality;
+};
+RowLayout<QualityRow> quality_layout();
+
+} // namespace overt

@@ -1,0 +1,50 @@
+/// Sessions read into one study: trials, fixations on the surface, data quality.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "experiment/maps/surface_point.h"
+#include "experiment/record/read/session_record.h"
+#include "experiment/study/study_groups.h"
+#include "experiment/study/study_options.h"
+#include "experiment/study/surface_fixations.h"
+#include "experiment/surface/surface_geometry.h"
+
+namespace overt {
+
+/// The lookup of a session's sculpture, or null if it has no surface; with a mesh it is a CoordinateMaps.
+/// `session` counts the study's sessions. What it gave is used until the next call. Throws InputError or
+/// RecordError if files are missing or damaged, which the study then says.
+using SurfaceFor =
+    std::function<const SurfaceLookup*(const SessionRecord& record, std::size_t session, int sculpture)>;
+
+/// Told what is being done and how much of it is: work is in pieces of unequal length.
+using StudyProgress = std::function<void(std::string_view what, int done, int total)>;
+
+/// What maps of a sculpture are made with.
+struct SculptureSurface {
+    std::unique_ptr<SurfaceGeometry> geometry; ///< null without a mesh, or without a known camera
+    std::vector<double> areas_mm2;             ///< by vertex
+    std::optional<SurfaceScale> scale;
+    std::vector<double> pixel_seconds, depth; ///< see Exposure
+};
+
+struct ReadStudy {
+    StudyResults results; ///< sessions, sculptures, trials, fixations, quality, traces, remarks
+    std::vector<SculptureSurface> surfaces; ///< by sculpture
+    LevelOrder levels; ///< tasks, sculptures, materials and blocks as protocols have them
+};
+
+/// Reads all trials that count. Sculpture after sculpture, so that only one's maps are in memory; within one,
+/// sessions on all processors. The result does not depend on how many. Throws InputError if a folder is no
+/// session or is given twice, RecordError for a damaged one.
+ReadStudy read_study(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
+                     const StudyOptions& options, const StudyProgress& progress);
+
+} // namespace overt

@@ -1,0 +1,38 @@
+/// One trial of a session, read for a study.
+#pragma once
+
+#include <vector>
+
+#include "experiment/record/read/session_record.h"
+#include "experiment/study/study_options.h"
+#include "experiment/study/surface_fixations.h"
+#include "experiment/study/trial_keys.h"
+
+namespace overt {
+
+/// What a session's events say of its trials' accuracy.
+struct RecordedAccuracy {
+    SessionTime at;
+    double mean_deg = 0.0, worst_deg = 0.0;
+};
+
+struct ReadTrial {
+    StudyTrial trial; ///< session and sculpture are not set
+    std::vector<StudyFixation> fixations;
+    StudyTrace trace; ///< empty if it was not asked for
+    std::int64_t samples = 0;
+    bool had_both_eyes = false;
+};
+
+struct TrialSurface {
+    const SurfaceLookup* lookup = nullptr;
+    GeodesicField* field = nullptr; ///< null without a mesh
+    std::optional<SurfaceScale> scale;
+};
+
+/// `validations` by their times. Throws RecordError.
+ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, const TrialKeys& keys,
+                     std::span<const RecordedAccuracy> validations, const TrialSurface& surface,
+                     const StudyOptions& options, bool with_trace);
+
+} // namespace overt
