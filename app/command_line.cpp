@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "app/analyze/analyze_commands.h"
 #include "app/bench/bench_commands.h"
 #include "app/check/check_commands.h"
 #include "app/cli/command_options.h"
@@ -62,8 +63,9 @@ int run_command_line(int argc, char** argv) {
     app.footer(exit_codes);
     app.get_formatter()->column_width(34);
     ChosenCommand chosen;
-    for (const auto add_commands : {add_check_commands, add_session_commands, add_record_commands,
-                                    add_stimulus_commands, add_display_commands, add_bench_commands})
+    for (const auto add_commands :
+         {add_check_commands, add_session_commands, add_record_commands, add_analyze_command,
+          add_stimulus_commands, add_display_commands, add_bench_commands})
         add_commands(app, chosen);
 
     if (const std::optional<int> answer = answer_to_no_command(app, argc, argv))

@@ -64,7 +64,7 @@ HeadFractionRow row_of(const StudyResults& results, std::vector<StudyKey> keys,
 
 } // namespace
 
-std::vector<HeadFractionRow> head_fractions(const StudyResults& results, const LevelOrder& order,
+std::vector<HeadFractionRow> head_fractions(const StudyResults& results, const LevelLists& order,
                                             const StudyOptions& options) {
     std::vector<HeadFractionRow> rows;
     for (const StudyGroup& group : results.groups)
@@ -82,7 +82,7 @@ std::vector<HeadFractionRow> head_fractions(const StudyResults& results, const L
     return rows;
 }
 
-std::vector<TimeCourseRow> head_time_course(const StudyResults& results, const LevelOrder& order,
+std::vector<TimeCourseRow> head_time_course(const StudyResults& results, const LevelLists& order,
                                             const StudyOptions& options) {
     std::vector<TimeCourseRow> rows;
     double end_s = 0.0;

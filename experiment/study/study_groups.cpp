@@ -39,7 +39,7 @@ void check_column(const StudyResults& results, const std::string& column) {
 } // namespace
 
 std::vector<std::string> levels_of(const StudyResults& results, const std::string& column,
-                                   const LevelOrder& order) {
+                                   const LevelLists& order) {
     std::set<std::string> found;
     for (const StudyTrial& trial : results.trials) {
         if (!trial.excluded)
@@ -61,7 +61,7 @@ std::vector<std::string> levels_of(const StudyResults& results, const std::strin
 }
 
 std::vector<StudyGroup> make_groups(const StudyResults& results, const std::vector<std::string>& by,
-                                    const LevelOrder& order) {
+                                    const LevelLists& order) {
     std::map<std::vector<std::size_t>, StudyGroup> groups;
     std::vector<std::vector<std::string>> levels;
     for (const std::string& column : by) {

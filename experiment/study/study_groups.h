@@ -11,18 +11,18 @@
 namespace overt {
 
 /// The values of columns in an order that a reader expects: those of a list as the protocol has them.
-using LevelOrder = std::map<std::string, std::vector<std::string>>;
+using LevelLists = std::map<std::string, std::vector<std::string>>;
 
 /// The values that a column has in trials that are not excluded, each once: as `order` has them; others
 /// after these, as numbers if they all are, else by the alphabet.
 std::vector<std::string> levels_of(const StudyResults& results, const std::string& column,
-                                   const LevelOrder& order);
+                                   const LevelLists& order);
 
 /// Groups of trials with the same values in these columns, in the order of their levels, the last column's
 /// fastest. Without columns one group has them all. Throws InputError, which lists the columns, if no trial
 /// has such a column.
 std::vector<StudyGroup> make_groups(const StudyResults& results, const std::vector<std::string>& by,
-                                    const LevelOrder& order);
+                                    const LevelLists& order);
 
 /// The observer's label of a trial.
 const std::string& observer_of(const StudyResults& results, int trial);

@@ -38,7 +38,7 @@ struct SculptureSurface {
 struct ReadStudy {
     StudyResults results; ///< sessions, sculptures, trials, fixations, quality, traces, remarks
     std::vector<SculptureSurface> surfaces; ///< by sculpture
-    LevelOrder levels; ///< tasks, sculptures, materials and blocks as protocols have them
+    LevelLists levels; ///< tasks, sculptures, materials and blocks as protocols have them
 };
 
 /// Reads all trials that count. Sculpture after sculpture, so that only one's maps are in memory; within one,

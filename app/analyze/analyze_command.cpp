@@ -1,0 +1,214 @@
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/analyze/analyze_commands.h"
+#include "app/analyze/study_surfaces.h"
+#include "app/cli/command_options.h"
+#include "app/cli/interruption.h"
+#include "app/cli/progress_bar.h"
+#include "experiment/base/counted.h"
+#include "experiment/base/error.h"
+#include "experiment/base/export_folder.h"
+#include "experiment/study/analyze_study.h"
+#include "experiment/study/study_tables.h"
+
+namespace overt {
+
+namespace {
+
+struct AnalyzeOptions {
+    std::vector<std::filesystem::path> sessions;
+    std::filesystem::path out = "analysis";
+    StudyOptions study;
+    std::string by, sigma = "1deg", kernel = "geodesic", format = "csv";
+    bool overwrite = false;
+    bool json = false;
+};
+
+/// "1deg", "30 mm", "1": degrees.
+KernelWidth kernel_width(const std::string& text) {
+    KernelWidth width;
+    std::size_t end = 0;
+    try {
+        width.value = std::stod(text, &end);
+    } catch (const std::exception&) {
+        end = 0;
+    }
+    const std::size_t unit_at = text.find_first_not_of(' ', end);
+    const std::string unit = unit_at == std::string::npos ? "" : text.substr(unit_at);
+    width.is_mm = unit == "mm";
+    if (end == 0 || !(width.value > 0.0) || width.value > 1e4 ||
+        (!unit.empty() && unit != "mm" && unit != "deg"))
+        throw InputError(fmt::format(
+            "--sigma {}: a width above 0 with its unit is expected, such as 1deg or 30mm.", text));
+    return width;
+}
+
+std::vector<std::string> listed(const std::string& text) {
+    std::vector<std::string> items;
+    std::size_t begin = 0;
+    while (begin <= text.size()) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        if (end > begin)
+            items.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return items;
+}
+
+void print_summary(const StudyResults& results, const std::filesystem::path& out) {
+    const StudyGlance& glance = results.glance;
+    fmt::print("{}\n{}, {}, {} ({} excluded), {} samples\n", glance.title,
+               counted(glance.observers, "observer"), counted(glance.sessions, "session"),
+               counted(glance.trials, "trial"), glance.excluded_trials, glance.samples);
+    std::vector<std::string> reasons;
+    for (const auto& [why, count] : glance.not_counted)
+        reasons.push_back(fmt::format("{} {}", count, name_of(why)));
+    fmt::print("fixations: {} of {} counted{}{}\n", glance.counted, glance.fixations,
+               reasons.empty() ? "" : "; ", fmt::join(reasons, ", "));
+    for (const std::string& remark : results.remarks)
+        fmt::print("note: {}\n", remark);
+    for (const HeadFractionRow& row : results.head_fractions) {
+        // The levels of single columns; the groups are in the tables.
+        if (row.keys.size() > 1 || !row.by_count.value)
+            continue;
+        fmt::print("on the head, {}: {:.3f}",
+                   row.keys.empty() ? "all" : row.keys[0].column + " " + row.keys[0].value,
+                   *row.by_count.value);
+        if (row.by_count.interval)
+            fmt::print(" ({:.3f} … {:.3f})", row.by_count.interval->low, row.by_count.interval->high);
+        fmt::print("\n");
+    }
+    fmt::print("analysis: {}\n", out.string());
+}
+
+int run_analyze(AnalyzeOptions options) {
+    options.study.by = listed(options.by);
+    options.study.sigma = kernel_width(options.sigma);
+    for (std::size_t i = 0; i < names_of<MapKernel>.size(); ++i) {
+        if (names_of<MapKernel>[i] == options.kernel)
+            options.study.kernel = static_cast<MapKernel>(i);
+    }
+    TableFormat format = TableFormat::csv;
+    for (const TableFormat one : {TableFormat::tsv, TableFormat::csv, TableFormat::jsonl}) {
+        if (options.format == ending_of(one))
+            format = one;
+    }
+    const Interruption interruption;
+    ExportFolder folder(options.out, options.overwrite, is_study_table);
+    ProgressBar bar;
+    const StudyResults results = analyze_study(options.sessions, StudySurfaces(), options.study,
+                                               [&](std::string_view what, int done, int all) {
+                                                   bar.update(what, done, all);
+                                                   Interruption::check("The analysis");
+                                               });
+    bar.finish();
+    write_study_tables(results, folder.path(), format);
+    folder.publish();
+    if (options.json)
+        fmt::print("{}", study_json(results));
+    else
+        print_summary(results, options.out);
+    return 0;
+}
+
+void add_study_options(CLI::App& command, AnalyzeOptions& options) {
+    StudyOptions& study = options.study;
+    command
+        .add_option(
+            "--by", options.by,
+            "Columns that make groups, with commas: any of the table of trials, observer, session, or "
+            "a field of the observer's form")
+        ->default_str("task,sculpture,material")
+        ->type_name("COLUMNS");
+    command.add_option("--compare", study.compare, "Column whose levels are compared within observers")
+        ->type_name("COLUMN")
+        ->capture_default_str();
+    command
+        .add_option("--sigma", options.sigma,
+                    "Standard deviation of the maps' kernel, such as 1deg (converted at the depth of each "
+                    "fixation) or 30mm")
+        ->type_name("WIDTH")
+        ->capture_default_str();
+    command
+        .add_option(
+            "--kernel", options.kernel,
+            "How maps are blurred: geodesic along the surface, euclidean in space, voxel as in the paper")
+        ->check(CLI::IsMember({"geodesic", "euclidean", "voxel"}))
+        ->capture_default_str();
+    command.add_option("--seed", study.seed, "Of the bootstrap, the permutations and the halves")
+        ->check(seed_number())
+        ->type_name("N")
+        ->capture_default_str();
+    command.add_option("--shortest-fixation", study.shortest_fixation_s, "Fixations below are not counted")
+        ->check(not_negative())
+        ->type_name("S")
+        ->capture_default_str();
+    command
+        .add_option("--least-on-surface", study.least_on_surface,
+                    "Share of a fixation's samples that must meet the sculpture")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    command
+        .add_option("--most-lost", study.exclude.most_lost_share,
+                    "Exclude trials that lost a larger share of samples, blinks apart")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("SHARE");
+    command
+        .add_option("--most-accuracy", study.exclude.most_accuracy_deg,
+                    "Exclude trials after a validation with a larger mean error")
+        ->check(not_negative())
+        ->type_name("DEG");
+    command
+        .add_option("--most-drift", study.exclude.most_drift_deg,
+                    "Exclude trials with a larger error at the drift check")
+        ->check(not_negative())
+        ->type_name("DEG");
+    command
+        .add_option("--most-missed", study.exclude.most_missed_refreshes,
+                    "Exclude trials with more missed refreshes")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("N");
+    command.add_option("--time-step", study.time_step_s, "Stretches of the time course")
+        ->check(above_zero())
+        ->type_name("S")
+        ->capture_default_str();
+    command.add_option("--confidence", study.confidence, "Level of intervals")
+        ->check(CLI::Range(0.5, 0.999))
+        ->capture_default_str();
+    command.add_option("--resamples", study.resamples, "Draws of the bootstrap over observers")
+        ->check(CLI::Range(100, 1000000))
+        ->capture_default_str();
+    command.add_option("--permutations", study.permutations, "Random permutations of tests")
+        ->check(CLI::Range(100, 1000000))
+        ->capture_default_str();
+}
+
+} // namespace
+
+void add_analyze_command(CLI::App& app, ChosenCommand& chosen) {
+    const auto given = std::make_shared<AnalyzeOptions>();
+    AnalyzeOptions& options = *given;
+    options.by = fmt::format("{}", fmt::join(options.study.by, ","));
+    CLI::App& command = add_command(
+        app, "analyze", "Fixations on the surface, maps, and the statistics of a study",
+        "overt analyze sessions/overt_2019/* --out analysis\n"
+        "  overt analyze sessions/overt_2019/* --by task,handedness --sigma 30mm --out by_hand\n"
+        "  overt analyze sessions/overt_2019/sub-07_ses-01 --most-lost 0.2 --json --out one_observer\n"
+        "Exit codes: 0 done, 1 failed, 2 bad input.");
+    command.add_option("SESSION", options.sessions, "Folders of sessions")->required();
+    command.add_option("--out", options.out, "Folder to write to")->type_name("DIR")->capture_default_str();
+    add_study_options(command, options);
+    command.add_option("--format", options.format, "Of the tables")
+        ->check(CLI::IsMember({"csv", "tsv", "jsonl"}))
+        ->capture_default_str();
+    command.add_flag("--overwrite", options.overwrite, "Replace an analysis that is there");
+    command.add_flag("--json", options.json, "Print the study as JSON");
+    run_when_chosen(command, chosen, [given] { return run_analyze(*given); });
+}
+
+} // namespace overt
