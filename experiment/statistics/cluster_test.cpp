@@ -67,7 +67,7 @@ class Differences {
 class ClusterSearch {
   public:
     ClusterSearch(const Differences& differences, const Adjacency& adjacency, double threshold)
-        : differences_(differences), adjacency_(adjacency), threshold_(threshold),
+        : differences_(differences), adjacency_(adjacency), threshold_(static_cast<float>(threshold)),
           t_(adjacency.vertices(), 0.0f) {}
 
     void reckon(std::span<const double> signs) {

@@ -12,6 +12,7 @@
 #include "experiment/study/head_fractions.h"
 #include "experiment/study/point_distributions.h"
 #include "experiment/study/study_maps.h"
+#include "experiment/study/study_pairs.h"
 
 namespace overt {
 
@@ -101,6 +102,9 @@ StudyResults analyze_study(std::span<const std::filesystem::path> sessions, cons
     results.head_fractions = head_fractions(results, study.levels, options);
     results.distributions = point_distributions(results, study.surfaces, options);
     results.time_course = head_time_course(results, study.levels, options);
+    progress("comparisons", 0, 1);
+    results.pairs = study_pairs(results, study.surfaces, study.levels, options);
+    progress("comparisons", 1, 1);
     return std::move(study.results);
 }
 

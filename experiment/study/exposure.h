@@ -10,12 +10,12 @@
 namespace overt {
 
 struct Exposure {
-    std::vector<float> seconds_visible; ///< by vertex: see StudySculpture
-    /// By vertex: seconds times pixels of the picture that lie nearest to it (shared among a triangle's
-    /// corners by barycentric weights). How long a place was visible, how large it was and how obliquely it
-    /// was seen are all in it, since it counts the pixels it took.
+    /// By vertex: see StudySculpture. A vertex counts as visible where one of its triangles is at the centre
+    /// of a pixel.
+    std::vector<float> seconds_visible;
+    /// By vertex: seconds times pixels of the picture that show its triangles, shared among their corners.
+    /// How long a place was visible, how large it was and how obliquely it was seen are all in it.
     std::vector<double> pixel_seconds;
-    std::vector<double> depth; ///< by vertex: mean depth of these pixels; 0 without
 };
 
 /// Of one presentation as it was planned. Uses all processors; does not depend on how many.

@@ -104,6 +104,8 @@ void add_exposure(StudySculpture& sculpture, const SculptureSurface& surface, co
     const double all = std::accumulate(surface.pixel_seconds.begin(), surface.pixel_seconds.end(), 0.0);
     if (!(all > 0.0))
         return;
+    // The depth as it stands in the middle of its swing.
+    const View view{sculpture.camera, sculpture.screen.image_px};
     std::vector<bool> is_done(surface.pixel_seconds.size(), false);
     std::vector<std::vector<SurfaceWeight>> weights(1);
     for (std::uint32_t t = 0; t < sculpture.mesh->triangles.size(); ++t) {
@@ -114,7 +116,8 @@ void add_exposure(StudySculpture& sculpture, const SculptureSurface& surface, co
             is_done[v] = true;
             glm::dvec3 barycentric{0.0};
             barycentric[corner] = 1.0;
-            const double sigma = surface.scale->sigma_mm(options.sigma, surface.depth[v]);
+            const double sigma = surface.scale->sigma_mm(
+                options.sigma, view.depth_of(glm::dvec3(sculpture.mesh->positions[v])));
             weights[0].push_back({{t, barycentric}, surface.pixel_seconds[v] / all, std::min(sigma, widest)});
         }
     }

@@ -30,6 +30,9 @@ struct OpenSession {
     const SessionRecord& record() const { return *readers.front(); }
 };
 
+/// Of the surface for statistics over many maps: a quarter of a usual kernel between neighbours.
+constexpr std::size_t coarse_nodes = 8000;
+
 /// Whether two sessions' sculptures are one: the same picture of the same mesh.
 bool is_same_sculpture(const SessionHeader& a, int in_a, const SessionHeader& b, int in_b) {
     const RecordedSculpture &one = a.sculptures[static_cast<std::size_t>(in_a)],
@@ -204,16 +207,17 @@ class StudyReader {
             const auto [session, reader] = jobs[static_cast<std::size_t>(i)];
             OpenSession& open = open_[session];
             std::optional<GeodesicField> field;
-            if (surface.geometry)
-                field.emplace(*surface.geometry);
+            if (surface.coarse)
+                field.emplace(*surface.coarse_geometry);
             const SessionRecord& record = *open.readers[reader];
             for (std::size_t t = reader; t < record.trials().size(); t += open.readers.size()) {
                 const TrialRecord& trial = record.trials()[t];
                 if (!is_of(session, trial, index))
                     continue;
-                read_[session][t] =
-                    read_trial(record, trial, *open.keys[reader], open.validations,
-                               {lookup, field ? &*field : nullptr, surface.scale}, options_, t < 1);
+                read_[session][t] = read_trial(record, trial, *open.keys[reader], open.validations,
+                                               {lookup, surface.geometry.get(), surface.coarse.get(),
+                                                field ? &*field : nullptr, surface.scale},
+                                               options_, t < 1);
                 const std::scoped_lock lock(progress_mutex);
                 progress_(what, ++done, trials);
             }
@@ -277,12 +281,15 @@ class StudyReader {
                     std::make_unique<SurfaceGeometry>(*sculpture.mesh, surface.scale->mm_per_unit);
             else
                 surface.geometry = std::make_unique<SurfaceGeometry>(*sculpture.mesh);
+            if (surface.scale) {
+                surface.coarse = std::make_unique<CoarseSurface>(*surface.geometry, coarse_nodes);
+                surface.coarse_geometry = std::make_unique<SurfaceGeometry>(surface.coarse->mesh());
+            }
             surface.areas_mm2 = surface.geometry->vertex_areas_mm2();
             progress_(fmt::format("exposure of {}", sculpture.id), 0, 1);
             Exposure exposure = exposure_of(*maps, header->animation, header->poses);
             sculpture.seconds_visible = std::move(exposure.seconds_visible);
             surface.pixel_seconds = std::move(exposure.pixel_seconds);
-            surface.depth = std::move(exposure.depth);
             progress_(fmt::format("exposure of {}", sculpture.id), 1, 1);
         }
         if (sculpture.remark.empty() && !sculpture.head)

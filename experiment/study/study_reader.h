@@ -32,7 +32,10 @@ struct SculptureSurface {
     std::unique_ptr<SurfaceGeometry> geometry; ///< null without a mesh, or without a known camera
     std::vector<double> areas_mm2;             ///< by vertex
     std::optional<SurfaceScale> scale;
-    std::vector<double> pixel_seconds, depth; ///< see Exposure
+    /// For statistics over many maps, and ways along the surface; null without a geometry or a scale.
+    std::unique_ptr<CoarseSurface> coarse;
+    std::unique_ptr<SurfaceGeometry> coarse_geometry;
+    std::vector<double> pixel_seconds; ///< see Exposure
 };
 
 struct ReadStudy {

@@ -3,46 +3,83 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace overt {
 
 namespace {
 
-/// Where the fixation's samples met the surface; those that share a place of the mesh to within rounding stay
-/// apart, since each stands for its time.
+/// The sample whose place is nearest to the one in space with the least sum of distances to all: Weiszfeld's
+/// steps.
+const PlacedSample& median_in_space(std::span<const PlacedSample* const> on_surface) {
+    glm::dvec3 median{0.0};
+    for (const PlacedSample* sample : on_surface)
+        median += sample->surface.position;
+    median /= static_cast<double>(on_surface.size());
+    const double least = 1e-6 * glm::length(on_surface.front()->surface.position - median) + 1e-12;
+    for (int step = 0; step < 20; ++step) {
+        glm::dvec3 sum{0.0};
+        double weights = 0.0;
+        for (const PlacedSample* sample : on_surface) {
+            const double weight = 1.0 / std::max(glm::distance(sample->surface.position, median), least);
+            sum += weight * sample->surface.position;
+            weights += weight;
+        }
+        median = sum / weights;
+    }
+    return **std::min_element(
+        on_surface.begin(), on_surface.end(), [&](const PlacedSample* a, const PlacedSample* b) {
+            return glm::distance(a->surface.position, median) < glm::distance(b->surface.position, median);
+        });
+}
+
+/// The same along the surface. Ways on a coarser surface do: what counts is on which sheet the place is.
+const PlacedSample& median_along_surface(std::span<const PlacedSample* const> on_surface,
+                                         const FixationContext& context) {
+    const CoarseSurface& coarse = *context.coarse;
+    std::map<std::uint32_t, std::vector<const PlacedSample*>> at_vertex;
+    for (const PlacedSample* sample : on_surface) {
+        const SurfacePoint& point = sample->surface;
+        int corner = 0;
+        for (int other = 1; other < 3; ++other)
+            corner = point.barycentric[other] > point.barycentric[corner] ? other : corner;
+        const std::uint32_t node = context.fine->corners(point.triangle)[corner];
+        at_vertex[coarse.vertex_near(node)].push_back(sample);
+    }
+    std::vector<SurfaceWeight> weights;
+    std::vector<std::uint32_t> vertices;
+    for (const auto& [vertex, samples] : at_vertex) {
+        weights.push_back({coarse.place_of(vertex), static_cast<double>(samples.size()), 0.0});
+        vertices.push_back(vertex);
+    }
+    return median_in_space(at_vertex[vertices[geodesic_median(*context.field, weights).index]]);
+}
+
+/// Where the fixation's samples met the surface. Samples come at equal steps of time, so that equal weights
+/// are weights of duration. Where all are about equally deep they lie on one sheet, on which straight
+/// distances do for those along the surface.
 void find_point(StudyFixation& fixation, std::span<const PlacedSample* const> on_surface,
                 const FixationContext& context) {
-    if (!context.field) {
-        // Without a mesh there are no ways along the surface: the sample nearest to the mean.
-        glm::dvec3 mean{0.0};
-        for (const PlacedSample* sample : on_surface)
-            mean += sample->surface.position;
-        mean /= static_cast<double>(on_surface.size());
-        const auto nearest = std::min_element(
-            on_surface.begin(), on_surface.end(), [&](const PlacedSample* a, const PlacedSample* b) {
-                return glm::distance(a->surface.position, mean) < glm::distance(b->surface.position, mean);
-            });
-        fixation.position = (*nearest)->surface.position;
-        fixation.part = (*nearest)->surface.part;
-        return;
-    }
-    // Samples come at equal steps of time, so equal weights are weights of duration. Of long fixations at
-    // high rates every n-th is enough to find the middle: they lie closer together than the tracker's noise.
-    const std::size_t step = std::max<std::size_t>(1, on_surface.size() / 128);
-    std::vector<SurfaceWeight> weights;
-    std::vector<const PlacedSample*> taken;
-    for (std::size_t i = step / 2; i < on_surface.size(); i += step) {
-        const SurfacePoint& point = on_surface[i]->surface;
-        weights.push_back({{point.triangle, glm::max(point.barycentric, glm::dvec3(0.0))}, 1.0, 0.0});
-        taken.push_back(on_surface[i]);
-    }
-    const SurfacePoint& median = taken[geodesic_median(*context.field, weights).index]->surface;
-    fixation.triangle = median.triangle;
-    fixation.barycentric = glm::max(median.barycentric, glm::dvec3(0.0));
-    fixation.barycentric /= fixation.barycentric.x + fixation.barycentric.y + fixation.barycentric.z;
-    fixation.position = median.position;
+    const PlacedSample* median = &median_in_space(on_surface);
     if (context.scale)
-        fixation.sigma_mm = context.scale->sigma_mm(context.options.sigma, median.depth);
+        fixation.sigma_mm = context.scale->sigma_mm(context.options.sigma, median->surface.depth);
+    if (context.field && context.scale) {
+        const auto [least, most] = std::minmax_element(
+            on_surface.begin(), on_surface.end(),
+            [](const PlacedSample* a, const PlacedSample* b) { return a->surface.depth < b->surface.depth; });
+        const double range_mm =
+            ((*most)->surface.depth - (*least)->surface.depth) * context.scale->mm_per_unit;
+        if (range_mm > 0.5 * fixation.sigma_mm) {
+            median = &median_along_surface(on_surface, context);
+            fixation.sigma_mm = context.scale->sigma_mm(context.options.sigma, median->surface.depth);
+        }
+    }
+    fixation.position = median->surface.position;
+    if (context.fine) {
+        fixation.triangle = median->surface.triangle;
+        fixation.barycentric = glm::max(median->surface.barycentric, glm::dvec3(0.0));
+        fixation.barycentric /= fixation.barycentric.x + fixation.barycentric.y + fixation.barycentric.z;
+    }
 }
 
 void find_part(StudyFixation& fixation, std::span<const PlacedSample* const> on_surface) {

@@ -11,6 +11,7 @@
 #include "experiment/gaze_event.h"
 #include "experiment/study/placed_samples.h"
 #include "experiment/study/study_options.h"
+#include "experiment/surface/coarse_surface.h"
 #include "experiment/surface/geodesic_field.h"
 
 namespace overt {
@@ -36,7 +37,9 @@ struct FixationContext {
     std::span<const Degrees> angles;          ///< by PoseIndex
     const std::optional<SurfaceScale>& scale; ///< nothing without a known camera
     bool has_surface = false;
-    GeodesicField* field = nullptr;        ///< of the sculpture's mesh; null without one
+    const SurfaceGeometry* fine = nullptr; ///< the sculpture's mesh; null without one
+    const CoarseSurface* coarse = nullptr; ///< of that; null without a scale
+    GeodesicField* field = nullptr;        ///< on the coarse surface; the same
     const SurfaceLookup* lookup = nullptr; ///< for the gaze cone; may be null
     const GazeCone* cone = nullptr;        ///< the same
 };

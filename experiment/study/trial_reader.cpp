@@ -138,6 +138,8 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                                   header.poses.angles,
                                   surface.scale,
                                   surface.lookup != nullptr,
+                                  surface.fine,
+                                  surface.coarse,
                                   surface.field,
                                   surface.lookup,
                                   cone ? &*cone : nullptr};

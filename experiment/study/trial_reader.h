@@ -26,7 +26,9 @@ struct ReadTrial {
 
 struct TrialSurface {
     const SurfaceLookup* lookup = nullptr;
-    GeodesicField* field = nullptr; ///< null without a mesh
+    const SurfaceGeometry* fine = nullptr; ///< null without a mesh
+    const CoarseSurface* coarse = nullptr; ///< null without a mesh or a scale; so is the field on it
+    GeodesicField* field = nullptr;
     std::optional<SurfaceScale> scale;
 };
 

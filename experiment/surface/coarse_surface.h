@@ -32,6 +32,9 @@ class CoarseSurface {
     /// triangle. Their sum is the weight.
     std::array<SurfaceWeight, 3> moved(const SurfaceWeight& weight) const;
 
+    /// A vertex as a place of this surface.
+    const SurfacePlace& place_of(std::uint32_t vertex) const { return places_[vertex]; }
+
     /// The mean edge, in millimetres.
     double mean_edge_mm() const;
 

@@ -1,0 +1,25 @@
+/// Table 1 of the paper: two levels of a factor compared within observers.
+#pragma once
+
+#include <vector>
+
+#include "experiment/study/study_groups.h"
+#include "experiment/study/study_options.h"
+#include "experiment/study/study_reader.h"
+
+namespace overt {
+
+/// A row for each pair of levels of the compared column, within each group of the other columns of `--by`
+/// (sculptures together). Observers are compared with themselves on each sculpture that they saw in both
+/// levels, and their comparisons averaged. Beside each similarity:
+///
+/// - the ceiling: of halves of one level's fixations, stepped up to the full number after Spearman and Brown,
+///   as if the similarity were a correlation; SIM, which is none, stays that of halves;
+/// - the null: of the same numbers of fixations drawn without regard to the level from both, and p, how often
+///   that gives as small a mean similarity as was found.
+///
+/// Maps count fixations alike and are made on the coarse surface. Empty if no column of `--by` is compared.
+std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<SculptureSurface>& surfaces,
+                                 const LevelLists& levels, const StudyOptions& options);
+
+} // namespace overt

@@ -1,0 +1,131 @@
+/// `overt analyze` on whole sessions of simulated observers, whose truth is known.
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/small_experiment.h"
+#include "tests/support/tsv_file.h"
+
+namespace fs = std::filesystem;
+using namespace overt::test;
+
+namespace {
+
+std::string text_of(const fs::path& file) {
+    std::ifstream stream(file);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+/// Three observers of the small experiment.
+class SmallStudy {
+  public:
+    SmallStudy() {
+        for (const std::string number : {"1", "2", "3"}) {
+            REQUIRE(experiment.run({"--observer", "P0" + number, "--seed", number}).exit_code == 0);
+            sessions.push_back(experiment.session(1, "P0" + number).string());
+        }
+    }
+    ProgramRun analyze(const fs::path& out, std::vector<std::string> more = {}) const {
+        std::vector<std::string> arguments{"analyze",        "--format", "tsv",   "--resamples", "200",
+                                           "--permutations", "100",      "--out", out.string()};
+        arguments.insert(arguments.end(), sessions.begin(), sessions.end());
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return experiment.overt(arguments);
+    }
+    SmallExperiment experiment;
+    std::vector<std::string> sessions;
+};
+
+} // namespace
+
+TEST_CASE("where simulated observers mean to look comes back as head fractions", "[session]") {
+    const SmallStudy study;
+    const fs::path out = study.experiment.folder().path() / "analysis";
+    const ProgramRun run = study.analyze(out);
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    // The question about the face has all planned fixations on the head, that about the clothes none.
+    int rows = 0;
+    const TsvFile fractions(out / "figure4_head_fraction.tsv");
+    for (std::size_t row = 0; row < fractions.size(); ++row) {
+        if (fractions.text(row, "sculpture") != "all" || fractions.text(row, "material") != "all")
+            continue;
+        const std::string task = fractions.text(row, "task");
+        if (task == "face" || task == "clothes") {
+            const double truth = task == "face" ? 1.0 : 0.0;
+            CHECK(fractions.number(row, "by_count") == Approx(truth).margin(0.05));
+            CHECK(fractions.text(row, "observers") == "3");
+            ++rows;
+        }
+    }
+    CHECK(rows == 2);
+
+    // The sum of the variances is WSS, in both units, and nothing is NaN anywhere.
+    const TsvFile distributions(out / "figure5_distribution.tsv");
+    CHECK(distributions.size() == 12);
+    for (std::size_t row = 0; row < distributions.size(); ++row) {
+        const double sum = distributions.number(row, "var_x_mm2") + distributions.number(row, "var_y_mm2") +
+                           distributions.number(row, "var_z_mm2");
+        CHECK(distributions.number(row, "wss_mm2") == Approx(sum).epsilon(1e-6));
+    }
+    for (const fs::directory_entry& file : fs::directory_iterator(out)) {
+        const std::string text = text_of(file.path());
+        INFO(file.path());
+        CHECK(text.find("nan") == std::string::npos);
+        CHECK(text.find("inf\t") == std::string::npos);
+    }
+    const TsvFile maps(out / "maps.tsv");
+    CHECK(maps.size() == 24); // by duration and by count
+    const TsvFile trials(out / "trials.tsv");
+    CHECK(trials.size() == 3 * small_trials);
+    // Maps keep what fixations put into them: ms of a trial.
+    double fixated_s = 0.0;
+    for (std::size_t row = 0; row < trials.size(); ++row)
+        fixated_s += trials.number(row, "fixated_s");
+    double in_maps_s = 0.0;
+    for (std::size_t row = 0; row < maps.size(); ++row) {
+        if (maps.text(row, "weighting") == "duration")
+            in_maps_s += 1e-3 * maps.number(row, "total") * maps.number(row, "trials");
+    }
+    CHECK(in_maps_s == Approx(fixated_s).epsilon(1e-5));
+
+    SECTION("a second analysis gives the same bytes, and replaces nothing unasked") {
+        const fs::path again = study.experiment.folder().path() / "again";
+        REQUIRE(study.analyze(again).exit_code == 0);
+        for (const fs::directory_entry& file : fs::directory_iterator(out)) {
+            INFO(file.path());
+            CHECK(text_of(file.path()) == text_of(again / file.path().filename()));
+        }
+        CHECK(study.analyze(out).exit_code == 2);
+        CHECK(study.analyze(out, {"--overwrite"}).exit_code == 0);
+    }
+    SECTION("any column makes groups, and a wrong one is named with those there are") {
+        const fs::path by = study.experiment.folder().path() / "by";
+        REQUIRE(study.analyze(by, {"--by", "observer,attempt"}).exit_code == 0);
+        const TsvFile of_observers(by / "figure4_head_fraction.tsv");
+        CHECK(of_observers.text(0, "observer") == "P01");
+        const ProgramRun wrong = study.analyze(by / "x", {"--by", "colour"});
+        CHECK(wrong.exit_code == 2);
+        CHECK(wrong.err.find("colour") != std::string::npos);
+        CHECK(wrong.err.find("material") != std::string::npos);
+        CHECK(study.analyze(by / "x", {"--sigma", "-2deg"}).exit_code == 2);
+    }
+    SECTION("a session whose maps are gone is said, not counted, and does not end the analysis") {
+        fs::remove_all(fs::path(study.sessions[0]) / "maps");
+        const fs::path rest = study.experiment.folder().path() / "rest";
+        const ProgramRun one =
+            study.experiment.overt({"analyze", study.sessions[0], "--out", rest.string(), "--json"});
+        INFO(one.err);
+        REQUIRE(one.exit_code == 0);
+        const auto json = nlohmann::json::parse(one.out);
+        CHECK(json.at("counted_fixations") == 0);
+        CHECK(one.out.find("cannot be used") != std::string::npos);
+        CHECK(one.out.find("1 observer") != std::string::npos);
+    }
+}
