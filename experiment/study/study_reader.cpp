@@ -31,7 +31,7 @@ struct OpenSession {
 };
 
 /// Of the surface for statistics over many maps: a quarter of a usual kernel between neighbours.
-constexpr std::size_t coarse_nodes = 8000;
+constexpr std::size_t coarse_nodes = 4000;
 
 /// Whether two sessions' sculptures are one: the same picture of the same mesh.
 bool is_same_sculpture(const SessionHeader& a, int in_a, const SessionHeader& b, int in_b) {

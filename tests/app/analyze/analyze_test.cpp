@@ -1,7 +1,5 @@
 /// `overt analyze` on whole sessions of simulated observers, whose truth is known.
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -14,13 +12,6 @@ namespace fs = std::filesystem;
 using namespace overt::test;
 
 namespace {
-
-std::string text_of(const fs::path& file) {
-    std::ifstream stream(file);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
 
 /// Three observers of the small experiment.
 class SmallStudy {
@@ -59,7 +50,9 @@ TEST_CASE("where simulated observers mean to look comes back as head fractions",
         const std::string task = fractions.text(row, "task");
         if (task == "face" || task == "clothes") {
             const double truth = task == "face" ? 1.0 : 0.0;
-            CHECK(fractions.number(row, "by_count") == Approx(truth).margin(0.05));
+            // Presentations of a second hold three fixations or four, and the tracker's error puts some that
+            // are near the neck on the wrong side of it.
+            CHECK(fractions.number(row, "by_count") == Approx(truth).margin(0.15));
             CHECK(fractions.text(row, "observers") == "3");
             ++rows;
         }
