@@ -13,8 +13,11 @@
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/base/export_folder.h"
+#include "experiment/report/report_page.h"
+#include "experiment/report/surface_files.h"
 #include "experiment/study/analyze_study.h"
 #include "experiment/study/study_tables.h"
+#include "render/figures/study_figures.h"
 
 namespace overt {
 
@@ -26,6 +29,7 @@ struct AnalyzeOptions {
     StudyOptions study;
     std::string by, sigma = "1deg", kernel = "geodesic", format = "csv";
     bool overwrite = false;
+    bool with_meshes = false;
     bool json = false;
 };
 
@@ -99,7 +103,9 @@ int run_analyze(AnalyzeOptions options) {
             format = one;
     }
     const Interruption interruption;
-    ExportFolder folder(options.out, options.overwrite, is_study_table);
+    ExportFolder folder(options.out, options.overwrite, [](const std::string& file) {
+        return is_study_table(file) || file == "report.html" || file == "figures" || file == "meshes";
+    });
     ProgressBar bar;
     const StudyResults results = analyze_study(options.sessions, StudySurfaces(), options.study,
                                                [&](std::string_view what, int done, int all) {
@@ -108,6 +114,10 @@ int run_analyze(AnalyzeOptions options) {
                                                });
     bar.finish();
     write_study_tables(results, folder.path(), format);
+    write_figures(results, folder.path() / "figures");
+    if (options.with_meshes)
+        write_surfaces(results, folder.path() / "meshes");
+    write_report(results, folder.path() / "report.html");
     folder.publish();
     if (options.json)
         fmt::print("{}", study_json(results));
@@ -206,6 +216,7 @@ void add_analyze_command(CLI::App& app, ChosenCommand& chosen) {
     command.add_option("--format", options.format, "Of the tables")
         ->check(CLI::IsMember({"csv", "tsv", "jsonl"}))
         ->capture_default_str();
+    command.add_flag("--meshes", options.with_meshes, "Write each map as a coloured mesh, too (GLB and PLY)");
     command.add_flag("--overwrite", options.overwrite, "Replace an analysis that is there");
     command.add_flag("--json", options.json, "Print the study as JSON");
     run_when_chosen(command, chosen, [given] { return run_analyze(*given); });
