@@ -1,6 +1,7 @@
 #include "experiment/analysis/gaze_cone.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -66,6 +67,19 @@ Probabilities by_chance(const CastScene& scene, const ScreenGeometry& screen, Po
 }
 
 } // namespace
+
+TEST_CASE("each direction of a cone stands in the middle of its share: a single one is off by the median",
+          "[unit]") {
+    const ScreenGeometry screen = screen_for({400, 300});
+    const ScreenPoint gaze{200.0, 150.0};
+    const Witness witness;
+    GazeCone(screen, {0.7}, 1).shares(witness, {0}, gaze, 1);
+    REQUIRE(witness.asked.size() == 1);
+    // The mean of a Rayleigh distribution is sigma times the root of pi / 2, its median sigma times that of
+    // ln 4.
+    CHECK(screen.angle_between(gaze, screen.screen_from_image(witness.asked[0])).value ==
+          Approx(0.7 * std::sqrt(2.0 / std::numbers::pi) * std::sqrt(std::log(4.0))).epsilon(1e-9));
+}
 
 TEST_CASE("a cone's directions are off by the accuracy on average, to all sides alike", "[unit]") {
     const ScreenGeometry screen = screen_for({400, 300});

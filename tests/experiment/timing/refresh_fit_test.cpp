@@ -127,3 +127,21 @@ TEST_CASE("counting while stamps come in is right through jitter, drift and refr
         CHECK(wrong == 0);
     }
 }
+
+TEST_CASE("a stamp that was counted one too many is taken back where the next refresh goes by", "[unit]") {
+    RefreshCount count(100.0);
+    const auto at = [&](double refreshes) {
+        return count.at(SessionTime(SessionDuration(std::llround(refreshes * 1e7))));
+    };
+    for (int refresh = 0; refresh < 40; ++refresh)
+        REQUIRE(at(refresh) == refresh + 1);
+    // Stamped six tenths late, and taken for the refresh after it. Counts only rise, so those after it are
+    // one too high.
+    CHECK(at(40.6) == 42);
+    CHECK(at(41.0) == 43);
+    CHECK(at(42.0) == 44);
+    // A refresh goes by unseen, and the count is right again.
+    CHECK(at(44.0) == 45);
+    for (int refresh = 45; refresh < 60; ++refresh)
+        CHECK(at(refresh) == refresh + 1);
+}

@@ -1,5 +1,6 @@
 #include "experiment/timing/refresh_ledger.h"
 
+#include <algorithm>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -65,6 +66,27 @@ TEST_CASE("each refresh of the plan has one row, whatever went by", "[unit]") {
             REQUIRE(book.shown == static_cast<int>(book.flips.size()));
             REQUIRE(book.shown + book.missed_in_all == book.flips.back().refresh_in_trial + 1);
         }
+    }
+}
+
+TEST_CASE("what was lit while refreshes were missed is what the flip before them had shown", "[unit]") {
+    const PageCycle cycle = plan();
+    for (const WhenLate when_late : {WhenLate::drop, WhenLate::stretch}) {
+        // Long enough for several frames of the plan to go by, each time.
+        const Book book = play(cycle, when_late, [](int refresh) { return refresh % 17 == 5 ? 11 : 0; });
+        REQUIRE(book.missed.size() > 50);
+        int changes = 0;
+        for (const MissedRefresh& missed : book.missed) {
+            const auto after = std::ranges::find_if(book.flips, [&](const FlipRecord& flip) {
+                return flip.refresh_in_trial > missed.refresh_in_trial;
+            });
+            REQUIRE(after != book.flips.begin());
+            const FlipRecord& before = *std::prev(after);
+            REQUIRE(missed.shown == before.shown);
+            REQUIRE(missed.pose == before.pose);
+            changes += after->shown != before.shown;
+        }
+        CHECK(changes > 50);
     }
 }
 

@@ -56,7 +56,7 @@ TEST_CASE("faults strike no screens between presentations", "[unit]") {
     test::StandingClock clock;
     DisplayFaults faults;
     DisplayFault skip{DisplayFault::Kind::skip};
-    skip.refresh = 1;
+    skip.refresh = 6; // the presentation ends before it
     faults.given = {skip};
     VirtualRefresh display(clock, 100.0, faults);
     misses_of(display, 0, 4);
