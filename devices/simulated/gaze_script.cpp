@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "devices/simulated/eye_movements.h"
 #include "experiment/base/error.h"
@@ -28,6 +29,7 @@ struct Composer {
     const GazeTargets* targets;
     const PursuedTurn& turn;
     const ObserverSettings& settings;
+    const GazePlan& plan;
     RandomStream random;
 
     ScreenPoint place(const ScriptedFixation& fixation, SessionDuration since_onset) const {
@@ -57,10 +59,12 @@ struct Composer {
         return true;
     }
 
-    bool find_target(const ScriptedFixation& before, ScriptedFixation& next, Region region,
-                     double duration_s) {
+    /// `draw_one()` draws a point.
+    template <class Draw>
+    bool find_target(const ScriptedFixation& before, ScriptedFixation& next, double duration_s,
+                     const Draw& draw_one) {
         for (int draw = 0; draw < draws_of_a_region; ++draw) {
-            next.target = targets->draw(random, region);
+            next.target = draw_one();
             const Degrees amplitude = follow(before, next, duration_s);
             if (amplitude >= settings.shortest_saccade && stays_visible(next, before.end))
                 return true;
@@ -68,15 +72,39 @@ struct Composer {
         return false;
     }
 
-    ScriptedFixation next_fixation(const ScriptedFixation& before, double head_share) {
+    bool find_target(const ScriptedFixation& before, ScriptedFixation& next, double duration_s,
+                     Region region) {
+        return find_target(before, next, duration_s, [&] { return targets->draw(random, region); });
+    }
+
+    /// The effect to whose spot a fixation goes; -1: to none.
+    int choose_spot() {
+        if (plan.spot_count == 0)
+            return -1;
+        double chance = random.uniform();
+        for (const GazePlan::Spot& spot :
+             std::span(plan.spots.data(), static_cast<std::size_t>(plan.spot_count))) {
+            if (chance < spot.share)
+                return spot.effect;
+            chance -= spot.share;
+        }
+        return -1;
+    }
+
+    ScriptedFixation next_fixation(const ScriptedFixation& before) {
         const double duration_s =
             log_normal_within(random, settings.fixation_median_s, settings.fixation_log_sd,
                               settings.shortest_fixation_s, settings.longest_fixation_s);
-        const Region region = random.uniform() < head_share ? Region::head : Region::elsewhere;
+        const int spot = choose_spot();
+        const Region region = random.uniform() < plan.head_share ? Region::head : Region::elsewhere;
         const Region other = region == Region::head ? Region::elsewhere : Region::head;
         ScriptedFixation next;
         if (targets) {
-            if (find_target(before, next, region, duration_s) || find_target(before, next, other, duration_s))
+            const bool found_spot = spot >= 0 && find_target(before, next, duration_s, [&] {
+                                        return targets->draw_from_spot(random, spot);
+                                    });
+            if (found_spot || find_target(before, next, duration_s, region) ||
+                find_target(before, next, duration_s, other))
                 return next;
             next.target.reset();
             next.place = scene.screen.centre();
@@ -123,9 +151,9 @@ GazeScript::GazeScript(const ObservedScene& scene, const ObserverSettings& setti
 
 void GazeScript::compose(const ObservedScene& scene, const GazeTargets* targets, const PursuedTurn& turn,
                          const ObserverSettings& settings, std::uint64_t seed, int trial,
-                         double head_share) noexcept {
-    Composer composer{scene, targets, turn, settings,
-                      RandomStream(seed, "scanpath", static_cast<std::uint64_t>(trial))};
+                         const GazePlan& plan) noexcept {
+    Composer composer{scene,    targets, turn,
+                      settings, plan,    RandomStream(seed, "scanpath", static_cast<std::uint64_t>(trial))};
     fixations_.clear();
     ScriptedFixation first;
     first.place = scene.screen.centre();
@@ -133,7 +161,7 @@ void GazeScript::compose(const ObservedScene& scene, const GazeTargets* targets,
                                                reaction_low_s, reaction_high_s));
     fixations_.push_back(first);
     while (fixations_.back().end < horizon_ && fixations_.size() < fixations_.capacity())
-        fixations_.push_back(composer.next_fixation(fixations_.back(), head_share));
+        fixations_.push_back(composer.next_fixation(fixations_.back()));
 }
 
 std::size_t GazeScript::fixation_at(SessionDuration since_onset) const noexcept {

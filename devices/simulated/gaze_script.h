@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "devices/simulated/gaze_plan.h"
 #include "devices/simulated/gaze_targets.h"
 #include "devices/simulated/observed_scene.h"
 #include "experiment/maps/surface_point.h"
@@ -65,11 +66,13 @@ class GazeScript {
     /// Writes the script of a trial: a function of its arguments alone. `targets` is nullptr for a sculpture
     /// without a mesh. Allocates nothing; some thousand rays are cast.
     ///
-    /// Each fixation goes to the head with probability `head_share`, else elsewhere, at a point that is
-    /// visible in every frame lit from the saccade's start to the fixation's end. If 200 points of the region
-    /// are not, the other region is tried, and at last the middle of the screen.
+    /// Each fixation goes where the plan says, by chance: to a spot, to the head or elsewhere, at a point
+    /// that is visible in every frame lit from the saccade's start to the fixation's end. If 200 points of a
+    /// spot are not, head or elsewhere is tried; if 200 of these, the other of the two, and at last the
+    /// middle of the screen.
     void compose(const ObservedScene& scene, const GazeTargets* targets, const PursuedTurn& turn,
-                 const ObserverSettings& settings, std::uint64_t seed, int trial, double head_share) noexcept;
+                 const ObserverSettings& settings, std::uint64_t seed, int trial,
+                 const GazePlan& plan) noexcept;
 
     const std::vector<ScriptedFixation>& fixations() const { return fixations_; }
 

@@ -9,6 +9,7 @@ namespace overt {
 namespace {
 
 constexpr double plinth_weight = 0.1;
+constexpr int most_tries = 500;      ///< to find a place that is seen at every angle
 constexpr double least_facing = 0.2; ///< cosine of the most oblique angle that is looked at
 
 struct Corners {
@@ -28,23 +29,63 @@ glm::dvec3 turned_back(glm::dvec3 world_point, const TurntablePose& pose) {
 
 } // namespace
 
-GazeTargets::GazeTargets(const ObservedSculpture& sculpture)
+GazeTargets::GazeTargets(const ObservedSculpture& sculpture, const ObservedScene& scene)
     : mesh_(sculpture.mesh), scene_(sculpture.scene), caster_(*sculpture.mesh) {
     for (std::uint32_t i = 0; i < mesh_->triangles.size(); ++i) {
         const std::string_view part = mesh_->part_names[mesh_->triangle_parts[i]];
         const double area = glm::length(corners_of(*mesh_, i).normal_times_area());
         const double weight = part == "plinth" ? plinth_weight * area : area;
         WeightedTriangles& region = part == "head" ? head_ : elsewhere_;
-        const double before = region.cumulative.empty() ? 0.0 : region.cumulative.back();
-        region.triangles.push_back(i);
-        region.cumulative.push_back(before + weight);
+        region.add(i, weight);
     }
+    for (std::size_t effect = 0; effect < scene.effects.size(); ++effect) {
+        RandomStream random(effect, "spot of an effect");
+        const Region region = random.uniform() < 0.5 ? Region::head : Region::elsewhere;
+        SurfacePoint middle;
+        for (int tries = 0; tries < most_tries; ++tries) {
+            middle = draw(random, region);
+            bool is_seen = true;
+            for (int step = 0; step < scene.animation.steps_per_period() && is_seen; ++step)
+                is_seen = is_visible(middle, scene.animation.angle_of(scene.animation.frame_at_step(step)));
+            if (is_seen)
+                break;
+        }
+        spots_.push_back(spot_about(middle));
+    }
+}
+
+GazeTargets::Spot GazeTargets::spot_about(const SurfacePoint& middle) const {
+    Spot spot{middle, spot_radius * mesh_->bounds().extent().z, {}};
+    const glm::dvec3 facing = corners_of(*mesh_, middle.triangle).normal_times_area();
+    for (std::uint32_t i = 0; i < mesh_->triangles.size(); ++i) {
+        const Corners corners = corners_of(*mesh_, i);
+        const glm::dvec3 normal = corners.normal_times_area(),
+                         centre = (corners.a + corners.b + corners.c) / 3.0;
+        const double reach = std::max({glm::distance(centre, corners.a), glm::distance(centre, corners.b),
+                                       glm::distance(centre, corners.c)});
+        if (glm::distance(centre, middle.position) <= spot.radius + reach && glm::dot(normal, facing) > 0.0)
+            spot.triangles.add(i, glm::length(normal));
+    }
+    return spot;
 }
 
 SurfacePoint GazeTargets::draw(RandomStream& random, Region region) const noexcept {
     const bool wants_head = region == Region::head;
     const WeightedTriangles& wanted = wants_head ? head_ : elsewhere_;
-    const WeightedTriangles& from = wanted.triangles.empty() ? (wants_head ? elsewhere_ : head_) : wanted;
+    return draw_from(random, wanted.triangles.empty() ? (wants_head ? elsewhere_ : head_) : wanted);
+}
+
+SurfacePoint GazeTargets::draw_from_spot(RandomStream& random, int effect) const noexcept {
+    const Spot& spot = spots_[static_cast<std::size_t>(effect)];
+    for (int tries = 0; tries < most_tries; ++tries) {
+        const SurfacePoint point = draw_from(random, spot.triangles);
+        if (glm::distance(point.position, spot.middle.position) <= spot.radius)
+            return point;
+    }
+    return spot.middle;
+}
+
+SurfacePoint GazeTargets::draw_from(RandomStream& random, const WeightedTriangles& from) const noexcept {
     const double place = random.uniform(0.0, from.cumulative.back());
     const auto found = std::upper_bound(from.cumulative.begin(), from.cumulative.end() - 1, place);
     SurfacePoint point;

@@ -18,12 +18,18 @@ enum class Region : std::uint8_t { head, elsewhere };
 /// Draws surface points and knows what is visible of them. Constant queries allocate nothing.
 class GazeTargets {
   public:
-    /// The sculpture's mesh must outlive this and have triangles.
-    explicit GazeTargets(const ObservedSculpture& sculpture);
+    /// The sculpture's mesh must outlive this and have triangles. Each effect of the scene has a spot on it,
+    /// the same for all observers: a place that is seen at every angle of the animation, if there is one, and
+    /// what of the surface lies within `spot_radius` of the mesh's height about it and faces the same way.
+    GazeTargets(const ObservedSculpture& sculpture, const ObservedScene& scene);
+    static constexpr double spot_radius = 0.04;
 
     /// A point of the region, all of its area equally probable, save that the part "plinth" is looked at a
     /// tenth as often. A sculpture without that region gives a point of the other.
     SurfacePoint draw(RandomStream& random, Region region) const noexcept;
+
+    /// A point of an effect's spot, all of its area equally probable.
+    SurfacePoint draw_from_spot(RandomStream& random, int effect) const noexcept;
 
     /// Whether the point is seen when the object is turned by `angle`, and not too obliquely (up to 78
     /// degrees between line of sight and normal).
@@ -39,12 +45,26 @@ class GazeTargets {
     struct WeightedTriangles {
         std::vector<std::uint32_t> triangles;
         std::vector<double> cumulative; ///< weighted area up to and with each triangle
+
+        void add(std::uint32_t triangle, double weight) {
+            triangles.push_back(triangle);
+            cumulative.push_back((cumulative.empty() ? 0.0 : cumulative.back()) + weight);
+        }
     };
+
+    SurfacePoint draw_from(RandomStream& random, const WeightedTriangles& from) const noexcept;
+    struct Spot {
+        SurfacePoint middle;
+        double radius = 0.0;
+        WeightedTriangles triangles; ///< that may reach into it
+    };
+    Spot spot_about(const SurfacePoint& middle) const;
 
     const Mesh* mesh_;
     SceneView scene_;
     RayCaster caster_;
     WeightedTriangles head_, elsewhere_;
+    std::vector<Spot> spots_; ///< by effect
 };
 
 } // namespace overt

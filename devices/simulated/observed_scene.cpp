@@ -26,6 +26,15 @@ ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Scul
         scene.sculptures.push_back({sculpture.has_mesh() ? &sculpture.mesh : nullptr, sculpture.scene});
     for (const Task& task : protocol.tasks)
         scene.tasks.push_back({task.id, task.simulated_head_share});
+    const auto number_of = [](const std::string& id, const auto& entries) {
+        const auto found = std::ranges::find(entries, id, [](const auto& entry) { return entry.id; });
+        return id.empty() || found == entries.end() ? -1 : static_cast<int>(found - entries.begin());
+    };
+    for (const SimulatedEffect& effect : protocol.simulated_effects)
+        scene.effects.push_back(
+            {number_of(effect.task, protocol.tasks), number_of(effect.sculpture, protocol.sculptures),
+             number_of(effect.material, protocol.materials), effect.head_odds, effect.spot_share});
+    scene.head_share_sd = protocol.simulated_observers.head_share_sd;
     return scene;
 }
 

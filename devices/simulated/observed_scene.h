@@ -12,6 +12,7 @@
 #include "experiment/screen_geometry.h"
 #include "experiment/session_time.h"
 #include "experiment/stimulus/sculpture.h"
+#include "experiment/trial.h"
 
 namespace overt {
 
@@ -25,6 +26,17 @@ struct ObservedTask {
     double head_share = 0.0; ///< share of fixations that go to the part "head", 0 … 1
 };
 
+/// What the gaze depends on besides the task; -1: any.
+struct ObservedEffect {
+    int task = -1, sculpture = -1, material = -1;
+    double head_odds = 1.0, spot_share = 0.0;
+
+    bool holds_in(int of_task, Condition condition) const {
+        return (task < 0 || task == of_task) && (sculpture < 0 || sculpture == condition.sculpture) &&
+               (material < 0 || material == condition.material);
+    }
+};
+
 struct ObservedScene {
     ScreenGeometry screen;
     Animation animation;
@@ -32,6 +44,8 @@ struct ObservedScene {
     SessionDuration display_latency{};         ///< from vertical blank to the first row's light
     std::vector<ObservedSculpture> sculptures; ///< by Condition::sculpture
     std::vector<ObservedTask> tasks;           ///< by Trial::task
+    std::vector<ObservedEffect> effects = {};
+    double head_share_sd = 0.0; ///< of the logit, over observers
 
     /// From vertical blank to the light of a row: rows are lit one after another, evenly over one refresh.
     /// Rows above and below the screen are taken as its first and last.

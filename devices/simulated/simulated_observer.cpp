@@ -37,7 +37,7 @@ SimulatedObserver::SimulatedObserver(ObservedScene scene, std::uint64_t seed,
         angle_of_frame_.push_back(scene_.animation.angle_of({frame}));
     for (const ObservedSculpture& sculpture : scene_.sculptures) {
         const bool has_surface = sculpture.mesh && !sculpture.mesh->triangles.empty();
-        targets_.push_back(has_surface ? std::make_unique<GazeTargets>(sculpture) : nullptr);
+        targets_.push_back(has_surface ? std::make_unique<GazeTargets>(sculpture, scene_) : nullptr);
     }
     prepare_next();
 }
@@ -53,7 +53,7 @@ void SimulatedObserver::presentation_begins(const Trial& trial) noexcept {
     presentation.trial = trial.index;
     presentation.targets = targets_[static_cast<std::size_t>(trial.condition.sculpture)].get();
     presentation.script.compose(scene_, presentation.targets, turn_, settings_, seed_, trial.index,
-                                scene_.tasks[static_cast<std::size_t>(trial.task)].head_share);
+                                gaze_plan(scene_, seed_, trial.task, trial.condition));
 }
 
 void SimulatedObserver::flipped(const FlipRecord& flip) noexcept {

@@ -42,6 +42,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_blocks(examination);
         check_groups(examination);
         check_practice(examination);
+        check_simulated_effects(examination);
         check_breaks(examination);
         check_sitting(examination);
         check_sculptures(examination, shipped_sculptures);

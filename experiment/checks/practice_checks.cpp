@@ -33,6 +33,45 @@ void check_practice(ProtocolExamination& examination) {
     }
 }
 
+void check_simulated_effects(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    const auto& effects = protocol.simulated_effects;
+    int spots = 0;
+    double shares = 0.0;
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+        const auto path = [&](std::string_view key) {
+            return fmt::format("simulated_effect[{}].{}", i, key);
+        };
+        const SimulatedEffect& effect = effects[i];
+        if (!effect.task.empty())
+            check_id(examination, path("task"), effect.task, protocol.tasks, "task");
+        if (!effect.sculpture.empty())
+            check_id(examination, path("sculpture"), effect.sculpture, protocol.sculptures, "sculpture");
+        if (!effect.material.empty())
+            check_id(examination, path("material"), effect.material, protocol.materials, "material");
+        spots += effect.spot_share > 0.0;
+        // What can hold in one trial with this effect, this one included.
+        shares = 0.0;
+        for (const SimulatedEffect& other : effects) {
+            const auto meet = [](const std::string& a, const std::string& b) {
+                return a.empty() || b.empty() || a == b;
+            };
+            if (meet(effect.task, other.task) && meet(effect.sculpture, other.sculpture) &&
+                meet(effect.material, other.material))
+                shares += other.spot_share;
+        }
+        if (effect.spot_share > 0.0 && shares > 1.0)
+            examination.error(
+                {path("spot_share")},
+                fmt::format("with the effects that can hold in the same trials, {:.3g} of the fixations "
+                            "would go to spots: 1 is all",
+                            shares));
+    }
+    if (spots > most_simulated_spots)
+        examination.error({"simulated_effect"}, fmt::format("{} effects have a spot: {} can be kept apart",
+                                                            spots, most_simulated_spots));
+}
+
 void check_breaks(ProtocolExamination& examination) {
     const BreakSettings& breaks = examination.protocol.breaks;
     if (breaks.pace == BreakPace::timed && examination.is_written("breaks.min_s"))

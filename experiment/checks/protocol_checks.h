@@ -22,6 +22,7 @@ void check_dropped_limits(ProtocolExamination& examination);
 void check_blocks(ProtocolExamination& examination);
 void check_groups(ProtocolExamination& examination);
 void check_practice(ProtocolExamination& examination);
+void check_simulated_effects(ProtocolExamination& examination);
 void check_breaks(ProtocolExamination& examination);
 /// Consent, form, the operator's keys and spoken answers.
 void check_sitting(ProtocolExamination& examination);

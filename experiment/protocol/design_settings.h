@@ -107,6 +107,21 @@ struct GroupSettings {
     std::vector<std::string> blocks, tasks, sculptures, materials;
 };
 
+/// [simulated_observers]: how they differ from one another.
+struct SimulatedObserverSettings {
+    double head_share_sd = 0.0; ///< standard deviation of the logit of their shares of fixations on the head
+};
+
+/// [[simulated_effect]]: what the gaze of simulated observers depends on, for a study to find. Ids; empty:
+/// any.
+struct SimulatedEffect {
+    std::string task, sculpture, material;
+    double head_odds = 1.0;  ///< times the odds of the task's simulated_head_share
+    double spot_share = 0.0; ///< share of fixations that go to the effect's own spot
+};
+/// Effects with a spot that one trial can have.
+inline constexpr int most_simulated_spots = 8;
+
 /// [[practice]]: a trial that does not count. Ids.
 struct PracticeSettings {
     std::string task, sculpture, material;

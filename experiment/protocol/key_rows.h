@@ -36,6 +36,10 @@ Section practice();
 Section breaks();
 Section repeat();
 
+// Where simulated observers look (simulation_keys.cpp).
+Section simulated_observers();
+Section simulated_effect();
+
 // What surrounds the trials (sitting_keys.cpp).
 Section consent();
 Section instructions();

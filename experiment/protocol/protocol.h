@@ -265,6 +265,8 @@ struct Protocol {
     std::vector<BlockSettings> blocks; ///< none: all trials are one block in random order
     std::vector<GroupSettings> groups; ///< none: all observers see the same
     std::vector<PracticeSettings> practice;
+    SimulatedObserverSettings simulated_observers;
+    std::vector<SimulatedEffect> simulated_effects;
     BreakSettings breaks;
     RepeatSettings repeat;
     std::vector<SculptureSettings> sculptures;

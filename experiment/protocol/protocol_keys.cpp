@@ -27,6 +27,8 @@ const KeyTable& protocol_keys() {
                                  key_rows::practice(),
                                  key_rows::breaks(),
                                  key_rows::repeat(),
+                                 key_rows::simulated_observers(),
+                                 key_rows::simulated_effect(),
                                  key_rows::sculpture(),
                                  key_rows::material(),
                                  key_rows::frames(),

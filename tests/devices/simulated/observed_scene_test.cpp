@@ -25,6 +25,7 @@ TEST_CASE("simulated devices take their numbers from the protocol", "[unit]") {
     CHECK(scene.tasks[0].head_share == 0.61);
     CHECK(scene.display_latency == 3500us);
     CHECK(scene.refresh_hz == 240.0);
+    CHECK(scene.effects.empty());
 
     const SimulatedTrackerSettings tracker = simulated_tracker_settings(protocol.tracker);
     CHECK(tracker.rate_hz == 500.0);
@@ -32,6 +33,28 @@ TEST_CASE("simulated devices take their numbers from the protocol", "[unit]") {
     CHECK(tracker.noise_deg == 0.01);
     CHECK(tracker.accuracy_deg == protocol.tracker.simulated_accuracy_deg);
     CHECK(tracker.clock_drift_ppm == protocol.tracker.simulated_clock_drift_ppm);
+}
+
+TEST_CASE("simulated effects come from the protocol by number", "[unit]") {
+    Protocol protocol;
+    protocol.tasks = {{"free", "Look."}, {"age", "How old?"}};
+    protocol.materials.resize(3);
+    protocol.materials[2].id = "gold";
+    protocol.sculptures.resize(2);
+    protocol.sculptures[1].id = "runner";
+    protocol.simulated_effects = {{"age", "runner", "gold", 2.0, 0.25}, {"", "", "gold"}};
+    protocol.simulated_observers.head_share_sd = 0.5;
+    const ObservedScene scene = make_observed_scene(protocol, {}, ScreenGeometry{});
+    REQUIRE(scene.effects.size() == 2);
+    CHECK(scene.effects[0].task == 1);
+    CHECK(scene.effects[0].sculpture == 1);
+    CHECK(scene.effects[0].material == 2);
+    CHECK(scene.effects[0].head_odds == 2.0);
+    CHECK(scene.effects[0].spot_share == 0.25);
+    CHECK(scene.effects[1].task == -1);
+    CHECK(scene.effects[1].holds_in(0, {0, 2}));
+    CHECK_FALSE(scene.effects[1].holds_in(0, {0, 1}));
+    CHECK(scene.head_share_sd == 0.5);
 }
 
 TEST_CASE("a row's light comes after the vertical blank by the latency and its share of the scan", "[unit]") {

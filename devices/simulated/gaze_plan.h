@@ -1,0 +1,28 @@
+/// What a simulated observer means to look at in a trial: the truth that an analysis should find.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "devices/simulated/observed_scene.h"
+#include "experiment/trial.h"
+
+namespace overt {
+
+/// Shares of the fixations after the first. What spots leave goes to the head or elsewhere.
+struct GazePlan {
+    struct Spot {
+        int effect = 0; ///< index into ObservedScene::effects
+        double share = 0.0;
+    };
+    double head_share = 0.0; ///< of those that go to no spot
+    std::array<Spot, most_simulated_spots> spots{};
+    int spot_count = 0;
+};
+
+/// The plan of an observer, who is known by the seed: the task's head share, its odds times those of all
+/// effects that hold in the trial, and on the scale of logits the observer's own inclination, which is normal
+/// with the scene's standard deviation. Allocates nothing.
+GazePlan gaze_plan(const ObservedScene& scene, std::uint64_t seed, int task, Condition condition) noexcept;
+
+} // namespace overt

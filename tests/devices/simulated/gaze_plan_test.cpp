@@ -1,0 +1,102 @@
+#include "devices/simulated/gaze_plan.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <map>
+
+#include "tests/devices/simulated/sitting.h"
+
+using namespace overt;
+using test::Sitting;
+
+namespace {
+
+ObservedScene scene_with(std::vector<ObservedEffect> effects, double sd = 0.0) {
+    ObservedScene scene;
+    scene.tasks = {{"a", 0.4}, {"b", 0.0}, {"c", 1.0}};
+    scene.effects = std::move(effects);
+    scene.head_share_sd = sd;
+    return scene;
+}
+
+double logit(double share) { return std::log(share / (1.0 - share)); }
+
+} // namespace
+
+TEST_CASE("effects multiply the odds of the head in their trials, and in no others", "[unit]") {
+    const ObservedScene scene =
+        scene_with({{.task = 0, .material = 1, .head_odds = 2.0}, {.sculpture = 2, .head_odds = 3.0}});
+    const auto share = [&](int task, Condition condition) {
+        return gaze_plan(scene, 7, task, condition).head_share;
+    };
+    CHECK(share(0, {0, 0}) == 0.4);
+    // Odds of 0.4 are 2 / 3.
+    CHECK(share(0, {0, 1}) == Approx(4.0 / 7.0));
+    CHECK(share(0, {2, 0}) == Approx(2.0 / 3.0));
+    CHECK(share(0, {2, 1}) == Approx(4.0 / 5.0));
+    // What never happens, or always, has no odds.
+    CHECK(share(1, {2, 1}) == 0.0);
+    CHECK(share(2, {2, 1}) == 1.0);
+}
+
+TEST_CASE("simulated observers differ by the standard deviation that is stated, each the same in all trials",
+          "[unit]") {
+    const ObservedScene scene = scene_with({}, 0.6);
+    double sum = 0.0, squares = 0.0;
+    constexpr int observers = 4000;
+    for (int seed = 0; seed < observers; ++seed) {
+        const auto off = [&](Condition condition) {
+            return logit(gaze_plan(scene, static_cast<std::uint64_t>(seed), 0, condition).head_share) -
+                   logit(0.4);
+        };
+        const double inclination = off({0, 0});
+        REQUIRE(off({1, 2}) == inclination);
+        sum += inclination;
+        squares += inclination * inclination;
+    }
+    // Four standard errors of a mean and of a standard deviation.
+    CHECK(std::abs(sum / observers) < 4.0 * 0.6 / std::sqrt(observers));
+    CHECK(std::sqrt(squares / observers) == Approx(0.6).margin(4.0 * 0.6 / std::sqrt(2.0 * observers)));
+}
+
+TEST_CASE("an effect's spot gets its share of the fixations, the same spot of every observer", "[unit]") {
+    std::map<std::uint64_t, glm::dvec3> middles;
+    for (const std::uint64_t seed : {1u, 2u}) {
+        const Sitting plain(seed);
+        ObservedScene scene = plain.observer.scene();
+        scene.effects = {{.material = 0, .spot_share = 0.3}};
+        const double radius = GazeTargets::spot_radius * plain.mesh.bounds().extent().z;
+        SimulatedObserver observer(scene, seed);
+        // Where fixations of a plan that goes nowhere else lie.
+        ObservedScene only = scene;
+        only.effects[0].spot_share = 1.0;
+        const GazeTargets targets(only.sculptures[0], only);
+        RandomStream random(seed, "spot");
+        glm::dvec3 middle(0.0);
+        for (int i = 0; i < 2000; ++i)
+            middle += targets.draw_from_spot(random, 0).position / 2000.0;
+        middles[seed] = middle;
+        int in_spot = 0, of_another_material = 0, all = 0, of_the_others = 0;
+        for (int trial = 0; trial < 300; ++trial) {
+            const int material = trial % 2;
+            GazeScript script(scene, {});
+            const PursuedTurn turn(scene);
+            script.compose(scene, &targets, turn, {}, seed, trial, gaze_plan(scene, seed, 0, {0, material}));
+            for (const ScriptedFixation& fixation : script.fixations()) {
+                if (!fixation.target)
+                    continue;
+                const bool is_near = glm::distance(fixation.target->position, middle) < 2.0 * radius;
+                (material == 0 ? all : of_the_others) += 1;
+                (material == 0 ? in_spot : of_another_material) += is_near;
+            }
+        }
+        REQUIRE(all > 2000);
+        const double by_chance = static_cast<double>(of_another_material) / of_the_others;
+        CHECK(by_chance < 0.1);
+        const double expected = 0.3 + 0.7 * by_chance;
+        CHECK(static_cast<double>(in_spot) / all ==
+              Approx(expected).margin(4.0 * std::sqrt(0.25 / all) + 0.01));
+    }
+    CHECK(glm::distance(middles[1], middles[2]) < 1e-2 * glm::length(middles[1]) + 1e-6);
+}
