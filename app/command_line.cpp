@@ -65,7 +65,7 @@ int run_command_line(int argc, char** argv) {
     ChosenCommand chosen;
     for (const auto add_commands :
          {add_check_commands, add_session_commands, add_record_commands, add_analyze_command,
-          add_stimulus_commands, add_display_commands, add_bench_commands})
+          add_replicate_command, add_stimulus_commands, add_display_commands, add_bench_commands})
         add_commands(app, chosen);
 
     if (const std::optional<int> answer = answer_to_no_command(app, argc, argv))

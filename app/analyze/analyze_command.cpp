@@ -6,18 +6,12 @@
 #include <fmt/ranges.h>
 
 #include "app/analyze/analyze_commands.h"
-#include "app/analyze/study_surfaces.h"
+#include "app/analyze/study_folder.h"
 #include "app/cli/command_options.h"
 #include "app/cli/interruption.h"
-#include "app/cli/progress_bar.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
-#include "experiment/base/export_folder.h"
-#include "experiment/report/report_page.h"
-#include "experiment/report/surface_files.h"
-#include "experiment/study/analyze_study.h"
 #include "experiment/study/study_tables.h"
-#include "render/figures/study_figures.h"
 
 namespace overt {
 
@@ -103,22 +97,9 @@ int run_analyze(AnalyzeOptions options) {
             format = one;
     }
     const Interruption interruption;
-    ExportFolder folder(options.out, options.overwrite, [](const std::string& file) {
-        return is_study_table(file) || file == "report.html" || file == "figures" || file == "meshes";
-    });
-    ProgressBar bar;
-    const StudyResults results = analyze_study(options.sessions, StudySurfaces(), options.study,
-                                               [&](std::string_view what, int done, int all) {
-                                                   bar.update(what, done, all);
-                                                   Interruption::check("The analysis");
-                                               });
-    bar.finish();
-    write_study_tables(results, folder.path(), format);
-    write_figures(results, folder.path() / "figures");
-    if (options.with_meshes)
-        write_surfaces(results, folder.path() / "meshes");
-    write_report(results, folder.path() / "report.html");
-    folder.publish();
+    StudyFolder folder(options.out, options.overwrite);
+    const StudyResults results = analyzed(options.sessions, options.study);
+    folder.publish(results, format, options.with_meshes ? StudyMeshes::written : StudyMeshes::left_out);
     if (options.json)
         fmt::print("{}", study_json(results));
     else

@@ -5,6 +5,7 @@
 #include "app/cli/progress_bar.h"
 #include "app/cli/terminal_output.h"
 #include "app/cli/this_program.h"
+#include "app/inputs/prepared_stimuli.h"
 #include "app/inputs/protocol_file.h"
 #include "app/inputs/protocol_inputs.h"
 #include "app/rig/answer_equipment.h"
@@ -29,23 +30,6 @@
 namespace overt {
 
 namespace {
-
-/// Draws and renders what the cache lacks. Ctrl-C ends it with what is finished.
-void prepare_stimuli(Rig& rig, const Protocol& protocol, const RunOptions& options) {
-    ProgressBar bar;
-    const Progress show = [&](std::string_view what, int done, int total, double share) {
-        bar.update(what, done, total, share);
-        if (Interruption::requested())
-            throw Error(
-                "interrupted while the stimuli were made ready: no trial was begun. What was finished "
-                "is kept, and the same command goes on from there.");
-    };
-    if (!rig.maps_are_live())
-        rig.library().maps().prepare_maps(show);
-    rig.library().maps().prepare_given_maps(show);
-    const bool for_people = !options.simulate_observer;
-    rig.library().prepare_frames(show, options.quality.value_or(protocol.bake.least(for_people)));
-}
 
 void check_timing(Rig& rig, double seconds) {
     ProgressBar bar;
@@ -211,7 +195,8 @@ int run_session(const RunOptions& options) {
     say_before(protocol, plan.schedule, rig.context().description(), options);
     say_risks(rig.screen_findings());
     const Interruption interruption;
-    prepare_stimuli(rig, protocol, options);
+    prepare_stimuli(rig.library(), rig.maps_are_live() ? MapsNow::drawn_live : MapsNow::made,
+                    options.quality.value_or(protocol.bake.least(!options.simulate_observer)));
     say_frames(rig.library(), !options.simulate_observer);
     rig.open(plan.faults, plan.resumed ? plan.resumed->clock_start : SessionTime());
     if (rig.is_on_a_real_screen() && options.refresh_check_s > 0.0)

@@ -28,6 +28,10 @@ class GazeTargets {
     /// tenth as often. A sculpture without that region gives a point of the other.
     SurfacePoint draw(RandomStream& random, Region region) const noexcept;
 
+    /// The part on which an effect's spot lies.
+    PartIndex part_of_spot(int effect) const noexcept {
+        return spots_[static_cast<std::size_t>(effect)].middle.part;
+    }
     /// A point of an effect's spot, all of its area equally probable.
     SurfacePoint draw_from_spot(RandomStream& random, int effect) const noexcept;
 

@@ -208,6 +208,10 @@ RowLayout<HeadFractionRow> head_fractions_layout(const StudyResults& results) {
             estimate_columns<Row>(
                 "by_duration", "The same of the time of fixation", "", share_decimals,
                 [](const Row& row) -> auto& { return row.by_duration; }),
+            number_column<Row>(
+                "planted",
+                "Of simulated observers whose seeds are known: the share that they mean for the head", "",
+                share_decimals, [](const Row& row) { return row.planted; }),
             number_column<Row>("pooled", "Share of all observers' fixations together, as the paper has it",
                                "", share_decimals, [](const Row& row) { return row.pooled; }),
             number_column<Row>(

@@ -209,6 +209,7 @@ struct HeadFractionRow {
     Estimate by_count, by_duration; ///< means over observers of their own fractions, with intervals over them
     std::optional<double> pooled;   ///< all fixations together, as the paper has it
     std::optional<Interval> pooled_interval; ///< Wilson's, as if fixations were independent
+    std::optional<double> planted;           ///< of simulated observers: the fraction that they mean to look at
     int observers = 0, trials = 0, fixations = 0;
 };
 

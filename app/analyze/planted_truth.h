@@ -1,0 +1,21 @@
+/// What simulated observers mean to look at, beside what an analysis of their sessions found.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "app/inputs/protocol_inputs.h"
+#include "experiment/study/study_results.h"
+
+namespace overt {
+
+/// Seeds of simulated observers by their labels.
+using ObserverSeeds = std::map<std::string, std::uint64_t>;
+
+/// Sets HeadFractionRow::planted: the mean over the row's observers, and each one's trials, of the share of
+/// fixations that the observer of this seed means for the head (gaze_plan). Rows with an observer who has no
+/// seed stay without.
+void add_planted_truth(StudyResults& results, const Experiment& experiment, const ObserverSeeds& seeds);
+
+} // namespace overt

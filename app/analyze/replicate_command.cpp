@@ -1,0 +1,279 @@
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "app/analyze/analyze_commands.h"
+#include "app/analyze/planted_truth.h"
+#include "app/analyze/study_folder.h"
+#include "app/cli/cache_folder.h"
+#include "app/cli/command_options.h"
+#include "app/cli/interruption.h"
+#include "app/cli/own_command.h"
+#include "app/cli/progress_bar.h"
+#include "app/inputs/prepared_stimuli.h"
+#include "experiment/base/counted.h"
+#include "experiment/base/error.h"
+#include "experiment/base/whole_file.h"
+#include "experiment/record/session_schema.h"
+#include "experiment/study/study_tables.h"
+#include "render/gl/headless_context.h"
+
+namespace overt {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReplicateOptions {
+    fs::path protocol;
+    fs::path out = "replication";
+    int observers = 12;
+    int trials = 0; ///< of each observer; 0: all
+    std::uint64_t seed = 1;
+    int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    ContextChoice context;
+    bool overwrite = false, json = false;
+};
+
+/// One of the simulated observers.
+struct Replica {
+    std::string label;
+    std::uint64_t seed = 0;
+    fs::path session, said;
+    std::unique_ptr<OwnCommand> command;
+    bool is_done = false;
+};
+
+/// The sessions of all observers, as many at once as there are jobs.
+class ReplicaSessions {
+  public:
+    ReplicaSessions(const ReplicateOptions& options, const Protocol& protocol)
+        : options_(&options), folder_(options.out / "sessions") {
+        const int digits = options.observers > 99 ? 3 : 2;
+        for (int i = 1; i <= options.observers; ++i) {
+            Replica replica;
+            replica.label = fmt::format("{:0{}}", i, digits);
+            replica.seed = options.seed + static_cast<std::uint64_t>(i) - 1;
+            replica.session = folder_ / protocol.name / fmt::format("sub-{}_ses-01", replica.label);
+            replica.said = folder_ / fmt::format("observer_{}.txt", replica.label);
+            replica.is_done = is_complete(replica, protocol);
+            replicas_.push_back(std::move(replica));
+        }
+    }
+
+    void run() {
+        fs::create_directories(folder_);
+        ProgressBar bar;
+        const int all = static_cast<int>(replicas_.size());
+        int reported = -1;
+        for (;;) {
+            int done = 0, running = 0;
+            for (Replica& replica : replicas_) {
+                finish(replica);
+                done += replica.is_done;
+                running += replica.command != nullptr;
+            }
+            if (done != reported)
+                bar.update("observers", reported = done, all);
+            if (done == all)
+                return;
+            for (Replica& replica : replicas_) {
+                if (running < options_->jobs && !replica.is_done && !replica.command) {
+                    begin(replica);
+                    ++running;
+                }
+            }
+            if (Interruption::requested())
+                throw Error(
+                    fmt::format("interrupted: {} of {} observers are done, and the same command goes on from "
+                                "there.",
+                                done, all));
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+    }
+
+    std::vector<fs::path> sessions() const {
+        std::vector<fs::path> paths;
+        for (const Replica& replica : replicas_)
+            paths.push_back(replica.session);
+        return paths;
+    }
+
+    ObserverSeeds seeds() const {
+        ObserverSeeds seeds;
+        for (const Replica& replica : replicas_)
+            seeds[replica.label] = replica.seed;
+        return seeds;
+    }
+
+  private:
+    /// Of an earlier call of the same protocol. Throws InputError where another one's session lies.
+    static bool is_complete(const Replica& replica, const Protocol& protocol) {
+        if (!fs::exists(replica.session / session_file_name))
+            return false;
+        const SessionRecord record(replica.session);
+        if (record.header().protocol.text != protocol.text)
+            throw InputError(
+                fmt::format("{}: this session is of another protocol, or of an earlier text of this one: "
+                            "give another folder with --out, or remove this one.",
+                            replica.session.string()));
+        return record.is_complete();
+    }
+
+    void begin(Replica& replica) {
+        std::vector<std::string> arguments{"run",
+                                           options_->protocol.string(),
+                                           "--observer",
+                                           replica.label,
+                                           "--simulate-observer",
+                                           fmt::format("{}", replica.seed),
+                                           "--seed",
+                                           fmt::format("{}", replica.seed),
+                                           "--virtual-time",
+                                           "--sessions",
+                                           folder_.string()};
+        if (options_->context) {
+            arguments.emplace_back("--context");
+            arguments.emplace_back(*options_->context == ContextKind::egl ? "egl" : "osmesa");
+        }
+        if (options_->trials > 0) {
+            arguments.emplace_back("--trials");
+            arguments.push_back(fmt::format("{}", options_->trials));
+        }
+        if (fs::exists(replica.session))
+            arguments.emplace_back("--resume");
+        replica.command = std::make_unique<OwnCommand>(arguments, replica.said);
+    }
+
+    static void finish(Replica& replica) {
+        const auto code = replica.command ? replica.command->exit_code() : std::nullopt;
+        if (!code)
+            return;
+        replica.command.reset();
+        if (*code != 0)
+            throw Error(fmt::format("the session of observer {} failed with exit code {}: {} tells why.",
+                                    replica.label, *code, replica.said.string()));
+        replica.is_done = true;
+    }
+
+    const ReplicateOptions* options_;
+    fs::path folder_;
+    std::vector<Replica> replicas_;
+};
+
+void make_stimuli(const Experiment& experiment, const ReplicateOptions& options) {
+    const auto context = make_headless_context(options.context);
+    StimulusLibrary library(*context, experiment.protocol, experiment.sculptures, cache_folder());
+    prepare_stimuli(library, MapsNow::made, experiment.protocol.bake.least(false));
+}
+
+/// How many intervals hold the planted fraction, of those that there are.
+struct Agreement {
+    int intervals = 0, holding = 0;
+};
+
+Agreement agreement_of(const StudyResults& results) {
+    Agreement agreement;
+    for (const HeadFractionRow& row : results.head_fractions) {
+        if (!row.planted || !row.by_count.interval)
+            continue;
+        ++agreement.intervals;
+        agreement.holding +=
+            row.by_count.interval->low <= *row.planted && *row.planted <= row.by_count.interval->high;
+    }
+    return agreement;
+}
+
+void print(const StudyResults& results, const fs::path& analysis) {
+    fmt::print("{}, {}, {} samples, {} of {} fixations counted\n",
+               counted(results.glance.observers, "simulated observer"),
+               counted(results.glance.trials, "trial"), results.glance.samples, results.glance.counted,
+               results.glance.fixations);
+    for (const std::string& remark : results.remarks)
+        fmt::print("note: {}\n", remark);
+    fmt::print("share of fixations on the head\n{:28} {:>8} {:>8}   interval\n", "", "planted", "found");
+    for (const HeadFractionRow& row : results.head_fractions) {
+        // The levels of single columns; the groups are in the tables.
+        if (row.keys.size() > 1 || !row.by_count.value || !row.planted)
+            continue;
+        fmt::print("{:28} {:8.3f} {:8.3f}",
+                   row.keys.empty() ? "all" : row.keys[0].column + " " + row.keys[0].value, *row.planted,
+                   *row.by_count.value);
+        if (row.by_count.interval)
+            fmt::print("   {:.3f} … {:.3f}", row.by_count.interval->low, row.by_count.interval->high);
+        fmt::print("\n");
+    }
+    const Agreement agreement = agreement_of(results);
+    if (agreement.intervals > 0)
+        fmt::print("{} of {} intervals of {:g} % hold what was planted\n", agreement.holding,
+                   agreement.intervals, 100.0 * results.confidence);
+    fmt::print("analysis: {}\n", analysis.string());
+}
+
+int run_replicate(const ReplicateOptions& options) {
+    const Experiment experiment =
+        read_experiment_or_report(options.protocol, cache_folder(), InputDepth::everything);
+    ReplicaSessions replicas(options, experiment.protocol);
+    const fs::path analysis = options.out / "analysis";
+    fs::create_directories(options.out);
+    StudyFolder folder(analysis, options.overwrite);
+    const Interruption interruption;
+    make_stimuli(experiment, options);
+    replicas.run();
+    StudyOptions study;
+    study.seed = options.seed;
+    StudyResults results = analyzed(replicas.sessions(), study);
+    add_planted_truth(results, experiment, replicas.seeds());
+    folder.publish(results, TableFormat::csv, StudyMeshes::left_out);
+    if (options.json)
+        fmt::print("{}", study_json(results));
+    else
+        print(results, analysis);
+    return 0;
+}
+
+} // namespace
+
+void add_replicate_command(CLI::App& app, ChosenCommand& chosen) {
+    const auto given = std::make_shared<ReplicateOptions>();
+    ReplicateOptions& options = *given;
+    CLI::App& command = add_command(
+        app, "replicate",
+        "Simulates a whole study through the real pipeline and analyses it beside the truth that was planted",
+        "overt replicate protocols/overt_2019.toml --observers 12 --out replication\n"
+        "What observers look at is planted by simulated_head_share and [[simulated_effect]] in the protocol. "
+        "An\n"
+        "interrupted call goes on where it ended.\n"
+        "Exit codes: 0 done, 1 failed, 2 bad input.");
+    command.add_option("PROTOCOL", options.protocol, "Protocol file")->required()->type_name("FILE");
+    command.add_option("--observers", options.observers, "How many observers")
+        ->check(CLI::Range(1, 999))
+        ->type_name("N")
+        ->capture_default_str();
+    command.add_option("--out", options.out, "Folder for sessions and analysis")
+        ->type_name("DIR")
+        ->capture_default_str();
+    command
+        .add_option("--seed", options.seed, "Of the first observer, and of the analysis; the others' follow")
+        ->check(seed_number())
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        .add_option("--trials", options.trials, "Only the first N trials of each observer, for a rehearsal")
+        ->check(above_zero())
+        ->type_name("N");
+    command.add_option("--jobs", options.jobs, "Sessions at once")
+        ->check(above_zero())
+        ->type_name("N")
+        ->capture_default_str();
+    add_context_option(command, options.context);
+    command.add_flag("--overwrite", options.overwrite, "Replace an analysis that is there");
+    command.add_flag("--json", options.json, "Print the study as JSON");
+    run_when_chosen(command, chosen, [given] { return run_replicate(*given); });
+}
+
+} // namespace overt
