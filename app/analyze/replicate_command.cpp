@@ -18,6 +18,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/base/whole_file.h"
+#include "experiment/record/read/session_record.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/study/study_tables.h"
 #include "render/gl/headless_context.h"
