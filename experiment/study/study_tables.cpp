@@ -152,16 +152,20 @@ void write_study_tables(const StudyResults& results, const std::filesystem::path
     tables.write_all(pairs_layout(results), results.pairs);
     tables.write_all(time_course_layout(results), results.time_course);
     tables.write_all(study_maps_layout(results), results.maps);
-    tables.write_all(map_metrics_layout(results), results.metrics);
-    tables.write(clusters_layout(results), [&](const auto& take) {
-        for (const DifferenceMap& map : results.differences) {
-            int number = 0;
-            for (const DifferenceMap::Cluster& cluster : map.clusters)
-                take(ClusterRow{map, &cluster, ++number});
-            if (number == 0)
-                take(ClusterRow{map, nullptr, 0});
-        }
-    });
+    // A table without a row would look like a result.
+    if (!results.metrics.empty())
+        tables.write_all(map_metrics_layout(results), results.metrics);
+    if (!results.differences.empty()) {
+        tables.write(clusters_layout(results), [&](const auto& take) {
+            for (const DifferenceMap& map : results.differences) {
+                int number = 0;
+                for (const DifferenceMap::Cluster& cluster : map.clusters)
+                    take(ClusterRow{map, &cluster, ++number});
+                if (number == 0)
+                    take(ClusterRow{map, nullptr, 0});
+            }
+        });
+    }
     tables.write(quality_layout(), [&](const auto& take) {
         for (std::size_t i = 0; i < results.sessions.size(); ++i) {
             for (const StudyTrial& trial : results.trials) {

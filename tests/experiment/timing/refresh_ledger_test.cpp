@@ -86,7 +86,8 @@ TEST_CASE("what was lit while refreshes were missed is what the flip before them
             REQUIRE(missed.pose == before.pose);
             changes += after->shown != before.shown;
         }
-        CHECK(changes > 50);
+        // Where frames are dropped the next flip shows another one; stretched, the plan goes on where it was.
+        CHECK((changes > 20) == (when_late == WhenLate::drop));
     }
 }
 

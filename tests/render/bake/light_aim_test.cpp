@@ -105,7 +105,7 @@ TEST_CASE("the density of aimed directions adds to one over the sphere, and they
         double drawn_height = 0.0, drawn_density = 0.0, inverse = 0.0;
         constexpr int side = 400;
         for (int i = 0; i < side * side; ++i) {
-            const glm::vec2 place((i % side + 0.5f) / side, (i / side + 0.5f) / side);
+            const glm::vec2 place((glm::vec2(i % side, i / side) + 0.5f) / static_cast<float>(side));
             const glm::vec3 direction = aim.direction(place, turn);
             REQUIRE(glm::length(direction) == Approx(1.0).epsilon(1e-5));
             const double density = aim.density(direction, turn);
