@@ -23,7 +23,7 @@ namespace overt {
 namespace {
 
 const char* const synopsis =
-    "Eye-tracking experiments on animated 3D objects, from a protocol file to points on the surface.";
+    "Eye-tracking experiments on animated 3D objects, from a protocol file to statistics on the surface.";
 
 const char* const exit_codes =
     "Exit codes: 0 done, 1 failed, 2 bad input.\n"

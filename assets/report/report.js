@@ -117,7 +117,7 @@ function draw_legend(panels) {
   pen.putImageData(line, 0, 0);
   const most = is_difference ? common_difference : common[weighting.value];
   const unit = is_difference ? 'share of fixation time per mm²' : weighting.value === 'duration' ? 'ms of fixation per mm² and trial' : 'fixations per mm² and trial';
-  const svg = shape('svg', {width: 680, height: 62, viewBox: '0 0 680 62', role: 'img', 'aria-label': 'Legend: ' + unit});
+  const svg = shape('svg', {width: 760, height: 62, viewBox: '0 0 760 62', role: 'img', 'aria-label': 'Legend: ' + unit});
   svg.append(shape('image', {href: canvas.toDataURL(), x: 10, y: 6, width: 300, height: 18, preserveAspectRatio: 'none'}));
   if (scale.value === 'common')
     for (const v of ticks(is_difference ? -most : 0, most, 4))
@@ -196,11 +196,11 @@ draw_figure5();
       'the null what labels exchanged within observers give: a CC or SIM below its ceiling, not below 1, tells of a difference. SIM after scaling each map from 0 to 1 (MIT benchmark), and without (pysaliency).')
       : element('p', {class: 'note'}, 'There is no factor whose levels the same observers saw on the same sculpture.'));
   const m = data.tables.metrics;
-  by_id('metrics_body').append(m.length ? table(
+  by_id('metrics').hidden = m.length === 0;
+  if (m.length) by_id('metrics_body').append(table(
       [{text: 'condition'}, {text: 'sculpture'}, 'split-half CC', 'reliability', 'KL from exposure / bit', 'NSS', 'AUC (Judd)', 'AUC (Borji)', 'information gain / bit', 'exposure: NSS', 'exposure: AUC'],
       m.map(r => [words(data.groups[r.group].keys), data.sculptures[r.sculpture].title, ...['split', 'reliability', 'kl', 'nss', 'auc', 'borji', 'gain', 'exposure_nss', 'exposure_auc'].map(k => estimate_text(r[k]))]),
-      'NSS, AUC and information gain: fixations of each observer told from the map of the others; the exposure alone is the baseline.')
-      : element('p', {class: 'note'}, 'No map has enough fixations.'));
+      'NSS, AUC and information gain: fixations of each observer told from the map of the others; the exposure alone is the baseline.'));
 }
 
 // Time course.
