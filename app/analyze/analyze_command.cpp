@@ -141,9 +141,17 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
         ->capture_default_str();
     command
         .add_option("--least-on-surface", study.least_on_surface,
-                    "Share of a fixation's samples that must meet the sculpture")
+                    "Share of a fixation's samples that must meet the sculpture, or miss it within the reach")
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
+    command
+        .add_option(
+            "--reach", study.reach_deg,
+            "A sample that misses the sculpture by no more counts at the nearest place of its outline; "
+            "0: only what meets it")
+        ->check(not_negative())
+        ->default_str("the accuracy of the validation")
+        ->type_name("DEG");
     command
         .add_option("--most-lost", study.exclude.most_lost_share,
                     "Exclude trials that lost a larger share of samples, blinks apart")

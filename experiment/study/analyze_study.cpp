@@ -40,6 +40,7 @@ void glance_at(StudyResults& results) {
         if (fixation.counted()) {
             ++glance.counted;
             glance.counted_s += fixation.duration_s;
+            glance.only_by_reach += fixation.only_by_reach;
         } else {
             ++reasons[fixation.why];
         }
@@ -63,6 +64,11 @@ void glance_at(StudyResults& results) {
     }
     if (glance.counted == 0)
         remarks.push_back("No fixation was counted: there are no maps and no fractions.");
+    if (glance.only_by_reach > 0)
+        remarks.push_back(fmt::format(
+            "{} of {} counted fixations ({:.1f} %) count only because samples that miss the sculpture by no "
+            "more than the reach are placed at its outline.",
+            glance.only_by_reach, glance.counted, 100.0 * glance.only_by_reach / glance.counted));
     if (glance.any_simulated)
         remarks.push_back("The gaze of some sessions is that of simulated observers.");
 }

@@ -5,9 +5,25 @@
 
 namespace overt {
 
+namespace {
+
+/// The point seen at the centre of the covered pixel that is nearest to a place beside the sculpture.
+std::optional<SurfacePoint> surface_at_outline(const SurfaceLookup& lookup, PoseIndex pose, glm::dvec2 place,
+                                               glm::dvec2 outline) {
+    // The outline runs along the pixel's border: a little farther on is inside of it. A place whose own pixel
+    // is covered, though not where the place is, is its own outline.
+    constexpr double little_px = 1e-3;
+    const glm::dvec2 way = outline - place;
+    const double length = glm::length(way);
+    const glm::dvec2 inside = length > 0.0 ? outline + little_px / length * way : outline;
+    return lookup.surface_at(pose, glm::floor(inside) + 0.5);
+}
+
+} // namespace
+
 PlacedSamples placed_samples(const SessionRecord& record, const TrialRecord& trial,
                              const std::optional<TrialLedger>& ledger, const SurfaceLookup* lookup,
-                             SessionTime onset, Eye preferred) {
+                             SessionTime onset, Eye preferred, Degrees reach) {
     const SampleJoin join(record, trial, ledger, lookup);
     PlacedSamples placed;
     std::array<std::vector<PlacedSample>, 2> of_eye;
@@ -39,6 +55,13 @@ PlacedSamples placed_samples(const SessionRecord& record, const TrialRecord& tri
             if (at.sight.surface) {
                 one.is_on_surface = true;
                 one.surface = *at.sight.surface;
+            } else if (reach.value > 0.0 && at.outline_distance &&
+                       at.outline_distance->value <= reach.value) {
+                if (const auto surface =
+                        surface_at_outline(*lookup, one.pose, *at.image_px, *at.sight.outline_px)) {
+                    one.is_within_reach = true;
+                    one.surface = *surface;
+                }
             }
             ++placed.counts.samples;
             placed.counts.without_gaze += !one.has_gaze;

@@ -19,7 +19,9 @@ struct PlacedSample {
     int frame = -1; ///< lit then on the gaze's row; -1: none
     PoseIndex pose;
     bool is_on_surface = false;
-    SurfacePoint surface; ///< meaningful on the surface
+    bool is_within_reach = false; ///< beside the surface, but no farther than the reach
+    SurfacePoint surface; ///< meaningful in both cases: the point met, or the one seen at the nearest pixel
+    bool has_place() const { return is_on_surface || is_within_reach; }
 };
 
 struct PlacedSamples {
@@ -31,9 +33,10 @@ struct PlacedSamples {
 };
 
 /// Reads the trial's samples in pieces. Of two eyes `preferred` is taken if it has gaze. `lookup` is null
-/// without a surface. Throws RecordError.
+/// without a surface. A sample that misses the sculpture's picture by no more than `reach` (visual angle, 0:
+/// none) has the point seen at the centre of the picture's nearest pixel. Throws RecordError.
 PlacedSamples placed_samples(const SessionRecord& record, const TrialRecord& trial,
                              const std::optional<TrialLedger>& ledger, const SurfaceLookup* lookup,
-                             SessionTime onset, Eye preferred);
+                             SessionTime onset, Eye preferred, Degrees reach);
 
 } // namespace overt

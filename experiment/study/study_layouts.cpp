@@ -100,7 +100,13 @@ RowLayout<FixationRow> study_fixations_layout(const StudyResults& results) {
                               [](const Row& row) { return row.fixation.samples; }),
             fixation_number<Row>("on_surface", "Share of these that met the sculpture", "", share_decimals,
                                  [](auto& f) { return f.on_surface; }),
-            text_column<Row>("part", "The part with most of these",
+            fixation_number<Row>("within_reach",
+                                 "Share that missed it by no more than the reach, placed at its outline", "",
+                                 share_decimals, [](auto& f) { return f.within_reach; }),
+            count_column<Row>("only_by_reach",
+                              "1 if it is counted and would not be without the reach, else 0",
+                              [](const Row& row) { return row.fixation.only_by_reach ? 1 : 0; }),
+            text_column<Row>("part", "The part with most of both",
                              [&results](const Row& row) -> std::string {
                                  const auto& names = of(results.sculptures, row.trial.sculpture).part_names;
                                  return row.fixation.part && *row.fixation.part < names.size()

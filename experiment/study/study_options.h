@@ -40,6 +40,9 @@ struct StudyOptions {
     MapKernel kernel = MapKernel::geodesic;
     double shortest_fixation_s = 0.0;
     double least_on_surface = 0.5; ///< share of a fixation's samples that must meet the sculpture
+    /// A sample that misses the sculpture by no more than this counts at the nearest place of its outline.
+    /// Nothing: the mean error of the validation before the trial, and 0 if there was none.
+    std::optional<double> reach_deg;
     ExclusionRules exclude;
     double time_step_s = 1.0; ///< of the time course
     double confidence = 0.95;

@@ -94,6 +94,8 @@ struct StudyFixation {
     NotCounted why = NotCounted::counted;
     int samples = 0;                       ///< with gaze, while a frame was lit
     double on_surface = 0.0;               ///< share of these that met the sculpture
+    double within_reach = 0.0;             ///< share that missed it by no more than the reach
+    bool only_by_reach = false;            ///< counted, and would not be without the reach
     int first_frame = -1, last_frame = -1; ///< of the animation; -1: none
     double mid_angle_deg = 0.0;            ///< of the sculpture, halfway through
     // Where it met the surface; meaningful if triangle is set.
@@ -284,6 +286,7 @@ struct StudyGlance {
     std::int64_t samples = 0;
     int fixations = 0; ///< all
     int counted = 0;
+    int only_by_reach = 0;                               ///< of these: see StudyFixation
     std::vector<std::pair<NotCounted, int>> not_counted; ///< reasons that occur, and how often
     double counted_s = 0.0;                              ///< of fixation
     bool any_simulated = false;

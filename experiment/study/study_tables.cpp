@@ -84,6 +84,7 @@ std::string study_json(const StudyResults& results) {
               {"samples", glance.samples},
               {"fixations", glance.fixations},
               {"counted_fixations", glance.counted},
+              {"only_by_reach", glance.only_by_reach},
               {"counted_s", glance.counted_s},
               {"not_counted", Json::object()},
               {"simulated", glance.any_simulated},

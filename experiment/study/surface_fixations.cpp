@@ -9,18 +9,21 @@ namespace overt {
 
 namespace {
 
+/// Of the sum of two shares.
+constexpr double rounding = 1e-12;
+
 /// The sample whose place is nearest to the one in space with the least sum of distances to all: Weiszfeld's
 /// steps.
-const PlacedSample& median_in_space(std::span<const PlacedSample* const> on_surface) {
+const PlacedSample& median_in_space(std::span<const PlacedSample* const> placed) {
     glm::dvec3 median{0.0};
-    for (const PlacedSample* sample : on_surface)
+    for (const PlacedSample* sample : placed)
         median += sample->surface.position;
-    median /= static_cast<double>(on_surface.size());
-    const double least = 1e-6 * glm::length(on_surface.front()->surface.position - median) + 1e-12;
+    median /= static_cast<double>(placed.size());
+    const double least = 1e-6 * glm::length(placed.front()->surface.position - median) + 1e-12;
     for (int step = 0; step < 20; ++step) {
         glm::dvec3 sum{0.0};
         double weights = 0.0;
-        for (const PlacedSample* sample : on_surface) {
+        for (const PlacedSample* sample : placed) {
             const double weight = 1.0 / std::max(glm::distance(sample->surface.position, median), least);
             sum += weight * sample->surface.position;
             weights += weight;
@@ -28,17 +31,17 @@ const PlacedSample& median_in_space(std::span<const PlacedSample* const> on_surf
         median = sum / weights;
     }
     return **std::min_element(
-        on_surface.begin(), on_surface.end(), [&](const PlacedSample* a, const PlacedSample* b) {
+        placed.begin(), placed.end(), [&](const PlacedSample* a, const PlacedSample* b) {
             return glm::distance(a->surface.position, median) < glm::distance(b->surface.position, median);
         });
 }
 
 /// The same along the surface. Ways on a coarser surface do: what counts is on which sheet the place is.
-const PlacedSample& median_along_surface(std::span<const PlacedSample* const> on_surface,
+const PlacedSample& median_along_surface(std::span<const PlacedSample* const> placed,
                                          const FixationContext& context) {
     const CoarseSurface& coarse = *context.coarse;
     std::map<std::uint32_t, std::vector<const PlacedSample*>> at_vertex;
-    for (const PlacedSample* sample : on_surface) {
+    for (const PlacedSample* sample : placed) {
         const SurfacePoint& point = sample->surface;
         int corner = 0;
         for (int other = 1; other < 3; ++other)
@@ -55,22 +58,22 @@ const PlacedSample& median_along_surface(std::span<const PlacedSample* const> on
     return median_in_space(at_vertex[vertices[geodesic_median(*context.field, weights).index]]);
 }
 
-/// Where the fixation's samples met the surface. Samples come at equal steps of time, so that equal weights
-/// are weights of duration. Where all are about equally deep they lie on one sheet, on which straight
-/// distances do for those along the surface.
-void find_point(StudyFixation& fixation, std::span<const PlacedSample* const> on_surface,
+/// Where the fixation's samples have their places on the surface. Samples come at equal steps of time, so
+/// that equal weights are weights of duration. Where all are about equally deep they lie on one sheet, on
+/// which straight distances do for those along the surface.
+void find_point(StudyFixation& fixation, std::span<const PlacedSample* const> placed,
                 const FixationContext& context) {
-    const PlacedSample* median = &median_in_space(on_surface);
+    const PlacedSample* median = &median_in_space(placed);
     if (context.scale)
         fixation.sigma_mm = context.scale->sigma_mm(context.options.sigma, median->surface.depth);
     if (context.field && context.scale) {
         const auto [least, most] = std::minmax_element(
-            on_surface.begin(), on_surface.end(),
+            placed.begin(), placed.end(),
             [](const PlacedSample* a, const PlacedSample* b) { return a->surface.depth < b->surface.depth; });
         const double range_mm =
             ((*most)->surface.depth - (*least)->surface.depth) * context.scale->mm_per_unit;
         if (range_mm > 0.5 * fixation.sigma_mm) {
-            median = &median_along_surface(on_surface, context);
+            median = &median_along_surface(placed, context);
             fixation.sigma_mm = context.scale->sigma_mm(context.options.sigma, median->surface.depth);
         }
     }
@@ -82,22 +85,22 @@ void find_point(StudyFixation& fixation, std::span<const PlacedSample* const> on
     }
 }
 
-void find_part(StudyFixation& fixation, std::span<const PlacedSample* const> on_surface) {
+void find_part(StudyFixation& fixation, std::span<const PlacedSample* const> placed) {
     std::array<int, 256> counts{};
-    for (const PlacedSample* sample : on_surface)
+    for (const PlacedSample* sample : placed)
         ++counts[sample->surface.part];
     fixation.part = static_cast<PartIndex>(std::max_element(counts.begin(), counts.end()) - counts.begin());
 }
 
-void find_spread(StudyFixation& fixation, std::span<const PlacedSample* const> on_surface,
+void find_spread(StudyFixation& fixation, std::span<const PlacedSample* const> placed,
                  const SurfaceScale& scale) {
     double squares = 0.0, depth = 0.0;
-    for (const PlacedSample* sample : on_surface) {
+    for (const PlacedSample* sample : placed) {
         const glm::dvec3 off = sample->surface.position - fixation.position;
         squares += glm::dot(off, off);
         depth += sample->surface.depth;
     }
-    const auto count = static_cast<double>(on_surface.size());
+    const auto count = static_cast<double>(placed.size());
     fixation.spread_mm = std::sqrt(squares / count) * scale.mm_per_unit;
     fixation.spread_deg = *fixation.spread_mm / (scale.mm_per_deg * depth / count / scale.axis_depth);
 }
@@ -143,7 +146,8 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
         return std::nullopt;
     fixation.duration_s = end_s - fixation.onset_s;
 
-    std::vector<const PlacedSample*> lit, on_surface;
+    std::vector<const PlacedSample*> lit, placed;
+    int met = 0;
     const auto [begin, end] = samples_between(context.samples, event.start, event.end);
     glm::dvec2 sum{0.0};
     for (std::size_t i = begin; i < end; ++i) {
@@ -152,27 +156,30 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
             continue;
         lit.push_back(&sample);
         sum += glm::dvec2(sample.gaze.x_px, sample.gaze.y_px);
-        if (sample.is_on_surface)
-            on_surface.push_back(&sample);
+        if (sample.has_place())
+            placed.push_back(&sample);
+        met += sample.is_on_surface;
     }
     fixation.samples = static_cast<int>(lit.size());
     fixation.place = event.place.value_or(ScreenPoint{});
     if (!lit.empty()) {
         sum /= static_cast<double>(lit.size());
         fixation.place = {sum.x, sum.y};
-        fixation.on_surface = static_cast<double>(on_surface.size()) / static_cast<double>(lit.size());
+        const auto all = static_cast<double>(lit.size());
+        fixation.on_surface = met / all;
+        fixation.within_reach = (static_cast<double>(placed.size()) - met) / all;
         fixation.first_frame = lit.front()->frame;
         fixation.last_frame = lit.back()->frame;
         fixation.mid_angle_deg =
             context.angles[static_cast<std::size_t>(lit[lit.size() / 2]->pose.value)].value;
     }
-    if (!on_surface.empty()) {
-        find_point(fixation, on_surface, context);
-        find_part(fixation, on_surface);
+    if (!placed.empty()) {
+        find_point(fixation, placed, context);
+        find_part(fixation, placed);
         if (context.scale) {
-            find_spread(fixation, on_surface, *context.scale);
+            find_spread(fixation, placed, *context.scale);
             if (context.cone && context.lookup)
-                fixation.cone_at_edge = share_at_edge(*on_surface[on_surface.size() / 2], fixation, context);
+                fixation.cone_at_edge = share_at_edge(*placed[placed.size() / 2], fixation, context);
         }
     }
     if (fixation.onset_s < 0.0)
@@ -183,8 +190,11 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
         fixation.why = NotCounted::no_frame_lit;
     else if (!context.has_surface)
         fixation.why = NotCounted::no_surface;
-    else if (on_surface.empty() || fixation.on_surface < context.options.least_on_surface)
+    else if (placed.empty() ||
+             fixation.on_surface + fixation.within_reach < context.options.least_on_surface - rounding)
         fixation.why = NotCounted::not_on_surface;
+    fixation.only_by_reach =
+        fixation.counted() && (met == 0 || fixation.on_surface < context.options.least_on_surface);
     return fixation;
 }
 

@@ -87,8 +87,12 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
     else
         of.presentation_s = header.animation.duration_s;
 
+    const auto validation = std::find_if(validations.rbegin(), validations.rend(),
+                                         [&](const auto& one) { return one.at <= trial.started; });
+    const double accuracy_deg = validation != validations.rend() ? validation->mean_deg : 0.0;
     const PlacedSamples placed =
-        placed_samples(record, trial, ledger, surface.lookup, onset, header.tracker.eye);
+        placed_samples(record, trial, ledger, surface.lookup, onset, header.tracker.eye,
+                       Degrees{options.reach_deg.value_or(accuracy_deg)});
     read.samples = placed.counts.samples;
     read.had_both_eyes = placed.had_both_eyes;
     of.clock_uncertainty_s = placed.clock_uncertainty_s;
@@ -102,8 +106,6 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                      [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
 
     of.quality = gaze_quality(placed.samples, events, header.display.screen);
-    const auto validation = std::find_if(validations.rbegin(), validations.rend(),
-                                         [&](const auto& one) { return one.at <= trial.started; });
     if (validation != validations.rend()) {
         of.quality.accuracy_deg = validation->mean_deg;
         of.quality.worst_accuracy_deg = validation->worst_deg;
