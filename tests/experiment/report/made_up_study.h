@@ -117,6 +117,7 @@ inline StudyResults made_up_study() {
                     64000,
                     80,
                     68,
+                    0,
                     {{NotCounted::too_short, 12}},
                     14.0,
                     true};
