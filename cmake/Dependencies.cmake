@@ -18,11 +18,11 @@ pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(X11 REQUIRED IMPORTED_TARGET x11 xcb xcb-present xcb-randr)
 pkg_check_modules(DRM REQUIRED IMPORTED_TARGET libdrm)
 pkg_check_modules(PANGO REQUIRED IMPORTED_TARGET pangocairo fontconfig)
-# Its -pthread would be a flag that the precompiled headers were not compiled with.
-set_property(TARGET PkgConfig::PANGO PROPERTY INTERFACE_COMPILE_OPTIONS "")
 pkg_check_modules(CRYPTO REQUIRED IMPORTED_TARGET libcrypto)
 pkg_check_modules(SQLITE REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(PORTAUDIO REQUIRED IMPORTED_TARGET portaudio-2.0)
+# Their -pthread would be a flag that the precompiled headers were not compiled with.
+set_property(TARGET PkgConfig::PANGO PkgConfig::PORTAUDIO PROPERTY INTERFACE_COMPILE_OPTIONS "")
 pkg_check_modules(SNDFILE REQUIRED IMPORTED_TARGET sndfile)
 find_package(SQLiteCpp REQUIRED)
 # Draws the maps in report.html; r111, with its licence in the page.

@@ -1,7 +1,7 @@
 # Run after a test program is linked: writes the CTest script FILE with its tests, labelled with their one tag out of unit,
 # gl, session and bench. A test case of a session or a benchmark is a test of its own. The cases of a file that are tagged
 # unit or gl are one test, named after program and file: hundreds of programs that each load some 280 libraries for a case of
-# milliseconds take longer than the cases. A test case without such a tag stops the build, for nobody would run it; one
+# milliseconds take longer than the cases. A test case without such a tag stops the build, for it would never be run; one
 # that is tagged [.long] is run by hand (tests/README.md).
 cmake_policy(VERSION 3.25)
 

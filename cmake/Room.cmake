@@ -8,7 +8,7 @@
 # Any two of them can meet, in which case the words of their unnamed namespaces are common: what two files need is written
 # once, in a header. APART names files that are alike on purpose, a kind of thing each, and files with types that the linker
 # must not see; they are compiled alone.
-# COLD rooms are those where nobody ever waits for what they reckon (commands, keys, checks, talk with devices): compiled
+# COLD rooms are those whose work is never waited for (commands, keys, checks, talk with devices): compiled
 # with -O1, which takes a compiler two thirds of the time.
 #
 # A room's target is its folder with underscores: experiment/record/asc is overt_experiment_record_asc.
@@ -76,7 +76,7 @@ function(overt_module room)
     target_link_libraries(${MODULE_NAME} PRIVATE glm::glm overt_warnings ${MODULE_LINKS})
     set_target_properties(${MODULE_NAME} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden
                           LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/overt)
-    # Whoever is linked with the room that loads it has it built, too.
+    # What is linked with the room that loads it has it built, too.
     foreach(used IN LISTS MODULE_USES)
         overt_room_target(${used} used_target)
         add_dependencies(${used_target} ${MODULE_NAME})

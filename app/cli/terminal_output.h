@@ -4,7 +4,7 @@
 namespace overt {
 
 /// Puts streams in the place of stdout and stderr that take whatever is written, also where the terminal is
-/// gone, the reader of a pipe has ended or the disk is full: an experiment must not end because nobody reads
+/// gone, the reader of a pipe has ended or the disk is full: an experiment must not end because its output is not read
 /// along. A stream that was closed by the caller is opened to nowhere, so that no file of ours takes its
 /// number. Call once, first of all.
 void keep_output_from_failing();

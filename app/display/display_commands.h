@@ -24,7 +24,7 @@ struct DoctorOptions {
     std::optional<int> monitor; ///< from 1
     double seconds = 10.0;      ///< of measuring
     bool photodiode = false;    ///< show a square for a sensor
-    std::string sensor;         ///< serial port, "simulated", or nobody compares
+    std::string sensor;         ///< serial port or "simulated"; empty: no comparison
     ContextChoice context;      ///< of the square; headless: in virtual time
 };
 int run_doctor(const DoctorOptions& options);

@@ -34,7 +34,7 @@ class ColorCalPhotometer final : public PatchPhotometer {
         for (int attempt = 0;; ++attempt) {
             fmt::print(stderr, "This photometer forgets its dark level: cover its lens and press Enter. ");
             if (!std::getline(std::cin, line))
-                throw DeviceError("nobody covered the photometer's lens: start again at a terminal.");
+                throw DeviceError("the photometer's lens was not covered: start again at a terminal.");
             try {
                 device_->calibrate_dark();
                 break;

@@ -130,7 +130,7 @@ int run_photodiode_doctor(const DoctorOptions& options) {
                          figure("unseen", found.unseen, ""), figure("unasked", found.unasked, "")}}}
                        .dump(2));
     } else {
-        fmt::print("times by {}; {} of {} changes seen, {} edges that nobody asked for\n", source,
+        fmt::print("times by {}; {} of {} changes seen, {} edges without a change\n", source,
                    found.matched, changes.size(), found.unasked);
         fmt::print(
             "from vertical blank to light: {:.3f} ms, standard deviation {:.3f} ms ({:.3f} … {:.3f})\n",

@@ -23,7 +23,7 @@ std::vector<ScriptedOperatorKey> read_operator_keys(const RigRequest& request,
 
 DisplayRequest display_of(const Protocol& protocol, const RigRequest& request) {
     if (!wants_window(request.context) && !request.simulate_observer)
-        throw InputError("without a window nobody can answer: give --simulate-observer SEED, or a display");
+        throw InputError("without a window no observer can answer: give --simulate-observer SEED, or a display");
     const DisplaySettings& display = protocol.display;
     return {.context = request.context,
             .size_px = {display.width_px, display.height_px},

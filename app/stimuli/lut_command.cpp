@@ -18,7 +18,7 @@ namespace overt {
 
 namespace {
 
-/// Where the protocol says that nobody knows it.
+/// The unit of a mesh whose protocol says that it is unknown.
 constexpr const char* own_unit = "that of the mesh file, times the protocol's scale";
 
 /// The frames to write, by the distinct pose that they show: each pose is drawn once.

@@ -114,7 +114,7 @@ int run_reconstruct(const ReconstructOptions& options) {
     write_reconstruction(options.out, made, maps.part_names());
     bar.finish();
 
-    // Without a mesh nobody knows what was not seen.
+    // Only a mesh tells what was not seen.
     std::optional<SeenArea> seen;
     if (maps.maps())
         seen.emplace(seen_area(*maps.maps()));

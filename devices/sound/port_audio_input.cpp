@@ -14,8 +14,8 @@ namespace overt {
 
 namespace {
 
-/// Standard error goes nowhere while this lives: ALSA and JACK tell everybody of each device that they did
-/// not find.
+/// Standard error goes nowhere while this lives: ALSA and JACK name there each device that they did not
+/// find.
 class QuietErrors {
   public:
     QuietErrors() : kept_(::dup(STDERR_FILENO)) {
@@ -36,6 +36,9 @@ class QuietErrors {
     int kept_;
 };
 
+} // namespace
+
+/// Not in an unnamed namespace, for State, which the header names, has one.
 class SoundSystem {
   public:
     SoundSystem() {
@@ -64,6 +67,8 @@ class SoundSystem {
         return devices;
     }
 };
+
+namespace {
 
 std::optional<SoundSystem::Device> choose(const std::vector<SoundSystem::Device>& devices,
                                           const std::string& name) {

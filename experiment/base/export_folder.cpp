@@ -9,7 +9,7 @@ namespace fs = std::filesystem;
 namespace overt {
 namespace {
 
-/// An existing directory is replaced only if nobody can lose anything by it.
+/// An existing directory is replaced only if nothing is lost by it.
 const fs::path& unless_refused(const fs::path& directory, bool overwrite,
                                const std::function<bool(const std::string&)>& is_ours) {
     if (!fs::exists(directory) || (fs::is_directory(directory) && fs::is_empty(directory)))

@@ -27,7 +27,7 @@ std::string read_whole_file(const std::filesystem::path& path, std::size_t most_
 void write_whole_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 /// The same of a text. `remedy` follows the reason in what is thrown.
 void write_whole_file(const std::filesystem::path& path, std::string_view text, std::string_view remedy = {});
-/// The same for whoever has words of his own: gives errno of what went wrong, or 0.
+/// The same for callers with words of their own: gives errno of what went wrong, or 0.
 [[nodiscard]] int replace_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 /// Writes a file in its place, from its beginning, and brings it to the disk: errno of what went wrong, or 0.

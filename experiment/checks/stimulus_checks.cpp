@@ -243,7 +243,7 @@ void check_bake(ProtocolExamination& examination) {
                           "name a characterisation with spectra with display.characterisation");
     } else if (display.characterisation && !display.characterisation->spectra) {
         examination.error({"bake.observer", "display.characterisation"},
-                          fmt::format("{} has no spectra, without which nobody knows how CIE 2006 sees it",
+                          fmt::format("{} has no spectra, without which its CIE 2006 colour cannot be computed",
                                       display.characterisation_file.filename().string()),
                           "measure them, and name the table with [light] spectra in that file");
     }

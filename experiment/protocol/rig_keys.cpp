@@ -89,7 +89,7 @@ Section display() {
                   .explanation =
                       "The Display++ or Bits# that shows `mono++`, `color++` and `bits++`: `auto` looks for "
                       "it on the USB serial ports, a path such as `/dev/ttyACM0` names its port, and with "
-                      "`none` nobody switches its mode or asks it anything. Sessions on a real screen in "
+                      "`none` its mode is not switched and it is not asked anything. Sessions on a real screen in "
                       "real time need it; see [display_plus_plus.md](display_plus_plus.md)."},
                  &D::box},
                 {{.name = "onset_trigger",
@@ -213,7 +213,7 @@ Section events() {
                 {{.name = "method",
                   .explanation =
                       "Who says what the eye did. `tracker`: the eye tracker where it does, else the "
-                      "program. `overt`: the program. `none`: nobody while the session runs; exports "
+                      "program. `overt`: the program. `none`: neither while the session runs; exports "
                       "then find them with the default thresholds, and say so."},
                  &E::method},
                 {{.name = "velocity_deg_s",

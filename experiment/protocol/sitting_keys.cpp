@@ -24,7 +24,7 @@ Section consent() {
         .keys =
             {
                 {{.name = "text",
-                  .if_left_out = "nobody is asked",
+                  .if_left_out = "the observer is not asked",
                   .explanation = "What is read. Both keys stand below it."},
                  &C::text},
                 {{.name = "accept_key", .choices = letter_names, .explanation = "Agrees."}, &C::accept_key},

@@ -13,7 +13,7 @@ namespace overt {
 
 /// [consent]
 struct ConsentSettings {
-    std::string text; ///< empty: nobody is asked
+    std::string text; ///< empty: the observer is not asked
     std::string accept_key = "y", decline_key = "n";
 };
 

@@ -211,7 +211,7 @@ Section sculpture() {
                   .explanation =
                       "Unit of the mesh file's coordinates times `scale`. Surface points, maps and "
                       "the camera are in millimetres, whatever it is; with \"own\", for a mesh "
-                      "whose unit nobody knows, in the file's, and every export says so."},
+                      "whose unit is unknown, in the file's, and every export says so."},
                  &S::unit},
                 {{.name = "labels",
                   .if_left_out = "the labels of the mesh file, if it has any",

@@ -120,8 +120,8 @@ constexpr RowColumn<RecordedSculpture> sculpture_columns[] = {
     column<&Sculpture::bounds, &Bounds::max, 1>("max_y", "likewise"),
     column<&Sculpture::bounds, &Bounds::max, 2>("max_z", "likewise"),
     column<&Sculpture::unit>("unit",
-                             "of all lengths of the sculpture: `mm`; `own` if nobody knows the unit of its "
-                             "mesh; empty if not recorded",
+                             "of all lengths of the sculpture: `mm`; `own` if that of its mesh is "
+                             "unknown; empty if not recorded",
                              "''"),
 };
 

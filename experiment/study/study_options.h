@@ -54,7 +54,7 @@ struct StudyOptions {
     PermutationSettings permutation() const { return {5 * permutations, 100000, seed}; }
 };
 
-/// As the report and the tables have them, so that nobody needs the command line to know what was done.
+/// As the report and the tables have them, so that they tell what was done without the command line.
 std::vector<StudyParameter> parameters_of(const StudyOptions& options);
 
 } // namespace overt

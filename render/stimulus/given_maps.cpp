@@ -130,8 +130,8 @@ std::vector<std::string> check_given_maps(const Protocol& protocol, int sculptur
             mixed_maps.load(), poses.angles.size()));
     }
     if (unknown_cameras > 0) {
-        remarks.push_back("depth and incidence will be missing, for the maps do not say where the camera "
-                          "stood; a file beside each map, or [view], can");
+        remarks.emplace_back("depth and incidence will be missing, for the maps do not say where the camera "
+                             "stood; a file beside each map, or [view], can");
     }
     return remarks;
 }

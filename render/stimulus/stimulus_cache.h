@@ -1,5 +1,5 @@
 /// The rendered frames and hidden maps of a protocol's stimuli on disk: kept by what they were made from, so
-/// that whoever wants the same finds them there.
+/// so that they are found by what wants the same.
 #pragma once
 
 #include <filesystem>

@@ -56,7 +56,7 @@ LinearImage gaze_panel(const TrialPictureContent& content) {
         if (highest <= 0.0)
             return clay;
         const float heat = static_cast<float>(density.at(surface.position) / highest);
-        // Transparent where nobody looked; the shape stays readable below.
+        // Transparent where no gaze fell; the shape stays readable below.
         return glm::mix(clay, heat_colour(heat) * (0.45f + 0.55f * facing), std::min(1.0f, 6.0f * heat));
     });
 }
@@ -97,7 +97,7 @@ LinearImage map_panel(const TrialPictureContent& content) {
     });
 }
 
-/// From nobody's gaze to the densest, with its ends named; in the middle three fifths of a width.
+/// From no gaze to the densest, with its ends named; in the middle three fifths of a width.
 void draw_scale(LinearImage& onto, int left, int top, int width) {
     const int first = left + width / 5, end = left + width - width / 5;
     for (int x = first; x < end; ++x) {

@@ -25,7 +25,7 @@ struct RefreshMeasurement {
 /// interval.
 RefreshMeasurement summarise_refreshes(std::span<const FlipReport> flips);
 
-/// How swaps behave that nobody waits for, one right after the other.
+/// How swaps behave one right after the other, without waiting for any.
 struct SwapBehaviour {
     bool wait = false; ///< sooner or later one waits for the display
     int at_once = 0;   ///< so many returned before: 1 of two buffers, more where pictures are queued

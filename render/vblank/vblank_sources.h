@@ -16,7 +16,7 @@ std::unique_ptr<VblankClock> open_glx_sync_control(const NativeWindow& window, c
 std::unique_ptr<VblankClock> open_egl_sync_control(const NativeWindow& window, const Clock& clock);
 
 /// The Present extension of X: counts the refreshes of the window's screen. A driver that shows swaps through
-/// it (DRI3) tells at which refresh each was lit, whoever asks.
+/// it (DRI3) tells at which refresh each was lit, whichever source is asked.
 std::unique_ptr<VblankClock> open_x_present(const NativeWindow& window, const Clock& clock);
 
 /// The kernel's own count for the screen that shows the window. Cards must be readable by the user (group

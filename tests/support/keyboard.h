@@ -35,14 +35,15 @@ class Keyboard {
         XSync(display_, False);
     }
 
+    Window window() const { return window_; }
+
   private:
     Display* display_;
     Window window_;
     Time time_ = 1000;
 };
 
-/// The first window of a size on the screen, once somebody has opened one; 0 if nobody does for half a
-/// minute.
+/// The first window of a size on the screen, once a program has opened one; 0 if none does for half a minute.
 inline Window await_window(Display* display) {
     for (int i = 0; i < 600; ++i) {
         Window root = 0, parent = 0, found = 0;

@@ -266,7 +266,7 @@ void AscParser::port_line(std::string_view line, Kind kind) {
     event.kind = kind;
     event.start = event.end = last_time_ = tracker_time(*us);
     for (std::string_view word = words.next(); !word.empty(); word = words.next())
-        event.text += (event.text.empty() ? "" : " ") + utf8(word);
+        event.text += fmt::format("{}{}", event.text.empty() ? "" : " ", utf8(word));
     listener_.event(event);
 }
 

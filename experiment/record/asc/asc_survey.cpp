@@ -38,7 +38,7 @@ class Surveyor final : public AscListener {
     void header(std::string_view line) override {
         constexpr std::size_t longest_header = 65536;
         if (survey_.header.size() + line.size() < longest_header)
-            survey_.header += (survey_.header.empty() ? "" : "\n") + ascii_of(line);
+            survey_.header += fmt::format("{}{}", survey_.header.empty() ? "" : "\n", ascii_of(line));
     }
     void samples(std::span<const GazeSample> samples) override;
     void event(const GazeEvent& event) override;

@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <functional>
 #include <initializer_list>
+#include <memory>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "tests/app/session/interrupted_run.h"
+#include "tests/app/session/windowed_run.h"
 #include "tests/support/virtual_screen.h"
 
 // Last: it defines words.
@@ -44,34 +46,18 @@ std::string typed_protocol() {
         "output = \"color++\"", "output = \"native-8bit\"\ngamma = 2.2");
 }
 
-/// The arguments of a session in a window of its own.
-std::vector<std::string> windowed_run(const SmallExperiment& experiment) {
-    return {"run",
-            experiment.protocol().string(),
-            "--observer",
-            "P01",
-            "--context",
-            "window",
-            "--windowed",
-            "--refresh-check",
-            "0",
-            "--seed",
-            "7",
-            "--sessions",
-            experiment.sessions().string()};
-}
-
-/// Its environment: an X server alone, whatever desktop the tests run on.
-std::vector<std::string> surroundings_of(const SmallExperiment& experiment) {
-    return {"OVERT_CACHE=" + experiment.cache().string(),
-            "WAYLAND_DISPLAY=", "XDG_SESSION_TYPE=", "ASAN_OPTIONS=detect_leaks=0"};
-}
-
-/// Somebody who presses keys until the session's record shows that they were taken.
-class Somebody {
+/// The session in its window, and somebody at that window's keyboard.
+class TypedSession {
   public:
-    Somebody(RunningProgram& program, const std::filesystem::path& session, Keyboard keyboard)
-        : program_(program), session_(session), keyboard_(keyboard) {}
+    /// A program whose window does not come fails the test.
+    explicit TypedSession(const SmallExperiment& experiment)
+        : screen_(VirtualScreen::start(800, 600, 24)), session_(experiment.session(1)),
+          said_(experiment.folder().path() / "said"), display_(XOpenDisplay(nullptr)),
+          program_(windowed_run(experiment, {"--refresh-check", "0"}), surroundings_of(experiment), said_),
+          keyboard_(display_.get(), await_window(display_.get())) {
+        INFO(said());
+        REQUIRE(keyboard_.window() != 0);
+    }
 
     /// Types all keys again each second until the record is so. False: the program ended, or a minute was
     /// over.
@@ -94,10 +80,24 @@ class Somebody {
         }
         return false;
     }
+    void await_end() { program_.wait(); }
+    /// What the program wrote to its terminal.
+    std::string said() const { return text_of(said_); }
 
   private:
-    RunningProgram& program_;
-    std::filesystem::path session_;
+    struct Close {
+        void operator()(Display* display) const { XCloseDisplay(display); }
+    };
+    static std::vector<std::string> surroundings_of(const SmallExperiment& experiment) {
+        std::vector<std::string> variables = x_server_alone;
+        variables.push_back(fmt::format("OVERT_CACHE={}", experiment.cache().string()));
+        return variables;
+    }
+
+    std::unique_ptr<VirtualScreen> screen_;
+    std::filesystem::path session_, said_;
+    std::unique_ptr<Display, Close> display_;
+    RunningProgram program_;
     Keyboard keyboard_;
 };
 
@@ -116,40 +116,30 @@ auto has_event(const std::string& kind, const std::string& begin, int times = 1)
 TEST_CASE("a session in a window is led by its keys: consent, form, pages, pause, skip, and an end that is "
           "asked for",
           "[session]") {
-    const auto screen = VirtualScreen::start(800, 600, 24);
-    Display* const display = XOpenDisplay(nullptr);
-    REQUIRE(display);
     const SmallExperiment experiment(typed_protocol());
-    const std::filesystem::path said = experiment.folder().path() / "said";
     {
-        RunningProgram program(windowed_run(experiment), surroundings_of(experiment), said);
-        const Window window = await_window(display);
-        INFO(text_of(said));
-        REQUIRE(window != 0);
-        Somebody somebody(program, experiment.session(1), Keyboard(display, window));
+        TypedSession session(experiment);
 
         // A key that neither accepts nor declines does nothing.
-        REQUIRE(somebody.type_until({XK_y, XK_space, XK_j}, [](const SessionRecord& record) {
+        REQUIRE(session.type_until({XK_y, XK_space, XK_j}, [](const SessionRecord& record) {
             return record.consents().size() == 1;
         }));
         // What was typed before the form came is taken back first.
-        REQUIRE(somebody.type_until(
+        REQUIRE(session.type_until(
             {XK_BackSpace, XK_BackSpace, XK_BackSpace, XK_BackSpace, XK_3, XK_1, XK_Return, XK_r, XK_Return},
             [](const SessionRecord& record) { return !record.observer_fields().empty(); }));
-        REQUIRE(somebody.type_until({XK_F1}, has_event("operator", "pauses")));
-        REQUIRE(somebody.type_until({XK_F1}, has_event("operator", "goes on")));
-        REQUIRE(somebody.type_until({XK_space}, has_event(std::string(phase_event), "task screen")));
-        REQUIRE(somebody.type_until({XK_F5}, has_event("operator asked", "Durchgang überspringen?")));
-        REQUIRE(somebody.type_until({XK_2}, has_event("operator", "skips the trial: wish")));
-        REQUIRE(somebody.type_until({XK_Escape}, has_event("operator asked", "End the session?")));
-        REQUIRE(somebody.type_until({XK_n}, has_event("operator answered", "no")));
-        REQUIRE(somebody.type_until({XK_Escape}, has_event("operator asked", "End the session?", 2)));
-        REQUIRE(somebody.type_until({XK_y}, has_event("session aborted", "")));
-        program.wait();
+        REQUIRE(session.type_until({XK_F1}, has_event("operator", "pauses")));
+        REQUIRE(session.type_until({XK_F1}, has_event("operator", "goes on")));
+        REQUIRE(session.type_until({XK_space}, has_event(std::string(phase_event), "task screen")));
+        REQUIRE(session.type_until({XK_F5}, has_event("operator asked", "Durchgang überspringen?")));
+        REQUIRE(session.type_until({XK_2}, has_event("operator", "skips the trial: wish")));
+        REQUIRE(session.type_until({XK_Escape}, has_event("operator asked", "End the session?")));
+        REQUIRE(session.type_until({XK_n}, has_event("operator answered", "no")));
+        REQUIRE(session.type_until({XK_Escape}, has_event("operator asked", "End the session?", 2)));
+        REQUIRE(session.type_until({XK_y}, has_event("session aborted", "")));
+        session.await_end();
     }
-    XCloseDisplay(display);
 
-    INFO(text_of(said));
     const SessionRecord record(experiment.session(1));
     CHECK(record.consents()[0].accepted);
     const std::vector<RecordedObserverField> fields = record.observer_fields();
@@ -163,21 +153,12 @@ TEST_CASE("a session in a window is led by its keys: consent, form, pages, pause
 }
 
 TEST_CASE("who declined is not asked again unless that session is named", "[session]") {
-    const auto screen = VirtualScreen::start(800, 600, 24);
-    Display* const display = XOpenDisplay(nullptr);
-    REQUIRE(display);
     const SmallExperiment experiment(typed_protocol());
-    const std::filesystem::path said = experiment.folder().path() / "said";
     {
-        RunningProgram program(windowed_run(experiment), surroundings_of(experiment), said);
-        const Window window = await_window(display);
-        INFO(text_of(said));
-        REQUIRE(window != 0);
-        Somebody somebody(program, experiment.session(1), Keyboard(display, window));
-        REQUIRE(somebody.type_until({XK_n}, has_event("session aborted", "")));
-        program.wait();
+        TypedSession session(experiment);
+        REQUIRE(session.type_until({XK_n}, has_event("session aborted", "")));
+        session.await_end();
     }
-    XCloseDisplay(display);
     const std::vector<std::string> again{
         "run",     experiment.protocol().string(), "--observer", "P01",        "--context",
         "osmesa",  "--simulate-observer",          "1",          "--sessions", experiment.sessions().string(),

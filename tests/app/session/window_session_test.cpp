@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "experiment/record/read/session_record.h"
-#include "tests/app/small_experiment.h"
+#include "tests/app/session/windowed_run.h"
 #include "tests/support/virtual_screen.h"
 
 using namespace overt;
@@ -10,9 +10,7 @@ using namespace overt::test;
 TEST_CASE("a session in a window in virtual time is the headless session", "[session]") {
     const auto screen = VirtualScreen::start(800, 600, 24);
     const SmallExperiment experiment;
-    // The libraries behind a window keep memory until the end of the process.
-    const ProgramRun run = experiment.run({"--context", "window", "--windowed"},
-                                          {"WAYLAND_DISPLAY=", "ASAN_OPTIONS=detect_leaks=0"});
+    const ProgramRun run = experiment.run({"--context", "window", "--windowed"}, x_server_alone);
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     REQUIRE(experiment.run({"--context", "osmesa"}).exit_code == 0);
@@ -42,25 +40,9 @@ TEST_CASE("a session in a window in virtual time is the headless session", "[ses
 
 namespace {
 
-/// A second and a half of presentation each, so that real time does not become long.
+/// A second and a half of presentation, so that real time does not become long.
 std::vector<std::string> in_real_time(const SmallExperiment& experiment) {
-    return {"run",
-            experiment.protocol().string(),
-            "--observer",
-            "P01",
-            "--context",
-            "window",
-            "--seed",
-            "7",
-            "--simulate-observer",
-            "5",
-            "--trials",
-            "1",
-            "--refresh-check",
-            "2",
-            "--windowed",
-            "--sessions",
-            experiment.sessions().string()};
+    return windowed_run(experiment, {"--simulate-observer", "5", "--trials", "1", "--refresh-check", "2"});
 }
 
 std::string native_at(int refresh_hz) {
@@ -68,16 +50,13 @@ std::string native_at(int refresh_hz) {
                 "output = \"color++\"", "output = \"native-8bit\"\ngamma = 2.2");
 }
 
-const std::vector<std::string> no_wayland{
-    "WAYLAND_DISPLAY=", "XDG_SESSION_TYPE=", "ASAN_OPTIONS=detect_leaks=0"};
-
 } // namespace
 
 TEST_CASE("a session in real time is stamped by the server's vertical blanks, and records what it measured",
           "[session]") {
     const auto screen = VirtualScreen::start(800, 600, 24);
     const SmallExperiment experiment(native_at(60));
-    const ProgramRun run = run_overt(in_real_time(experiment), no_wayland);
+    const ProgramRun run = run_overt(in_real_time(experiment), x_server_alone);
     INFO(run.out << run.err);
     REQUIRE(run.exit_code == 0);
     CHECK(run.err.find("risk: swaps:") != std::string::npos);
@@ -102,7 +81,7 @@ TEST_CASE("a screen that is measured at another rate refuses the session, which 
           "[session]") {
     const auto screen = VirtualScreen::start(800, 600, 24);
     const SmallExperiment experiment(native_at(90));
-    const ProgramRun run = run_overt(in_real_time(experiment), no_wayland);
+    const ProgramRun run = run_overt(in_real_time(experiment), x_server_alone);
     CHECK(run.exit_code == 1);
     CHECK(run.err.find("measured refresh: ") != std::string::npos);
     CHECK(run.err.find("90 Hz") != std::string::npos);

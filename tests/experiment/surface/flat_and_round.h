@@ -70,6 +70,19 @@ inline Mesh icosphere(double radius, int times) {
     return mesh;
 }
 
+/// The same surface with vertices of its own for each triangle, as an STL file has them.
+inline Mesh with_loose_triangles(const Mesh& mesh) {
+    Mesh loose = mesh;
+    loose.positions.clear();
+    for (glm::uvec3& t : loose.triangles) {
+        for (int k = 0; k < 3; ++k) {
+            loose.positions.push_back(mesh.positions[t[k]]);
+            t[k] = static_cast<std::uint32_t>(loose.positions.size() - 1);
+        }
+    }
+    return loose;
+}
+
 /// The corner k of a triangle as a place.
 inline SurfacePlace corner_place(std::uint32_t triangle, int corner) {
     SurfacePlace place{triangle, glm::dvec3(0.0)};

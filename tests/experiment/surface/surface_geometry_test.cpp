@@ -19,16 +19,7 @@ TEST_CASE("the areas of vertices sum to the area of the surface, in millimetres"
 }
 
 TEST_CASE("a seam of duplicate vertices does not cut a surface", "[unit]") {
-    Mesh mesh = flat_square(1.0, 4);
-    // Each triangle with vertices of its own, as an STL file has them.
-    Mesh loose = mesh;
-    loose.positions.clear();
-    for (glm::uvec3& t : loose.triangles) {
-        for (int k = 0; k < 3; ++k) {
-            loose.positions.push_back(mesh.positions[t[k]]);
-            t[k] = static_cast<std::uint32_t>(loose.positions.size() - 1);
-        }
-    }
+    const Mesh mesh = flat_square(1.0, 4), loose = with_loose_triangles(mesh);
     const SurfaceGeometry whole(mesh), pieces(loose);
     CHECK(pieces.node_count() == whole.node_count());
     CHECK(pieces.component_count() == 1);

@@ -151,15 +151,7 @@ TEST_CASE("the map of weights of several widths is the sum of their maps", "[uni
 }
 
 TEST_CASE("duplicate vertices have the density of the surface they lie on", "[unit]") {
-    const Mesh mesh = flat_square(10.0, 10);
-    Mesh loose = mesh;
-    loose.positions.clear();
-    for (glm::uvec3& t : loose.triangles) {
-        for (int k = 0; k < 3; ++k) {
-            loose.positions.push_back(mesh.positions[t[k]]);
-            t[k] = static_cast<std::uint32_t>(loose.positions.size() - 1);
-        }
-    }
+    const Mesh mesh = flat_square(10.0, 10), loose = with_loose_triangles(mesh);
     const SurfaceGeometry whole(mesh), pieces(loose);
     const std::vector<SurfaceWeight> weights{{{77, {0.2, 0.2, 0.6}}, 1.0, 4.0}};
     const std::vector<double> expected = SurfaceSmoother(whole, 4.0).density(weights);

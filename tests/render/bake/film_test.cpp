@@ -24,7 +24,7 @@ TEST_CASE("where all pixels are equally noisy each states the same error, in cor
     gather(0.5f);
     film.begin_round(all);
     gather(0.6f);
-    // Nobody reaches a target of nothing, everybody one of a hundred.
+    // A target of 0 is never reached, one of 100 always.
     CHECK(film.noisier_than(100.0, 1.0, 8).empty());
     CHECK(film.noisier_than(1e-6, 1.0, 8).size() == film.count());
     const float error = film.pixel(film.count() / 2).error_de;

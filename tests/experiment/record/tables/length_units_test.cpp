@@ -28,7 +28,7 @@ TEST_CASE("lengths in tables are millimetres, and the dictionary says so", "[uni
     }
 }
 
-TEST_CASE("a sculpture whose unit nobody knows is named in the dictionary", "[unit]") {
+TEST_CASE("a sculpture whose unit is unknown is named in the dictionary", "[unit]") {
     SessionHeader header = example_header();
     header.sculptures[1].unit = "own";
     const nlohmann::json some = samples_dictionary(header);
