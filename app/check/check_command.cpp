@@ -67,6 +67,8 @@ DesignReport report_on(const Experiment& experiment, const CheckOptions& options
         if (sculpture.has_mesh())
             report.surfaces.push_back(surface_of(sculpture));
     }
+    report.recording = recording_size(experiment.protocol, experiment.sculptures, report.trials_per_observer,
+                                      assumptions.answer_s);
     return report;
 }
 

@@ -16,6 +16,7 @@
 #include "app/session/session_messages.h"
 #include "app/session/session_plan.h"
 #include "app/session/session_recording.h"
+#include "app/session/session_room.h"
 #include "devices/host/thread_priority.h"
 #include "experiment/base/error.h"
 #include "experiment/base/whole_file.h"
@@ -198,6 +199,7 @@ int run_session(const RunOptions& options) {
     prepare_stimuli(rig.library(), rig.maps_are_live() ? MapsNow::drawn_live : MapsNow::made,
                     options.quality.value_or(protocol.bake.least(!options.simulate_observer)));
     say_frames(rig.library(), !options.simulate_observer);
+    require_room(experiment, plan, rig.library(), !rig.maps_are_live(), options.sessions);
     rig.open(plan.faults, plan.resumed ? plan.resumed->clock_start : SessionTime());
     if (rig.is_on_a_real_screen() && options.refresh_check_s > 0.0)
         check_timing(rig, options.refresh_check_s);

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "experiment/checks/recording_size.h"
 #include "experiment/checks/rotation_balance.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/trial.h"
@@ -112,7 +113,9 @@ struct DesignReport {
     SessionLength session;
     MemoryNeed memory;
 
-    std::vector<SurfaceFacts> surfaces; ///< of sculptures with a mesh; for whoever has loaded it to fill in
+    // To be filled in where the meshes are loaded.
+    std::vector<SurfaceFacts> surfaces; ///< of sculptures with a mesh
+    std::optional<RecordingSize> recording;
 
     std::vector<IncidenceCell> incidence; ///< task by task, sculpture by sculpture, material by material
     std::vector<RotationFacts> rotations; ///< of each group in which anything goes round

@@ -131,6 +131,8 @@ Json to_json(const DesignReport& report) {
     json["memory"] = {{"pages_per_stimulus_bytes", report.memory.pages_per_stimulus_bytes},
                       {"pages_at_once_bytes", report.memory.pages_at_once_bytes()},
                       {"maps_per_sculpture_bytes", report.memory.maps_per_sculpture_bytes}};
+    if (report.recording)
+        json["recording"] = to_json(*report.recording);
     json["surfaces"] = Json::array();
     for (const SurfaceFacts& surface : report.surfaces) {
         Json parts = Json::object();

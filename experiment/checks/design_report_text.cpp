@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiment/base/bytes_in_words.h"
 #include "experiment/base/counted.h"
 #include "experiment/checks/design_report.h"
 #include "experiment/colour/characterisation_text.h"
@@ -22,12 +23,6 @@ std::string difference_of_rates(const DesignReport& report) {
         return "";
     return fmt::format(" ({:.2g} % {} than the protocol's {} Hz)", std::abs(percent),
                        percent < 0.0 ? "slower" : "faster", asked);
-}
-
-std::string in_bytes(double bytes) {
-    return bytes < 9.5e6 ? fmt::format("{:.2g} MB", bytes / 1e6)
-           : bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6)
-                         : fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
 std::size_t longest(const std::vector<std::string>& names) {
@@ -148,6 +143,11 @@ void add_overview(std::string& text, const DesignReport& report) {
                            "are loaded before its trial (frame_store_mb = {})",
                            in_bytes(memory.pages_per_stimulus_bytes), report.display.frame_store_mb),
          fmt::format("{} of maps for each sculpture", in_bytes(memory.maps_per_sculpture_bytes))});
+    if (report.recording)
+        add_facts(text, "Disk",
+                  {fmt::format("a session takes about {}", to_text(*report.recording)),
+                   fmt::format("all {1} about {0}", in_bytes(report.observers * report.recording->total()),
+                               counted(report.observers, "observer"))});
 }
 
 void add_surfaces(std::string& text, const DesignReport& report) {

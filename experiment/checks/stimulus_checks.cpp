@@ -242,10 +242,11 @@ void check_bake(ProtocolExamination& examination) {
                           "how CIE 2006 sees the display's light is not known without its spectra",
                           "name a characterisation with spectra with display.characterisation");
     } else if (display.characterisation && !display.characterisation->spectra) {
-        examination.error({"bake.observer", "display.characterisation"},
-                          fmt::format("{} has no spectra, without which its CIE 2006 colour cannot be computed",
-                                      display.characterisation_file.filename().string()),
-                          "measure them, and name the table with [light] spectra in that file");
+        examination.error(
+            {"bake.observer", "display.characterisation"},
+            fmt::format("{} has no spectra, without which its CIE 2006 colour cannot be computed",
+                        display.characterisation_file.filename().string()),
+            "measure them, and name the table with [light] spectra in that file");
     }
     if (bake.quality == BakeQuality::live)
         examination.error({"bake.observer", "bake.quality"}, "OpenGL draws for CIE 1931 only",

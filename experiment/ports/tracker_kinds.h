@@ -12,11 +12,12 @@ namespace overt {
 struct TrackerKindRow {
     std::string_view name;        ///< as [tracker] kind has it
     std::string_view explanation; ///< for the reference of protocols; follows the name and a colon
+    bool measures_gaze = true;
 };
 
 inline constexpr TrackerKindRow tracker_kinds[] = {
     {"simulated", "measures a simulated observer, with noise and a clock of its own"},
-    {"none", "there is none, and the session is recorded without gaze"},
+    {"none", "there is none, and the session is recorded without gaze", false},
 };
 
 /// Their names alone.

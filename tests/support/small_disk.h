@@ -43,7 +43,7 @@ class SmallDisk {
     SmallDisk(const SmallDisk&) = delete;
     SmallDisk& operator=(const SmallDisk&) = delete;
 
-    /// False where the system allows nobody to mount, as many containers do.
+    /// False where the system does not allow mounting, as many containers do.
     bool is_there() const { return is_there_; }
 
     /// Makes room, or takes it.
@@ -51,6 +51,10 @@ class SmallDisk {
         char answer = 'n';
         return ::write(request_, &bytes, sizeof bytes) == sizeof bytes && ::read(answer_, &answer, 1) == 1 &&
                answer == 'y';
+    }
+    /// Where a file of the disk is to be seen from outside.
+    std::filesystem::path seen(const std::filesystem::path& file) const {
+        return "/proc/" + std::to_string(holder_) + "/root" + file.string();
     }
 
     /// In a process that is to see the disk, before its program begins.

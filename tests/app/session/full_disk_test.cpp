@@ -1,5 +1,11 @@
 /// Sessions on a disk that is full, and two sessions begun at once.
+#include <chrono>
+#include <memory>
+#include <thread>
+
 #include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
 
 #include "tests/app/session/interrupted_run.h"
 #include "tests/support/skip.h"
@@ -98,15 +104,17 @@ TEST_CASE("on a real disk that fills up a session stays readable, and goes on wh
         if (entry.is_regular_file() && entry.path().filename() != "session.sqlite")
             at_first += entry.file_size();
     const std::uint64_t rows = fs::file_size(whole / "session.sqlite");
-    SmallDisk disk(disk_folder, at_first + 6 * rows / 10);
+    const std::uint64_t less_than_all = at_first + 6 * rows / 10;
+    SmallDisk disk(disk_folder, less_than_all);
     if (!disk.is_there())
         OVERT_SKIP("this system lets no ordinary user mount a file system");
-    const auto overt = [&](const std::vector<std::string>& arguments) {
-        RunningProgram program(arguments, {"OVERT_CACHE=" + experiment.cache().string()}, said,
-                               [&] { disk.enter(); });
-        return program.wait();
+    const auto begun = [&](const std::vector<std::string>& arguments) {
+        return std::make_unique<RunningProgram>(arguments,
+                                                std::vector{"OVERT_CACHE=" + experiment.cache().string()},
+                                                said, [&] { disk.enter(); });
     };
-    const auto run = [&](const std::vector<std::string>& more) {
+    const auto overt = [&](const std::vector<std::string>& arguments) { return begun(arguments)->wait(); };
+    const auto run_of = [&](const std::vector<std::string>& more) {
         std::vector<std::string> arguments{"run",
                                            experiment.protocol().string(),
                                            "--simulate-observer",
@@ -121,9 +129,22 @@ TEST_CASE("on a real disk that fills up a session stays readable, and goes on wh
                                            "7",
                                            "--virtual-time"};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        return overt(arguments);
+        return arguments;
     };
+    const auto run = [&](const std::vector<std::string>& more) { return overt(run_of(more)); };
+    // Too little room from the beginning: nothing is begun.
     CHECK(run({}) == 1);
+    CHECK_THAT(text_of(said), Contains("the session will take about") && Contains("not begun"));
+    CHECK(fs::is_empty(disk.seen(disk_folder)));
+    // The disk fills up meanwhile.
+    REQUIRE(disk.resize(at_first + 20 * rows));
+    {
+        const auto program = begun(run_of({}));
+        while (!fs::exists(disk.seen(session)) && program->is_running())
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        REQUIRE(disk.resize(less_than_all));
+        CHECK(program->wait() == 1);
+    }
     CHECK_THAT(text_of(said),
                Contains("session.sqlite") && Contains("The disk is full") && Contains("--resume"));
     CHECK(overt({"show", session.string()}) == 0);
@@ -137,13 +158,25 @@ TEST_CASE("on a real disk that fills up a session stays readable, and goes on wh
     CHECK(overt({"export", session.string(), "--format", "tsv"}) == 1);
     CHECK_THAT(text_of(said), Contains("No space left on device"));
     CHECK(run({"--resume"}) == 1);
-    CHECK_THAT(text_of(said), Contains("ake room"));
+    CHECK_THAT(text_of(said), Contains("not resumed") && Contains("Make room"));
     CHECK(overt({"verify", session.string()}) == 0);
     REQUIRE(disk.resize(at_first + 20 * rows));
     CHECK(run({"--resume"}) == 0);
     CHECK_THAT(text_of(said), Contains("10 of 10 trials completed"));
     CHECK(overt({"verify", session.string()}) == 0);
     CHECK(overt({"export", session.string(), "--format", "tsv"}) == 0);
+}
+
+TEST_CASE("a session takes as much of the disk as `check` said, or a little less", "[session]") {
+    const SmallExperiment experiment(with(small_protocol, "duration_s = 1", "duration_s = 10"));
+    REQUIRE(experiment.run().exit_code == 0);
+    double taken = 0.0;
+    for (const auto& entry : fs::recursive_directory_iterator(experiment.session()))
+        taken += entry.is_regular_file() ? static_cast<double>(entry.file_size()) : 0.0;
+    const ProgramRun check = experiment.overt({"check", experiment.protocol().string(), "--json"});
+    const double said = nlohmann::json::parse(check.out)["design"]["recording"]["total_bytes"];
+    CHECK(said > taken);
+    CHECK(said < 1.5 * taken);
 }
 
 TEST_CASE("of two programs that begin a session at once each has a number of its own", "[session]") {

@@ -1,0 +1,61 @@
+#include "app/session/session_room.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiment/base/bytes_in_words.h"
+#include "experiment/base/error.h"
+#include "experiment/checks/design_report.h"
+#include "experiment/checks/recording_size.h"
+
+namespace overt {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The files that are going to be copied, instead of what is assumed of them.
+double bytes_of_maps(const StimulusLibrary& library, std::size_t sculptures) {
+    double bytes = 0.0;
+    for (std::size_t i = 0; i < sculptures; ++i) {
+        for (std::size_t pose = 0; pose < library.cache().poses().angles.size(); ++pose)
+            bytes += static_cast<double>(fs::file_size(
+                library.cache().map_file(static_cast<int>(i), PoseIndex{static_cast<int>(pose)})));
+    }
+    return bytes;
+}
+
+RecordingSize still_to_record(const Experiment& experiment, const SessionPlan& plan,
+                              const StimulusLibrary& library, bool with_prepared_maps) {
+    const int all = static_cast<int>(plan.schedule.trials.size());
+    const int done = plan.resumed ? plan.resumed->history.counted_trials : 0;
+    RecordingSize size = recording_size(experiment.protocol, experiment.sculptures, std::max(0, all - done),
+                                        DesignAssumptions().answer_s);
+    if (with_prepared_maps)
+        size.maps = bytes_of_maps(library, experiment.sculptures.size());
+    if (plan.resumed)
+        size.maps = size.meshes = size.pictures = 0.0;
+    return size;
+}
+
+} // namespace
+
+void require_room(const Experiment& experiment, const SessionPlan& plan, const StimulusLibrary& library,
+                  bool with_prepared_maps, const fs::path& sessions) {
+    const RecordingSize size = still_to_record(experiment, plan, library, with_prepared_maps);
+    fs::path folder = fs::absolute(sessions);
+    while (!fs::exists(folder) && folder.has_relative_path())
+        folder = folder.parent_path();
+    std::error_code unknown;
+    const fs::space_info room = fs::space(folder, unknown);
+    if (unknown || static_cast<double>(room.available) >= size.total())
+        return;
+    throw RecordError(fmt::format(
+        "{}: {} free, and the session will take about {}. Make room on the disk or name another folder with "
+        "--sessions, then run it again. The session was not {}, and nothing was written.",
+        folder.string(), in_bytes(static_cast<double>(room.available)), to_text(size),
+        plan.resumed ? "resumed" : "begun"));
+}
+
+} // namespace overt

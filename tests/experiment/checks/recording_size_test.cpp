@@ -1,0 +1,64 @@
+#include "experiment/checks/recording_size.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/experiment/protocol/protocol_fixtures.h"
+
+using namespace overt;
+using namespace overt::test;
+
+namespace {
+
+/// A sculpture of 1000 vertices and 2000 triangles.
+std::vector<Sculpture> one_sculpture() {
+    Sculpture sculpture;
+    sculpture.mesh.positions.resize(1000);
+    sculpture.mesh.triangles.resize(2000);
+    return {sculpture};
+}
+
+} // namespace
+
+TEST_CASE("a record's rows are those of its samples and flips, whatever is answered", "[unit]") {
+    Protocol protocol = paper_protocol();
+    protocol.answers.record = AnswerUse::none;
+    protocol.screens.recording_lead_s = 0.0;
+    const RecordingSize ten = recording_size(protocol, one_sculpture(), 10, 5.0),
+                        twenty = recording_size(protocol, one_sculpture(), 20, 50.0);
+    // 8 s at 2000 Hz and 120 Hz.
+    CHECK(twenty.rows - ten.rows == Approx(10 * (16000 * 42.0 + 960 * 52.0)));
+    CHECK(twenty.maps == ten.maps);
+    CHECK(ten.maps == Approx(31 * 1024.0 * 1024.0 / 2.0));
+    CHECK(ten.pictures == Approx(3 * 1024.0 * 1024.0 / 2.0));
+    CHECK(ten.meshes == Approx(1000 * 12 + 2000 * 14));
+    CHECK(ten.answers == 0.0);
+    CHECK(ten.total() == Approx(ten.rows + ten.maps + ten.meshes + ten.pictures));
+    protocol.screens.recording_lead_s = 0.5;
+    CHECK(recording_size(protocol, one_sculpture(), 10, 5.0).rows - ten.rows ==
+          Approx(11 * 2000 * 42.0)); // ten trials, and one in the log
+}
+
+TEST_CASE("without a tracker there are flips alone, and spoken answers take their limits", "[unit]") {
+    Protocol protocol = paper_protocol();
+    protocol.tracker.kind = TrackerKind{1};
+    const RecordingSize without = recording_size(protocol, one_sculpture(), 9, 5.0);
+    CHECK(without.rows == Approx(300e3 + 10 * 960 * 52.0));
+    protocol.answers.record = AnswerUse::required;
+    protocol.answers.sample_rate_hz = 44100;
+    protocol.answers.bits = 24;
+    protocol.screens.response_min_s = 2.0;
+    protocol.screens.response_max_s = 20.0;
+    CHECK(recording_size(protocol, one_sculpture(), 9, 5.0).answers == Approx(9 * 5 * 44100 * 3.0));
+    CHECK(recording_size(protocol, one_sculpture(), 9, 1.0).answers == Approx(9 * 2 * 44100 * 3.0));
+    CHECK(recording_size(protocol, one_sculpture(), 9, 500.0).answers == Approx(9 * 20 * 44100 * 3.0));
+}
+
+TEST_CASE("a record's size is told in words and in JSON", "[unit]") {
+    RecordingSize size;
+    size.rows = 22e6;
+    size.maps = 1.25e6;
+    CHECK(to_text(size) == "23 MB: gaze and flips 22 MB, maps 1.2 MB");
+    CHECK(to_json(size)["total_bytes"] == 23.25e6);
+    CHECK(to_json(size)["gaze_and_flips_bytes"] == 22e6);
+}
