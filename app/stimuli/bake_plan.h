@@ -38,8 +38,8 @@ std::vector<BakeUnit> bake_units(const std::vector<Condition>& stimuli, const Fr
                                  const PoseTable& poses, const FrameQuality& quality,
                                  const Protocol& protocol);
 
-/// What one shard has to do of it: dealt out by expected cost, the dearest first, each to the shard that has least so far.
-/// It depends on nothing but the arguments, and the shards 1/n … n/n have each unit once.
+/// What one shard has to do of it: dealt out by expected cost, the dearest first, each to the shard that has
+/// least so far. It depends on nothing but the arguments, and the shards 1/n … n/n have each unit once.
 std::vector<BakeUnit> dealt_to(const Shard& shard, const std::vector<BakeUnit>& units);
 
 } // namespace overt

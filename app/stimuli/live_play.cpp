@@ -5,11 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "app/rig/open_display.h"
+#include "app/stimuli/picture_window.h"
 #include "experiment/base/error.h"
 #include "render/gl/headless_context.h"
-#include "render/image/text_layout.h"
-#include "render/signal/display_encoder.h"
 #include "render/stimulus/live_view.h"
 #include "render/window/window_system.h"
 
@@ -17,53 +15,8 @@ namespace overt {
 
 namespace {
 
-/// How often a picture at rest looks for something to do.
-constexpr auto idle = std::chrono::milliseconds(10);
-
 constexpr const char* keys_text =
     "drag: turn    wheel: nearer    ← →: material    ↑ ↓: sculpture    space: animation    Esc: end";
-
-/// Pictures of linear light in a window that is as large as they are, on an ordinary screen.
-class PictureWindow {
-  public:
-    explicit PictureWindow(const OpenDisplay& opened)
-        : opened_(&opened), encoder_([&] {
-              DisplaySettings display;
-              display.output = OutputMode::native_8bit;
-              display.gamma = 2.2;
-              display.width_px = opened.window()->framebuffer_px().x;
-              display.height_px = opened.window()->framebuffer_px().y;
-              return display;
-          }()),
-          texture_(opened.context(), opened.window()->framebuffer_px(), encoder_.format()),
-          canvas_(opened.context(), {&texture_}, false) {}
-
-    /// Over its lower edge stand the keys.
-    void show(LinearImage picture) {
-        write_on(picture, keys_text, {picture.size_px.x / 2, picture.size_px.y - 1});
-        bytes_.resize(bytes_per_pixel(encoder_.format()) * picture.pixels.size());
-        encoder_.encode(picture, {0, 0}, bytes_);
-        texture_.upload(bytes_);
-        opened_->surface().present(canvas_);
-    }
-
-  private:
-    const OpenDisplay* opened_;
-    DisplayEncoder encoder_;
-    Texture2D texture_;
-    Framebuffer canvas_;
-    std::vector<std::byte> bytes_;
-};
-
-/// Of the protocol's shape, large enough for a hand, and as large as the screen has room for beside its
-/// panels.
-glm::ivec2 window_size_of(const ViewSettings& view, glm::ivec2 screen_px) {
-    constexpr double least_px = 768.0, share_of_screen = 0.85;
-    const glm::dvec2 most = share_of_screen * glm::dvec2(screen_px);
-    const double scale = std::min({std::max(1.0, least_px / std::max(view.width_px, view.height_px)),
-                                   most.x / view.width_px, most.y / view.height_px});
-    return {static_cast<int>(scale * view.width_px), static_cast<int>(scale * view.height_px)};
-}
 
 int next_of(int index, int by, std::size_t count) {
     const int all = static_cast<int>(count);
@@ -133,7 +86,7 @@ void play_until_closed(OpenDisplay& opened, LiveView& view, const Protocol& prot
         if (wishes.has_ended)
             return;
         if (!wishes.has_changed && !wishes.is_turning) {
-            std::this_thread::sleep_for(idle);
+            std::this_thread::sleep_for(picture_rest);
             continue;
         }
         wishes.has_changed = false;
@@ -144,7 +97,7 @@ void play_until_closed(OpenDisplay& opened, LiveView& view, const Protocol& prot
                 static_cast<int>(to_seconds(opened.clock().now() - begin) * protocol.animation.frame_rate_hz);
             orbit.turn_deg += protocol.animation.angle_of(protocol.animation.frame_at_step(step)).value;
         }
-        picture.show(view.draw(orbit));
+        picture.show(view.draw(orbit), keys_text);
     }
 }
 
@@ -155,9 +108,7 @@ int play_live(const Protocol& protocol, std::span<const Sculpture> sculptures, c
     if (options.picture.empty()) {
         if (!display_is_available())
             throw InputError("there is no display to play on: write a frame with --picture FILE instead");
-        const std::vector<MonitorInfo> monitors = list_monitors();
-        const glm::ivec2 image_px = window_size_of(
-            protocol.view, monitors.empty() ? glm::ivec2(1024, 768) : monitors.front().size_px);
+        const glm::ivec2 image_px = picture_window_size(protocol.view);
         fmt::print("{}\n", keys_text);
         OpenDisplay window({.context = ContextKind::window,
                             .size_px = image_px,

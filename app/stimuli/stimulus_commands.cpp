@@ -32,6 +32,38 @@ void add_play(CLI::App& app, ChosenCommand& chosen) {
     run_when_chosen(command, chosen, [given] { return run_play(*given); });
 }
 
+void add_pick_head(CLI::App& app, ChosenCommand& chosen) {
+    const auto given = std::make_shared<PickHeadOptions>();
+    PickHeadOptions& options = *given;
+    CLI::App& command = add_command(
+        app, "pick-head",
+        "Outlines the head of a mesh with the mouse and prints the key `head` for a protocol",
+        "overt pick-head scan.ply --up y\n"
+        "  overt pick-head scan.ply --sphere 0 -15 310 60 --plane 0 0 262 0 0 1 --picture head.png");
+    command.add_option("MESH", options.mesh, "PLY, OBJ or STL")->required();
+    command.add_option("--up", options.up, "Axis of the file that points up")
+        ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
+        ->capture_default_str();
+    command.add_option("--unit", options.unit, "Unit of the file: mm, cm, m, in or own")
+        ->check(CLI::IsMember({"mm", "cm", "m", "in", "own"}))
+        ->capture_default_str();
+    command
+        .add_option("--sphere", options.spheres,
+                    "A head to begin with, in the file's coordinates: inside this sphere, or another one")
+        ->type_name("X Y Z R");
+    command
+        .add_option("--plane", options.planes,
+                    "and in front of this plane: a point, and the direction in which the head lies")
+        ->type_name("X Y Z TO_X TO_Y TO_Z");
+    command
+        .add_option("--picture", options.picture, "Write a PNG of the head that is given, without a window")
+        ->type_name("FILE");
+    command.add_option("--turn", options.turn_deg, "Turn of that picture's turntable, in degrees")
+        ->type_name("DEG");
+    add_context_option(command, options.context);
+    run_when_chosen(command, chosen, [given] { return run_pick_head(*given); });
+}
+
 void add_bake(CLI::App& app, ChosenCommand& chosen) {
     const auto given = std::make_shared<BakeOptions>();
     BakeOptions& options = *given;
@@ -161,6 +193,7 @@ void add_reconstruct(CLI::App& app, ChosenCommand& chosen) {
 
 void add_stimulus_commands(CLI::App& app, ChosenCommand& chosen) {
     add_play(app, chosen);
+    add_pick_head(app, chosen);
     add_bake(app, chosen);
     add_lut(app, chosen);
     add_reconstruct(app, chosen);

@@ -1,8 +1,9 @@
-/// The commands for looking at stimuli and making them: play, bake, lut, reconstruct. Each takes its options
-/// and gives the exit code, 0 done, 1 failed. Bad input is thrown as InputError, which main turns into exit
-/// code 2.
+/// The commands for looking at stimuli and making them: play, pick-head, bake, lut, reconstruct. Each takes
+/// its options and gives the exit code, 0 done, 1 failed. Bad input is thrown as InputError, which main turns
+/// into exit code 2.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -27,6 +28,19 @@ struct PlayOptions {
     bool live = false; ///< drawn now, to be turned with the mouse, instead of the frames
 };
 int run_play(const PlayOptions& options);
+
+struct PickHeadOptions {
+    std::filesystem::path mesh;
+    std::string up = "z", unit = "mm"; ///< as [[sculpture]] has them
+    // A head to begin with, in the file's coordinates.
+    std::vector<std::array<double, 4>> spheres; ///< x, y, z, radius
+    std::vector<std::array<double, 6>> planes;  ///< a point, and the direction in which the head lies
+    std::filesystem::path picture;              ///< empty: a window
+    double turn_deg = 0.0;                      ///< of the picture
+    ContextChoice context;
+};
+/// Prints the key `head` of a sculpture. Throws InputError, GraphicsError, RecordError.
+int run_pick_head(const PickHeadOptions& options);
 
 struct BakeOptions {
     std::filesystem::path protocol;

@@ -18,16 +18,15 @@ namespace {
 /// Changes whenever a sculpture comes out differently, so that an older one in the cache is not taken.
 constexpr int sculpture_version = 1;
 
-/// Millimetres in a unit by its name; 1 for a file's own.
-double mm_of(std::string_view unit) {
+} // namespace
+
+double mm_of_unit(std::string_view unit) {
     if (unit == "cm")
         return 10.0;
     if (unit == "m")
         return 1000.0;
     return unit == "in" ? 25.4 : 1.0;
 }
-
-} // namespace
 
 std::string_view unit_of_lengths(const SculptureSettings& settings) {
     return settings.shipped.empty() && settings.unit == "own" ? "own" : "mm";
@@ -38,7 +37,7 @@ namespace {
 MeshImport import_of(const SculptureSettings& settings) {
     MeshImport import;
     import.up = up_axis_named(settings.up);
-    import.scale = settings.scale * mm_of(settings.unit);
+    import.scale = settings.scale * mm_of_unit(settings.unit);
     import.labels = settings.labels;
     if (auto head = head_region(settings))
         import.regions.push_back(*std::move(head));

@@ -17,6 +17,9 @@ namespace overt {
 /// Of a sculpture's lengths: "mm", or "own" where the protocol does not know the unit of its mesh.
 std::string_view unit_of_lengths(const SculptureSettings& settings);
 
+/// Millimetres in a unit by its name; 1 for a mesh's own.
+double mm_of_unit(std::string_view unit);
+
 struct Sculpture {
     std::string id;
     /// Without triangles if the protocol gives none: then its stimuli are frames. Where it gives ready-made

@@ -18,7 +18,7 @@ struct WindowContext::State {
     // A ring, so that a key pressed in the middle of a presentation allocates nothing.
     std::array<WindowKeyPress, 64> presses{};
     std::size_t first = 0, count = 0;
-    glm::dvec2 pointer_px{0.0};
+    glm::dvec2 pointer_px{0.0}, pressed_px{0.0};
     Dragging dragging;
     // What is held still, and what became of it.
     bool held = false;
@@ -67,6 +67,18 @@ struct WindowContext::State {
         if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS)
             state.dragging.by_px += glm::dvec2(x, y) - state.pointer_px;
         state.pointer_px = {x, y};
+    }
+
+    static void on_button(GLFWwindow* window, int button, int action, int) {
+        if (button != GLFW_MOUSE_BUTTON_LEFT)
+            return;
+        constexpr double least_way_px = 4.0;
+        auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+        if (action == GLFW_PRESS)
+            state.pressed_px = state.pointer_px;
+        else if (glm::distance(state.pressed_px, state.pointer_px) < least_way_px &&
+                 state.dragging.click_count < state.dragging.clicks_px.size())
+            state.dragging.clicks_px[state.dragging.click_count++] = state.pointer_px;
     }
 
     static void on_wheel(GLFWwindow* window, double, double steps) {
@@ -130,6 +142,7 @@ WindowContext::WindowContext(const WindowRequest& request) : state_(std::make_un
     glfwSetCharCallback(state_->window, &State::on_character);
     glfwGetCursorPos(state_->window, &state_->pointer_px.x, &state_->pointer_px.y);
     glfwSetCursorPosCallback(state_->window, &State::on_pointer);
+    glfwSetMouseButtonCallback(state_->window, &State::on_button);
     glfwSetScrollCallback(state_->window, &State::on_wheel);
     if (request.fullscreen)
         glfwSetInputMode(state_->window, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);

@@ -2,6 +2,8 @@
 /// pixel.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -115,6 +117,9 @@ class WindowContext final : public GlContext {
     struct Dragging {
         glm::dvec2 by_px{0.0};
         double wheel_steps = 0.0;
+        /// Where its left button was pressed and let go without a way; of more clicks the first ones.
+        std::array<glm::dvec2, 8> clicks_px{};
+        std::size_t click_count = 0;
     };
     Dragging take_dragging() noexcept;
 

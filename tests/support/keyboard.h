@@ -35,6 +35,25 @@ class Keyboard {
         XSync(display_, False);
     }
 
+    /// Moves the pointer there and presses and releases its left button.
+    void click(int x_px, int y_px) {
+        for (const int kind : {MotionNotify, ButtonPress, ButtonRelease}) {
+            XEvent event{};
+            event.xbutton.type = kind;
+            event.xbutton.display = display_;
+            event.xbutton.window = window_;
+            event.xbutton.root = XDefaultRootWindow(display_);
+            event.xbutton.same_screen = True;
+            event.xbutton.x = x_px;
+            event.xbutton.y = y_px;
+            event.xbutton.time = time_ += 50;
+            if (kind != MotionNotify)
+                event.xbutton.button = Button1;
+            XSendEvent(display_, window_, True, PointerMotionMask | ButtonPressMask | ButtonReleaseMask,
+                       &event);
+        }
+        XSync(display_, False);
+    }
     Window window() const { return window_; }
 
   private:

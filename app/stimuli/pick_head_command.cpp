@@ -1,0 +1,265 @@
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "app/cli/cache_folder.h"
+#include "app/stimuli/head_outline.h"
+#include "app/stimuli/picture_window.h"
+#include "app/stimuli/stimulus_commands.h"
+#include "experiment/base/error.h"
+#include "experiment/scene/mesh_reader.h"
+#include "experiment/scene/ray_caster.h"
+#include "render/gl/headless_context.h"
+#include "render/stimulus/live_view.h"
+#include "render/window/window_system.h"
+
+namespace overt {
+
+namespace {
+
+constexpr double radius_step = 1.05;
+constexpr const char* picking_keys = "drag: turn    wheel: nearer    ↑ ↓: larger, smaller    "
+                                     "backspace: take back    enter: done    Esc: end";
+
+/// A protocol that shows one sculpture in a plain material, without a head.
+Protocol plain_protocol(const PickHeadOptions& options) {
+    Protocol protocol;
+    SculptureSettings sculpture;
+    sculpture.id = options.mesh.stem().string();
+    sculpture.mesh = options.mesh;
+    sculpture.up = options.up;
+    sculpture.unit = options.unit;
+    protocol.sculptures = {sculpture};
+    MaterialSettings material;
+    material.id = "grey";
+    material.kind = MaterialKind::diffuse;
+    protocol.materials = {material};
+    protocol.display.background = 0.1;
+    protocol.view.width_px = protocol.view.height_px = 900;
+    return protocol;
+}
+
+PartRegion given_head(const PickHeadOptions& options) {
+    PartRegion head{"head", {}, {}};
+    for (const auto& [x, y, z, radius] : options.spheres) {
+        if (!(radius > 0.0))
+            throw InputError(
+                fmt::format("--sphere {} {} {} {}: the radius must be above 0", x, y, z, radius));
+        head.spheres.emplace_back(x, y, z, radius);
+    }
+    for (const auto& [x, y, z, to_x, to_y, to_z] : options.planes) {
+        if (to_x == 0.0 && to_y == 0.0 && to_z == 0.0)
+            throw InputError(fmt::format(
+                "--plane {} {} {} 0 0 0: the last three numbers are a direction, and cannot all be 0", x, y,
+                z));
+        head.half_spaces.push_back({{x, y, z}, {to_x, to_y, to_z}});
+    }
+    return head;
+}
+
+/// The mesh, its head so far, and pictures of both.
+class HeadView {
+  public:
+    HeadView(const GlContext& context, const Protocol& protocol, const Sculpture& sculpture,
+             glm::ivec2 image_px)
+        : sculpture_(&sculpture), caster_(sculpture.mesh),
+          view_(context, protocol, {&sculpture, 1}, image_px), scene_(sculpture.scene) {
+        scene_.view.image_px = image_px;
+        view_.choose({0, 0});
+    }
+
+    /// Share of the surface's area that belongs to it, by triangles, as a protocol has it.
+    double take(const std::optional<PartRegion>& head) {
+        is_head_.assign(sculpture_->mesh.triangles.size(), false);
+        double area = 0.0;
+        for (std::size_t t = 0; head && t < is_head_.size(); ++t) {
+            const auto [a, b, c] = corners(t);
+            if (head->contains((a + b + c) / 3.0)) {
+                is_head_[t] = true;
+                area += 0.5 * glm::length(glm::cross(b - a, c - a));
+            }
+        }
+        return area / sculpture_->mesh.area();
+    }
+
+    /// The surface under a point of the picture.
+    std::optional<glm::dvec3> surface_at(glm::dvec2 image_px, const Orbit& orbit) const {
+        const std::optional<RayHit> hit = caster_.first_hit(ray_at(image_px, orbit));
+        return hit ? std::optional(hit->position) : std::nullopt;
+    }
+
+    LinearImage draw(const Orbit& orbit, std::span<const glm::dvec3> points) {
+        LinearImage picture = view_.draw(orbit);
+        tint_head(picture, orbit);
+        for (const glm::dvec3& point : points)
+            mark(picture, orbit, point);
+        return picture;
+    }
+
+  private:
+    std::array<glm::dvec3, 3> corners(std::size_t triangle) const {
+        const Mesh& mesh = sculpture_->mesh;
+        const glm::uvec3& t = mesh.triangles[triangle];
+        return {glm::dvec3(mesh.positions[t.x]), glm::dvec3(mesh.positions[t.y]),
+                glm::dvec3(mesh.positions[t.z])};
+    }
+    Ray ray_at(glm::dvec2 image_px, const Orbit& orbit) const {
+        return to_object(seen_from(scene_, orbit).view.ray_through(image_px),
+                         scene_.pose_at(Degrees{orbit.turn_deg}));
+    }
+    /// In squares of two pixels, which is fine enough to judge and quick enough to follow the hand.
+    void tint_head(LinearImage& picture, const Orbit& orbit) const {
+        const View view = seen_from(scene_, orbit).view;
+        const TurntablePose pose = scene_.pose_at(Degrees{orbit.turn_deg});
+        const glm::ivec2 squares = picture.size_px / 2;
+        std::vector<Ray> rays;
+        rays.reserve(static_cast<std::size_t>(squares.x) * static_cast<std::size_t>(squares.y));
+        for (int y = 0; y < squares.y; ++y)
+            for (int x = 0; x < squares.x; ++x)
+                rays.push_back(to_object(view.ray_through({2.0 * x + 1.0, 2.0 * y + 1.0}), pose));
+        std::vector<std::optional<RayHit>> hits(rays.size());
+        caster_.first_hits(rays, hits);
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            if (!hits[i] || !is_head_[hits[i]->triangle])
+                continue;
+            const glm::ivec2 corner =
+                2 * glm::ivec2(static_cast<int>(i) % squares.x, static_cast<int>(i) / squares.x);
+            for (const glm::ivec2 step :
+                 {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)}) {
+                glm::vec4& pixel = picture.at(corner.x + step.x, corner.y + step.y);
+                pixel *= glm::vec4(1.0f, 0.45f, 0.15f, 1.0f);
+            }
+        }
+    }
+    void mark(LinearImage& picture, const Orbit& orbit, glm::dvec3 point) const {
+        const glm::dmat4 world_from_object = scene_.pose_at(Degrees{orbit.turn_deg}).world_from_object();
+        const View view = seen_from(scene_, orbit).view;
+        const glm::ivec2 middle(view.project(glm::dvec3(world_from_object * glm::dvec4(point, 1.0))));
+        for (int y = -4; y <= 4; ++y) {
+            for (int x = -4; x <= 4; ++x) {
+                const glm::ivec2 at = middle + glm::ivec2(x, y);
+                if (x * x + y * y <= 16 && at.x >= 0 && at.y >= 0 && at.x < picture.size_px.x &&
+                    at.y < picture.size_px.y)
+                    picture.at(at.x, at.y) = glm::vec4(0.1f, 0.5f, 1.0f, 1.0f);
+            }
+        }
+    }
+
+    const Sculpture* sculpture_;
+    RayCaster caster_;
+    LiveView view_;
+    SceneView scene_;
+    std::vector<bool> is_head_;
+};
+
+/// What to do next.
+std::string request_text(std::size_t points) {
+    constexpr const char* requests[] = {
+        "Click on one side of the head.", "Turn the head, and click on its opposite side.",
+        "Click on the neck, where the head is to end.", "Click again for another neck, or press enter."};
+    return requests[std::min<std::size_t>(points, 3)];
+}
+
+/// False if the user ended without a head.
+bool pick_in_window(OpenDisplay& opened, HeadView& view, HeadOutline& outline) {
+    opened.start();
+    WindowContext& window = *opened.window();
+    PictureWindow picture(opened);
+    Orbit orbit;
+    bool has_changed = true;
+    while (!window.close_requested()) {
+        window.poll_events();
+        WindowKeyPress press{};
+        while (window.next_key_press(press)) {
+            has_changed = true;
+            if (press.key == WindowKey::escape)
+                return false;
+            if (press.key == WindowKey::enter && outline.region())
+                return true;
+            if (press.key == WindowKey::backspace)
+                outline.take_back();
+            else if (press.key == WindowKey::up)
+                outline.scale(radius_step);
+            else if (press.key == WindowKey::down)
+                outline.scale(1.0 / radius_step);
+        }
+        const WindowContext::Dragging dragging = window.take_dragging();
+        if (dragging.by_px != glm::dvec2(0.0) || dragging.wheel_steps != 0.0) {
+            orbit.drag(dragging.by_px);
+            orbit.zoom(dragging.wheel_steps);
+            has_changed = true;
+        }
+        for (std::size_t i = 0; i < dragging.click_count; ++i) {
+            if (const auto point = view.surface_at(dragging.clicks_px[i], orbit)) {
+                outline.pick(*point);
+                has_changed = true;
+            }
+        }
+        if (!std::exchange(has_changed, false)) {
+            std::this_thread::sleep_for(picture_rest);
+            continue;
+        }
+        const double share = view.take(outline.region());
+        picture.show(view.draw(orbit, outline.points()),
+                     fmt::format("{}    head: {:.1f} % of the surface", request_text(outline.points().size()),
+                                 100.0 * share));
+    }
+    return false;
+}
+
+} // namespace
+
+int run_pick_head(const PickHeadOptions& options) {
+    const bool in_window = options.picture.empty();
+    if (in_window && !display_is_available())
+        throw InputError("there is no display to pick a head on: look at one that is given with --sphere and "
+                         "--plane by --picture FILE");
+    const Protocol protocol = plain_protocol(options);
+    const SculptureSettings& settings = protocol.sculptures.front();
+    const PartRegion given = given_head(options);
+    fmt::print(stderr, "reading {} …\n", options.mesh.string());
+    const Sculpture sculpture = load_sculpture(settings, protocol, cache_folder());
+    const glm::dmat3 object_from_file = z_up_from_file(up_axis_named(options.up));
+    const double scale = mm_of_unit(settings.unit);
+    const bool is_given = !given.spheres.empty() || !given.half_spaces.empty();
+    const double height = sculpture.scene.bounds.max.z - sculpture.scene.bounds.min.z;
+    HeadOutline outline(0.1 * height,
+                        is_given ? std::optional(transformed(given, object_from_file, scale)) : std::nullopt);
+    double share = 0.0;
+    if (in_window) {
+        OpenDisplay window({.context = ContextKind::window,
+                            .size_px = picture_window_size(protocol.view),
+                            .title = "overt pick-head",
+                            .windowed = true});
+        HeadView view(window.context(), protocol, sculpture, window.window()->framebuffer_px());
+        fmt::print(stderr, "{}\n", picking_keys);
+        if (!pick_in_window(window, view, outline)) {
+            fmt::print(stderr, "ended without a head\n");
+            return 1;
+        }
+        share = view.take(outline.region());
+    } else {
+        const auto context =
+            make_headless_context(options.context == ContextKind::window ? std::nullopt : options.context);
+        HeadView view(*context, protocol, sculpture, {protocol.view.width_px, protocol.view.height_px});
+        share = view.take(outline.region());
+        Orbit orbit;
+        orbit.turn_deg = options.turn_deg;
+        write_srgb_png(options.picture, view.draw(orbit, {}));
+        fmt::print(stderr, "{}\n", options.picture.string());
+    }
+    if (!outline.region())
+        return 0;
+    if (share <= 0.0)
+        throw InputError(
+            fmt::format("{}: no triangle lies in this head; its coordinates must be those of the "
+                        "mesh file",
+                        options.mesh.string()));
+    fmt::print("# {:.1f} % of the surface\n{}\n", 100.0 * share,
+               head_key(transformed(*outline.region(), glm::transpose(object_from_file), 1.0 / scale)));
+    return 0;
+}
+
+} // namespace overt
