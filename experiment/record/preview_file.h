@@ -1,4 +1,4 @@
-/// Where a session keeps a picture of each stimulus.
+/// A stimulus of a session, and where the session keeps a picture of it.
 #pragma once
 
 #include <string>
@@ -9,5 +9,8 @@ namespace overt {
 
 /// Where in a session's folder animation frame 0 of a stimulus lies, as an 8-bit sRGB PNG to look at.
 std::string preview_file(const SessionHeader& header, const Condition& condition);
+
+/// What the header says of it; null in recordings that were made elsewhere, which have no stimuli.
+const RecordedStimulus* stimulus_of(const SessionHeader& header, const Condition& condition);
 
 } // namespace overt

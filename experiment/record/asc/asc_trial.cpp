@@ -8,6 +8,7 @@
 
 #include "experiment/record/asc/asc_survey.h"
 #include "experiment/record/asc/asc_words.h"
+#include "experiment/record/preview_file.h"
 
 namespace overt {
 namespace {
@@ -212,6 +213,8 @@ void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
     add(first, condition_text(header, trial));
     for (const auto& [name, value] : variables_of(header, trial.trial))
         add(first, fmt::format("!V TRIAL_VAR {} {}", name, value));
+    if (const RecordedStimulus* const stimulus = stimulus_of(header, trial.trial.condition))
+        add(first, fmt::format("!V TRIAL_VAR frames {}", ascii_of(stimulus->source)));
     for (Line& line : within)
         lines_.push_back(std::move(line));
     if (span) {
@@ -252,6 +255,8 @@ void AscTrial::add_missing(const SessionRecord& record, const TrialRecord& trial
         insert(message_at(at, condition_text(header, trial)));
         for (const auto& [name, value] : variables_of(header, trial.trial))
             insert(message_at(at, fmt::format("!V TRIAL_VAR {} {}", name, value)));
+        if (const RecordedStimulus* const stimulus = stimulus_of(header, trial.trial.condition))
+            insert(message_at(at, fmt::format("!V TRIAL_VAR frames {}", ascii_of(stimulus->source))));
     }
     if (clock_map)
         for (const auto& [word, screen] : screens_of(trial))

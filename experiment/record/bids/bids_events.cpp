@@ -11,6 +11,7 @@
 #include "experiment/base/error.h"
 #include "experiment/base/json_text.h"
 #include "experiment/record/bids/bids_names.h"
+#include "experiment/record/preview_file.h"
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/record/tables/joined_cells.h"
 #include "experiment/record/tables/table_writer.h"
@@ -120,6 +121,12 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
             {{"material", "In which material it was shown", "", levels_of(header.materials)},
              [&header](auto& to, auto& row) {
                  to.text(item(header.materials, row.attempt.get().trial.condition.material).id);
+             }},
+            {{"frames", "How the frames that were shown had been made", "", {}},
+             [&header](auto& to, auto& row) {
+                 const RecordedStimulus* const stimulus =
+                     stimulus_of(header, row.attempt.get().trial.condition);
+                 stimulus ? to.text(stimulus->source) : to.missing();
              }},
             {{"missed_refreshes", "Refreshes of the display that went by with an old picture", "", {}},
              [](auto& to, auto& row) {

@@ -22,7 +22,7 @@ BakeScene rough_bust() { return {test::bust(), test::material_of(MaterialKind::r
 
 } // namespace
 
-TEST_CASE("a frame is the same bit for bit whoever computes it, and however many", "[unit]") {
+TEST_CASE("a frame is the same bit for bit on one processor and on several", "[unit]") {
     for (const MaterialKind kind : {MaterialKind::rough_conductor, MaterialKind::coated_conductor}) {
         MaterialSettings material = test::material_of(kind);
         material.coat_bump_width = 0.2;
@@ -37,6 +37,43 @@ TEST_CASE("a frame is the same bit for bit whoever computes it, and however many
         CHECK(alone.alpha == together.alpha);
         CHECK(alone.samples == together.samples);
         CHECK(alone.rays == together.rays);
+    }
+}
+
+namespace {
+
+/// Mean distance of two pictures' light over their mean light.
+double difference(const SpectralFrame& a, const SpectralFrame& b) {
+    const LinearImage one = to_rec709(a), other = to_rec709(b);
+    double between = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < one.pixels.size(); ++i) {
+        between += glm::length(glm::dvec3(one.pixels[i] - other.pixels[i]));
+        all += glm::length(glm::dvec3(one.pixels[i]));
+    }
+    return between / all;
+}
+
+} // namespace
+
+TEST_CASE("a ball on a turntable looks the same however it is turned, for the light stays", "[unit]") {
+    // A quarter turn brings its vertices onto each other.
+    const Mesh ball = test::ball({0.0, 0.0, 0.0}, 50.0);
+    const SceneView view = test::front_view(ball, 40);
+    LightSettings settings;
+    settings.probe = "gallery";
+    const SpectralLight gallery(settings);
+    settings.rotation_deg = 90.0;
+    const SpectralLight turned_light(settings);
+    for (const MaterialKindRow& row : material_kinds) {
+        CAPTURE(row.name);
+        MaterialSettings material = test::material_of(row.kind);
+        material.coat_bump = 0.0; // bumps turn with the ball
+        const BakeScene scene(ball, material);
+        const BakeSettings baking{.samples = 64};
+        const SpectralFrame still = test::baked(scene, gallery, view, baking);
+        const double turned = difference(still, test::baked(scene, gallery, view, baking, {90.0})),
+                     other_light = difference(still, test::baked(scene, turned_light, view, baking));
+        CHECK(turned < 0.2 * other_light);
     }
 }
 

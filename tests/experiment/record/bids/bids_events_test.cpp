@@ -35,6 +35,17 @@ std::vector<Row> rows_of(const std::string& tsv) {
     return rows;
 }
 
+/// How the frames of a row's stimulus were made, by the session's header.
+std::string frames_of(const SessionHeader& header, const Row& row) {
+    for (const RecordedStimulus& stimulus : header.stimuli) {
+        const auto& [sculpture, material] = stimulus.condition;
+        if (header.sculptures[static_cast<std::size_t>(sculpture)].id == row.at("sculpture") &&
+            header.materials[static_cast<std::size_t>(material)].id == row.at("material"))
+            return stimulus.source;
+    }
+    return "n/a";
+}
+
 } // namespace
 
 TEST_CASE(
@@ -49,7 +60,8 @@ TEST_CASE(
     for (const Row& row : rows_of(text_of(root.path() / "dataset" / "sub-AB7" / "ses-01" / "beh" /
                                           "sub-AB7_ses-01_task-tiny_run-01_events.tsv")))
         attempts[{row.at("trial"), row.at("attempt")}][row.at("trial_type")] = row;
-    int responses = 0, presentations = 0;
+    const SessionHeader header = SessionRecord(session).header();
+    int responses = 0, presentations = 0, known = 0;
     for (auto& [attempt, rows] : attempts) {
         CAPTURE(attempt.first, attempt.second);
         const auto number = [&rows = rows](const char* row, const char* cell) {
@@ -61,6 +73,8 @@ TEST_CASE(
         CHECK(number("presentation", "onset") == Approx(number("question", "onset") + 0.99));
         CHECK(number("presentation", "duration") == Approx(2.0));
         CHECK(rows["presentation"].at("response_time") == "n/a");
+        CHECK(rows["presentation"].at("frames") == frames_of(header, rows["presentation"]));
+        known += rows["presentation"].at("frames") != "n/a";
         if (!rows.contains("response"))
             continue;
         ++responses;
@@ -69,6 +83,7 @@ TEST_CASE(
         CHECK(number("response", "response_time") == Approx(0.99));
         CHECK(number("trial", "duration") == Approx(4.0));
     }
+    CHECK(known >= 1);
     CHECK(responses >= 2);
     CHECK(presentations > responses);
 }
