@@ -211,3 +211,33 @@ TEST_CASE("the noise of repeated readings is that of a sample: n - 1 of n are fr
     const CharacterisationFit fit = fit_characterisation(readings, CurveModel::table);
     CHECK(fit.repeat_noise == Approx(0.01 * std::sqrt(2.0)).epsilon(1e-6));
 }
+
+TEST_CASE("a level that was read darker than the one below it becomes level with it, and is counted",
+          "[unit]") {
+    DisplayTruth truth = DisplayTruth::drawn(3);
+    truth.shoulders = {};
+    truth.reading_noise = truth.dark_noise_cd_m2 = 0.0;
+    std::vector<PatchReading> readings = readings_of(truth, 1);
+    std::vector<double> reds;
+    for (const PatchReading& reading : readings)
+        if (reading.signal.y == 0.0 && reading.signal.z == 0.0 && reading.signal.x > 0.0)
+            reds.push_back(reading.signal.x);
+    std::sort(reds.begin(), reds.end());
+    reds.erase(std::unique(reds.begin(), reds.end()), reds.end());
+    REQUIRE(reds.size() >= 6);
+    const double low = reds[reds.size() / 2], high = reds[reds.size() / 2 + 1];
+    const glm::dvec3 of_low = truth.xyz_of({low, 0.0, 0.0}), of_high = truth.xyz_of({high, 0.0, 0.0});
+    CHECK(fit_characterisation(readings, CurveModel::table).channels[0].levelled == 0);
+    for (PatchReading& reading : readings) {
+        if (reading.signal == glm::dvec3(low, 0.0, 0.0))
+            reading.xyz = of_high;
+        else if (reading.signal == glm::dvec3(high, 0.0, 0.0))
+            reading.xyz = of_low;
+    }
+    const CharacterisationFit fit = fit_characterisation(readings, CurveModel::table);
+    CHECK(fit.channels[0].levelled == 2);
+    CHECK(fit.channels[1].levelled == 0);
+    const double between = 0.5 * (of_low.y + of_high.y);
+    CHECK(fit.display.xyz_of_signal({low, 0.0, 0.0}).y == Approx(between).epsilon(1e-6));
+    CHECK(fit.display.xyz_of_signal({high, 0.0, 0.0}).y == Approx(between).epsilon(1e-6));
+}

@@ -105,7 +105,13 @@ TEST_CASE("a fitted camera keeps the turning object in the image and lets it tou
     Mesh wide = tall;
     for (glm::vec3& position : wide.positions)
         position = position * glm::vec3(3.0f, 1.0f, 0.5f) + glm::vec3(900.0f, -400.0f, 70.0f);
-    for (const Mesh& mesh : {tall, wide}) {
+    // Leaning to one side, so that turns to the left and to the right need different distances.
+    Mesh left = tall, right = tall;
+    for (glm::vec3& position : left.positions)
+        position.y += 0.9f * position.x;
+    for (glm::vec3& position : right.positions)
+        position.y -= 0.9f * position.x;
+    for (const Mesh& mesh : {tall, wide, left, right}) {
         for (const double amplitude : {0.0, 25.0, 60.0, 180.0}) {
             for (const glm::ivec2 image_px : {glm::ivec2(1024, 1024), glm::ivec2(640, 1080)}) {
                 const double margin = 0.06;
