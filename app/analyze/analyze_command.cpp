@@ -79,6 +79,10 @@ void print_summary(const StudyResults& results, const std::filesystem::path& out
                    *row.by_count.value);
         if (row.by_count.interval)
             fmt::print(" ({:.3f} … {:.3f})", row.by_count.interval->low, row.by_count.interval->high);
+        if (row.corrected.value)
+            fmt::print("; with the tracker's error taken out {:.3f}", *row.corrected.value);
+        if (row.corrected.interval)
+            fmt::print(" ({:.3f} … {:.3f})", row.corrected.interval->low, row.corrected.interval->high);
         fmt::print("\n");
     }
     fmt::print("analysis: {}\n", out.string());

@@ -180,11 +180,10 @@ struct Agreement {
 Agreement agreement_of(const StudyResults& results) {
     Agreement agreement;
     for (const HeadFractionRow& row : results.head_fractions) {
-        if (!row.planted || !row.by_count.interval)
+        if (!row.planted || !row.corrected.interval)
             continue;
         ++agreement.intervals;
-        agreement.holding +=
-            row.by_count.interval->low <= *row.planted && *row.planted <= row.by_count.interval->high;
+        agreement.holding += row.corrected.interval->contains(*row.planted);
     }
     return agreement;
 }
@@ -196,7 +195,9 @@ void print(const StudyResults& results, const fs::path& analysis) {
                results.glance.fixations);
     for (const std::string& remark : results.remarks)
         fmt::print("note: {}\n", remark);
-    fmt::print("share of fixations on the head\n{:28} {:>8} {:>8}   interval\n", "", "planted", "found");
+    fmt::print("share of fixations on the head; corrected: with the tracker's error taken out\n"
+               "{:28} {:>8} {:>8} {:>10}   interval\n",
+               "", "planted", "found", "corrected");
     for (const HeadFractionRow& row : results.head_fractions) {
         // The levels of single columns; the groups are in the tables.
         if (row.keys.size() > 1 || !row.by_count.value || !row.planted)
@@ -204,13 +205,15 @@ void print(const StudyResults& results, const fs::path& analysis) {
         fmt::print("{:28} {:8.3f} {:8.3f}",
                    row.keys.empty() ? "all" : row.keys[0].column + " " + row.keys[0].value, *row.planted,
                    *row.by_count.value);
-        if (row.by_count.interval)
-            fmt::print("   {:.3f} … {:.3f}", row.by_count.interval->low, row.by_count.interval->high);
+        if (row.corrected.value)
+            fmt::print(" {:10.3f}", *row.corrected.value);
+        if (row.corrected.interval)
+            fmt::print("   {:.3f} … {:.3f}", row.corrected.interval->low, row.corrected.interval->high);
         fmt::print("\n");
     }
     const Agreement agreement = agreement_of(results);
     if (agreement.intervals > 0)
-        fmt::print("{} of {} intervals of {:g} % hold what was planted\n", agreement.holding,
+        fmt::print("{} of {} corrected intervals of {:g} % hold what was planted\n", agreement.holding,
                    agreement.intervals, 100.0 * results.confidence);
     fmt::print("analysis: {}\n", analysis.string());
 }

@@ -154,9 +154,9 @@ draw_legend(panels);
   if (rows.length) {
     by_id('figure4_chart').append(bars([...clusters].map(([name, list]) => ({name, bars: list})),
                                        {y_label: 'share of fixations on the head', most: 1, label: 'Figure 4: share of fixations on the head'}));
-    by_id('figure4_table').append(table([{text: 'condition'}, 'by count, mean over observers', 'by duration', 'pooled', 'observers', 'trials', 'fixations'],
-        rows.map(r => [words(r.keys), estimate_text(r.count), estimate_text(r.duration), digits(r.pooled), r.observers, r.trials, r.fixations]),
-        `In brackets the ${level} over observers. Pooled: all fixations as if they were independent, as in the paper's figure 4.`));
+    by_id('figure4_table').append(table([{text: 'condition'}, 'by count, mean over observers', 'by duration', 'corrected for tracker error', 'pooled', 'observers', 'trials', 'fixations'],
+        rows.map(r => [words(r.keys), estimate_text(r.count), estimate_text(r.duration), estimate_text(r.corrected), digits(r.pooled), r.observers, r.trials, r.fixations]),
+        `In brackets the ${level} over observers. Pooled: all fixations as if they were independent, as in the paper's figure 4. The paper's numbers are raw shares (by count, pooled); corrected: the share under which the measured places are most probable, given the tracker's error.`));
   } else by_id('figure4_chart').append(element('p', {class: 'note'}, 'No sculpture has a part named "head".'));
 }
 

@@ -59,17 +59,28 @@ struct Composer {
         return true;
     }
 
-    /// `draw_one()` draws a point.
+    /// `draw_one()` draws a point. If none is far enough, the farthest of those that stay visible is taken:
+    /// going elsewhere instead would make the shares of small regions smaller than planned.
     template <class Draw>
     bool find_target(const ScriptedFixation& before, ScriptedFixation& next, double duration_s,
                      const Draw& draw_one) {
+        std::optional<SurfacePoint> farthest;
+        Degrees so_far{0.0};
         for (int draw = 0; draw < draws_of_a_region; ++draw) {
             next.target = draw_one();
             const Degrees amplitude = follow(before, next, duration_s);
-            if (amplitude >= settings.shortest_saccade && stays_visible(next, before.end))
+            if (amplitude < so_far || !stays_visible(next, before.end))
+                continue;
+            if (amplitude >= settings.shortest_saccade)
                 return true;
+            farthest = next.target;
+            so_far = amplitude;
         }
-        return false;
+        if (!farthest)
+            return false;
+        next.target = farthest;
+        follow(before, next, duration_s);
+        return true;
     }
 
     bool find_target(const ScriptedFixation& before, ScriptedFixation& next, double duration_s,

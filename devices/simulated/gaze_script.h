@@ -19,7 +19,9 @@ struct ObserverSettings {
     double fixation_log_sd = 0.45;
     double shortest_fixation_s = 0.08;
     double longest_fixation_s = 1.5;
-    Degrees shortest_saccade{0.5};
+    /// Its peak velocity of 62 deg/s (main_sequence.h) is twice what an EyeLink's parser asks of a saccade,
+    /// so that noise and pursuit, which raise that threshold, rarely have two fixations taken for one.
+    Degrees shortest_saccade{0.75};
     Degrees drift{0.03};   ///< standard deviation of the slow wandering along each axis
     Degrees tremor{0.002}; ///< standard deviation of the tremor along each axis
     double blinks_per_minute = 12.0;
@@ -67,9 +69,10 @@ class GazeScript {
     /// without a mesh. Allocates nothing; some thousand rays are cast.
     ///
     /// Each fixation goes where the plan says, by chance: to a spot, to the head or elsewhere, at a point
-    /// that is visible in every frame lit from the saccade's start to the fixation's end. If 200 points of a
-    /// spot are not, head or elsewhere is tried; if 200 of these, the other of the two, and at last the
-    /// middle of the screen.
+    /// that is visible in every frame lit from the saccade's start to the fixation's end, and at least the
+    /// shortest saccade away or, if none of 200 is, the farthest of them. If 200 points of a spot are not
+    /// visible, head or elsewhere is tried; if 200 of these, the other of the two, and at last the middle of
+    /// the screen.
     void compose(const ObservedScene& scene, const GazeTargets* targets, const PursuedTurn& turn,
                  const ObserverSettings& settings, std::uint64_t seed, int trial,
                  const GazePlan& plan) noexcept;

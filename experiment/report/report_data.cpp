@@ -285,6 +285,7 @@ Json json_of_tables(const StudyResults& results) {
         Json json{{"keys", json_of(row.keys)},
                   {"count", json_of(row.by_count)},
                   {"duration", json_of(row.by_duration)},
+                  {"corrected", json_of(row.corrected)},
                   {"pooled", number(row.pooled)},
                   {"observers", row.observers},
                   {"trials", row.trials},

@@ -19,7 +19,26 @@ double mean_of(std::span<const double> values) {
 /// Draws at a time: a thread's turn must be worth its taking.
 constexpr int draws_at_a_time = 64;
 
+/// Means of fewer cannot be drawn as far apart as they may be from the truth.
+constexpr std::size_t least_for_draws = 6;
+
+/// Student's interval.
+Interval interval_of_few(std::span<const double> values, double confidence) {
+    const double mean = mean_of(values), degrees = static_cast<double>(values.size()) - 1.0;
+    double squares = 0.0;
+    for (const double value : values)
+        squares += (value - mean) * (value - mean);
+    const double half = student_quantile(0.5 + 0.5 * confidence, degrees) *
+                        std::sqrt(squares / degrees / static_cast<double>(values.size()));
+    return {mean - half, mean + half};
+}
+
 } // namespace
+
+double expanded_confidence(double confidence, std::uint32_t count) {
+    const double few = count, quantile = student_quantile(0.5 + 0.5 * confidence, few - 1.0);
+    return 2.0 * normal_probability(std::sqrt(few / (few - 1.0)) * quantile) - 1.0;
+}
 
 double quantile_of_sorted(std::span<const double> sorted, double share) {
     const double place = share * static_cast<double>(sorted.size() - 1);
@@ -94,11 +113,14 @@ std::optional<Interval> bootstrap_interval(std::uint32_t count, const StatisticO
     }
     if (jackknife.empty())
         return std::nullopt;
-    return bca_interval(std::move(draws), *observed, jackknife, settings.confidence);
+    return bca_interval(std::move(draws), *observed, jackknife,
+                        expanded_confidence(settings.confidence, count));
 }
 
 std::optional<Interval> bootstrap_interval_of_mean(std::span<const double> values,
                                                    const BootstrapSettings& settings) {
+    if (values.size() >= 3 && values.size() < least_for_draws)
+        return interval_of_few(values, settings.confidence);
     return bootstrap_interval(
         static_cast<std::uint32_t>(values.size()),
         [&](std::span<const std::uint32_t> drawn) -> std::optional<double> {

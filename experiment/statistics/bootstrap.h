@@ -25,13 +25,19 @@ struct BootstrapSettings {
 using StatisticOf = std::function<std::optional<double>(std::span<const std::uint32_t>)>;
 
 /// Efron's interval, corrected for bias and acceleration (BCa; Efron 1987, JASA 82, 171-185), with the
-/// acceleration by the jackknife. Draws for which the statistic has no value are left out. Nothing for fewer
-/// than three items, if the statistic of all has no value, or if fewer than half of the draws have one. Where
-/// all draws give the same, that is both ends.
+/// acceleration by the jackknife, and expanded for the number of items (expanded_confidence). Draws for which
+/// the statistic has no value are left out. Nothing for fewer than three items, if the statistic of all has
+/// no value, or if fewer than half of the draws have one. Where all draws give the same, that is both ends.
 std::optional<Interval> bootstrap_interval(std::uint32_t count, const StatisticOf& statistic,
                                            const BootstrapSettings& settings);
 
-/// The same of the mean of numbers.
+/// The level at which the quantiles of draws are taken so that an interval of so few holds the truth about as
+/// often as `confidence` says: draws vary as if the variance were divided by count, not count - 1, and as if
+/// it were known (Hesterberg, The American Statistician 69(4), 2015, 371-386). `count` >= 2.
+double expanded_confidence(double confidence, std::uint32_t count);
+
+/// The same of the mean of numbers; of fewer than six, Student's interval, since draws of these do not reach
+/// far enough.
 std::optional<Interval> bootstrap_interval_of_mean(std::span<const double> values,
                                                    const BootstrapSettings& settings);
 

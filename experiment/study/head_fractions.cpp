@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiment/statistics/proportion.h"
+#include "experiment/study/part_evidence.h"
 
 namespace overt {
 
@@ -28,6 +29,16 @@ std::optional<bool> is_on_head(const StudyResults& results, const StudyFixation&
     return *fixation.part == *sculpture.head;
 }
 
+/// Intervals of means can reach beyond what a share can be.
+Estimate estimated_share(const std::vector<double>& shares, const StudyOptions& options,
+                         const std::string& reason) {
+    Estimate estimate = estimated_mean(shares, options.bootstrap(), reason);
+    if (estimate.interval)
+        estimate.interval = {std::max(estimate.interval->low, 0.0), std::min(estimate.interval->high, 1.0)};
+    return estimate;
+}
+
+const std::string no_error = "no validation tells the tracker's error, or there are too few fixations";
 const std::string no_fixation = "no fixation was counted on a sculpture with a head";
 
 HeadFractionRow row_of(const StudyResults& results, std::vector<StudyKey> keys,
@@ -35,10 +46,11 @@ HeadFractionRow row_of(const StudyResults& results, std::vector<StudyKey> keys,
     HeadFractionRow row;
     row.keys = std::move(keys);
     row.trials = static_cast<int>(trials.size());
-    std::vector<double> counts, durations;
+    std::vector<double> counts, durations, corrected;
     HeadSum pooled;
     for (const auto& [observer, own] : by_observer(results, trials)) {
         HeadSum count, duration;
+        std::vector<PartEvidence> evidence;
         for (const int trial : own) {
             for_each_counted(results, trial, [&](const StudyFixation& fixation) {
                 if (const std::optional<bool> head = is_on_head(results, fixation)) {
@@ -48,6 +60,15 @@ HeadFractionRow row_of(const StudyResults& results, std::vector<StudyKey> keys,
                 }
             });
         }
+        for (const int trial : own) {
+            const StudyTrial& of = results.trials[static_cast<std::size_t>(trial)];
+            for (std::size_t i = of.first_fixation; i < of.first_fixation + of.fixations; ++i) {
+                if (results.fixations[i].evidence)
+                    evidence.push_back(*results.fixations[i].evidence);
+            }
+        }
+        if (const std::optional<double> share = most_probable_head_share(evidence))
+            corrected.push_back(*share);
         if (count.share())
             counts.push_back(*count.share());
         if (duration.share())
@@ -55,8 +76,9 @@ HeadFractionRow row_of(const StudyResults& results, std::vector<StudyKey> keys,
     }
     row.observers = static_cast<int>(counts.size());
     row.fixations = static_cast<int>(pooled.all);
-    row.by_count = estimated_mean(counts, options.bootstrap(), no_fixation);
-    row.by_duration = estimated_mean(durations, options.bootstrap(), no_fixation);
+    row.by_count = estimated_share(counts, options, no_fixation);
+    row.by_duration = estimated_share(durations, options, no_fixation);
+    row.corrected = estimated_share(corrected, options, no_error);
     row.pooled = pooled.share();
     row.pooled_interval = wilson_interval(pooled.head, pooled.all, options.confidence);
     return row;
@@ -125,7 +147,7 @@ std::vector<TimeCourseRow> head_time_course(const StudyResults& results, const L
             row.from_s = i * options.time_step_s;
             row.to_s = std::min((i + 1) * options.time_step_s, end_s);
             row.observers = static_cast<int>(shares.size());
-            row.head_fraction = estimated_mean(shares, options.bootstrap(), no_fixation);
+            row.head_fraction = estimated_share(shares, options, no_fixation);
             rows.push_back(std::move(row));
         }
     }

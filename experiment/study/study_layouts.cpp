@@ -125,6 +125,21 @@ RowLayout<FixationRow> study_fixations_layout(const StudyResults& results) {
                 "cone_at_edge",
                 "Share of the tracker's gaze cone beside the sculpture, or on another sheet of it", "",
                 share_decimals, [](const Row& row) { return row.fixation.cone_at_edge; }),
+            number_column<Row>(
+                "evidence_head",
+                "How probable its place is, per square pixel and with the tracker's error, if the head was "
+                "looked at; n/a: the error is not known",
+                "1/px^2", density_decimals,
+                [](const Row& row) {
+                    return row.fixation.evidence ? std::optional(row.fixation.evidence->head) : std::nullopt;
+                }),
+            number_column<Row>("evidence_elsewhere", "The same if another part was", "1/px^2",
+                               density_decimals,
+                               [](const Row& row) {
+                                   return row.fixation.evidence
+                                              ? std::optional(row.fixation.evidence->elsewhere)
+                                              : std::nullopt;
+                               }),
             fixation_number<Row>("angle_deg", "Turn of the sculpture halfway through", "deg", pixel_decimals,
                                  [](auto& f) { return f.mid_angle_deg; }))};
 }
@@ -214,6 +229,11 @@ RowLayout<HeadFractionRow> head_fractions_layout(const StudyResults& results) {
             estimate_columns<Row>(
                 "by_duration", "The same of the time of fixation", "", share_decimals,
                 [](const Row& row) -> auto& { return row.by_duration; }),
+            estimate_columns<Row>(
+                "corrected",
+                "The same by count with the tracker's error taken out: each observer's share under which "
+                "the measured places of the fixations are most probable",
+                "", share_decimals, [](const Row& row) -> auto& { return row.corrected; }),
             number_column<Row>(
                 "planted",
                 "Of simulated observers whose seeds are known: the share that they mean for the head", "",

@@ -15,6 +15,7 @@
 #include "experiment/record/read/recorded_validation.h"
 #include "experiment/study/exposure.h"
 #include "experiment/study/gaze_quality.h"
+#include "experiment/study/part_evidence.h"
 #include "experiment/study/trial_reader.h"
 
 namespace overt {
@@ -47,11 +48,15 @@ bool is_same_sculpture(const SessionHeader& a, int in_a, const SessionHeader& b,
         return maps;
     };
     const ScreenGeometry &screen = a.display.screen, &other_screen = b.display.screen;
-    return one.id == other.id && one.mesh_file.empty() == other.mesh_file.empty() &&
-           one.mesh_sha256 == other.mesh_sha256 && one.camera.position == other.camera.position &&
-           one.camera.target == other.camera.target && one.camera.vertical_fov == other.camera.vertical_fov &&
-           screen.image_px == other_screen.image_px && screen.screen_px == other_screen.screen_px &&
-           screen.screen_mm == other_screen.screen_mm &&
+    // Maps are looked up by the number of the pose.
+    const auto same_angle = [](Degrees one_angle, Degrees other_angle) {
+        return one_angle.value == other_angle.value;
+    };
+    return std::ranges::equal(a.poses.angles, b.poses.angles, same_angle) && one.id == other.id &&
+           one.mesh_file.empty() == other.mesh_file.empty() && one.mesh_sha256 == other.mesh_sha256 &&
+           one.camera.position == other.camera.position && one.camera.target == other.camera.target &&
+           one.camera.vertical_fov == other.camera.vertical_fov && screen.image_px == other_screen.image_px &&
+           screen.screen_px == other_screen.screen_px && screen.screen_mm == other_screen.screen_mm &&
            screen.viewing_distance_mm == other_screen.viewing_distance_mm &&
            (!one.mesh_file.empty() || maps_of(a, in_a) == maps_of(b, in_b));
 }
@@ -222,6 +227,48 @@ class StudyReader {
                 progress_(what, ++done, trials);
             }
         });
+        add_evidence(index);
+    }
+
+    /// Fixations of all sessions together tell where on the sculpture gaze was.
+    void add_evidence(int index) {
+        const StudySculpture& sculpture = results().sculptures[static_cast<std::size_t>(index)];
+        const SculptureSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
+        if (!sculpture.mesh || !sculpture.head || !surface.scale)
+            return;
+        std::vector<StudyFixation*> fixations;
+        std::vector<MeasuredPlace> places;
+        const SessionHeader* header = nullptr;
+        for (std::size_t session = 0; session < open_.size(); ++session) {
+            for (std::size_t t = 0; t < read_[session].size(); ++t) {
+                if (!is_of(session, open_[session].record().trials()[t], index))
+                    continue;
+                header = &open_[session].record().header();
+                const std::optional<double>& accuracy = read_[session][t].trial.quality.accuracy_deg;
+                const double sigma_deg =
+                    GazeCone(sculpture.screen, Degrees{accuracy.value_or(0.0)}, 1).sigma().value;
+                if (!(sigma_deg > 0.0))
+                    continue;
+                const glm::dvec2 px_per_deg = surface.scale->mm_per_deg *
+                                              glm::dvec2(sculpture.screen.screen_px) /
+                                              sculpture.screen.screen_mm;
+                for (StudyFixation& fixation : read_[session][t].fixations) {
+                    if (!fixation.counted() && fixation.why != NotCounted::not_on_surface)
+                        continue;
+                    fixations.push_back(&fixation);
+                    places.push_back({fixation.mid_pose,
+                                      sculpture.screen.image_from_screen(fixation.mid_gaze),
+                                      sigma_deg * px_per_deg});
+                }
+            }
+        }
+        if (fixations.empty())
+            return;
+        const SceneView scene{{sculpture.camera, sculpture.screen.image_px}, sculpture.mesh->bounds()};
+        const auto evidence =
+            part_evidence(*sculpture.mesh, *sculpture.head, scene, header->poses.angles, places);
+        for (std::size_t i = 0; i < fixations.size(); ++i)
+            fixations[i]->evidence = evidence[i];
     }
 
     bool is_of(std::size_t session, const TrialRecord& trial, int sculpture) const {

@@ -17,6 +17,7 @@
 
 #include <glm/glm.hpp>
 
+#include "experiment/animation.h"
 #include "experiment/gaze_event.h"
 #include "experiment/scene/mesh.h"
 #include "experiment/scene/viewing.h"
@@ -85,6 +86,12 @@ enum class NotCounted : std::uint8_t {
     trial_excluded,     ///< its trial is
 };
 
+/// How probable a fixation's measured place is, per square pixel, if the head was looked at, and if something
+/// else of the sculpture was: the tracker's error lies between the two (part_evidence.h).
+struct PartEvidence {
+    double head = 0.0, elsewhere = 0.0;
+};
+
 /// A fixation, re-projected sample by sample through the frames lit meanwhile.
 struct StudyFixation {
     int trial = 0;           ///< index into StudyResults::trials
@@ -98,6 +105,9 @@ struct StudyFixation {
     bool only_by_reach = false;            ///< counted, and would not be without the reach
     int first_frame = -1, last_frame = -1; ///< of the animation; -1: none
     double mid_angle_deg = 0.0;            ///< of the sculpture, halfway through
+    PoseIndex mid_pose;                    ///< of its session, lit halfway through if samples > 0
+    ScreenPoint mid_gaze;                  ///< then
+    std::optional<PartEvidence> evidence;  ///< nothing if the tracker's error is not known
     // Where it met the surface; meaningful if triangle is set.
     std::optional<std::uint32_t> triangle; ///< of the point: nothing if no sample met a mesh
     glm::dvec3 barycentric{0.0};
@@ -209,9 +219,11 @@ struct StudyMap {
 struct HeadFractionRow {
     std::vector<StudyKey> keys;     ///< a group's, or a single one of these: all trials with it; empty: all
     Estimate by_count, by_duration; ///< means over observers of their own fractions, with intervals over them
-    std::optional<double> pooled;   ///< all fixations together, as the paper has it
+    /// The same with the tracker's error taken out: most probable given where all fixations were measured.
+    Estimate corrected;
+    std::optional<double> pooled;            ///< all fixations together, as the paper has it
     std::optional<Interval> pooled_interval; ///< Wilson's, as if fixations were independent
-    std::optional<double> planted;           ///< of simulated observers: the fraction that they mean to look at
+    std::optional<double> planted; ///< of simulated observers: the fraction that they mean to look at
     int observers = 0, trials = 0, fixations = 0;
 };
 

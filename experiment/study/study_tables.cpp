@@ -127,6 +127,10 @@ std::string study_json(const StudyResults& results) {
             one["by_count"] = *row.by_count.value;
         if (row.by_count.interval)
             one["interval"] = {row.by_count.interval->low, row.by_count.interval->high};
+        if (row.corrected.value)
+            one["corrected"] = *row.corrected.value;
+        if (row.corrected.interval)
+            one["corrected_interval"] = {row.corrected.interval->low, row.corrected.interval->high};
         if (row.pooled)
             one["pooled"] = *row.pooled;
         json["head_fractions"].push_back(std::move(one));

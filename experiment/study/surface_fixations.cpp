@@ -170,8 +170,9 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
         fixation.within_reach = (static_cast<double>(placed.size()) - met) / all;
         fixation.first_frame = lit.front()->frame;
         fixation.last_frame = lit.back()->frame;
-        fixation.mid_angle_deg =
-            context.angles[static_cast<std::size_t>(lit[lit.size() / 2]->pose.value)].value;
+        fixation.mid_pose = lit[lit.size() / 2]->pose;
+        fixation.mid_gaze = lit[lit.size() / 2]->gaze;
+        fixation.mid_angle_deg = context.angles[static_cast<std::size_t>(fixation.mid_pose.value)].value;
     }
     if (!placed.empty()) {
         find_point(fixation, placed, context);
