@@ -16,6 +16,9 @@ namespace {
 /// On the shipped sculptures cells are 0.2 degrees apart in the picture, less than the error of any tracker.
 constexpr std::size_t cell_count = 4000;
 
+/// A tracker with smaller errors than this share of a cell's width is taken to have this one.
+constexpr double least_sigma_cells = 0.6;
+
 /// Fewer fixations than these do not tell how they are spread over the surface.
 constexpr std::size_t least_fixations = 20;
 
@@ -27,6 +30,7 @@ constexpr int em_steps = 60;
 struct Cells {
     std::vector<glm::dvec3> positions;
     std::vector<std::uint8_t> is_head;
+    double width = 0.0; ///< of a square of a cell's area, in the mesh's unit
 };
 
 Cells cells_of(const Mesh& mesh, PartIndex head) {
@@ -38,6 +42,7 @@ Cells cells_of(const Mesh& mesh, PartIndex head) {
         up_to.push_back(all);
     }
     Cells cells;
+    cells.width = std::sqrt(all / cell_count);
     for (std::size_t i = 0; i < cell_count; ++i) {
         const double area = all * (static_cast<double>(i) + 0.5) / cell_count;
         const auto found = std::upper_bound(up_to.begin(), up_to.end() - 1, area);
@@ -65,6 +70,7 @@ struct Candidate {
 struct PosePicture {
     std::vector<std::uint32_t> visible;
     std::vector<glm::dvec2> places; ///< of those, px
+    double cell_px = 0.0;           ///< width of a cell that faces the observer
 };
 
 class Deconvolution {
@@ -122,20 +128,26 @@ class Deconvolution {
             if (is_inside && !rays.is_hidden(cells_.positions[cell], lines.origin())) {
                 picture.visible.push_back(cell);
                 picture.places.emplace_back(seen);
+                picture.cell_px += cells_.width / lines.pixel_width_at(seen.z);
             }
         }
+        picture.cell_px /= static_cast<double>(std::max<std::size_t>(picture.visible.size(), 1));
     }
 
     void find_candidates(std::size_t index) {
         const MeasuredPlace& fixation = fixations_[index];
         const PosePicture& picture = pictures_[static_cast<std::size_t>(fixation.pose.value)];
-        const double peak = 1.0 / (2.0 * std::numbers::pi * fixation.sigma_px.x * fixation.sigma_px.y);
+        // Anything of a cell may have been looked at, and between the pictures of two cells there is no gap.
+        const glm::dvec2 sigma = glm::max(
+            glm::sqrt(fixation.sigma_px * fixation.sigma_px + picture.cell_px * picture.cell_px / 12.0),
+            glm::dvec2(least_sigma_cells * picture.cell_px));
+        const double peak = 1.0 / (2.0 * std::numbers::pi * sigma.x * sigma.y);
         double nearest = 1e300;
         std::vector<Candidate>& found = candidates_[index];
         // Beyond four sigmas lie 0.03 % of errors.
         constexpr double negligible = 4.0 * 4.0;
         for (std::size_t i = 0; i < picture.visible.size(); ++i) {
-            const glm::dvec2 off = (fixation.image_px - picture.places[i]) / fixation.sigma_px;
+            const glm::dvec2 off = (fixation.image_px - picture.places[i]) / sigma;
             const double squares = glm::dot(off, off);
             nearest = std::min(nearest, squares);
             if (squares < negligible)

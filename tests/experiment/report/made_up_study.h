@@ -151,12 +151,28 @@ inline StudyResults made_up_study() {
                 row.variance_mm2 = {100.0, 200.0, 200.0 + 20.0 * group};
                 study.distributions.push_back(row);
                 study.head_fractions.push_back(
-                    {study.groups.back().keys, Estimate::of(0.3 + 0.05 * group, Interval{0.2, 0.8}),
-                     Estimate::none("one observer only"), 0.31, std::nullopt, 3, 6, 40});
+                    {.keys = study.groups.back().keys,
+                     .by_count = Estimate::of(0.3 + 0.05 * group, Interval{0.2, 0.8}),
+                     .by_duration = Estimate::none("one observer only"),
+                     .corrected = Estimate::of(0.33 + 0.05 * group, Interval{0.2, 0.9}),
+                     .pooled = 0.31,
+                     .pooled_interval = {},
+                     .planted = {},
+                     .observers = 3,
+                     .trials = 6,
+                     .fixations = 40});
             }
         }
-        study.head_fractions.push_back(
-            {{{"task", task}}, Estimate::of(0.4, Interval{0.3, 0.5}), {}, 0.4, {}, 3, 6, 40});
+        study.head_fractions.push_back({.keys = {{"task", task}},
+                                        .by_count = Estimate::of(0.4, Interval{0.3, 0.5}),
+                                        .by_duration = {},
+                                        .corrected = {},
+                                        .pooled = 0.4,
+                                        .pooled_interval = {},
+                                        .planted = {},
+                                        .observers = 3,
+                                        .trials = 6,
+                                        .fixations = 40});
         for (int second = 0; second < 8; ++second)
             study.time_course.push_back({{"task", task},
                                          1.0 * second,
