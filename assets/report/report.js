@@ -27,9 +27,12 @@ function fill(select, options) {
 }
 
 // Maps.
-const kind = by_id('map_kind'), weighting = by_id('map_weighting'), scale = by_id('map_scale'), colours = by_id('map_colours');
+const kind = by_id('map_kind'), weighting = by_id('map_weighting'), scale = by_id('map_scale'), colours = by_id('map_colours'), clusters_shown = by_id('map_clusters');
+const alpha = 1 - data.confidence;
 const common = {};
 for (const w of ['duration', 'count']) common[w] = Math.max(1e-300, ...data.maps.filter(m => m.by === w && m.values).map(m => m.peak));
+const exposure_kinds = {exposure: ['exposure', 'share of the exposure per mm²'], seconds: ['time visible', 's of a presentation']};
+for (const what of Object.keys(exposure_kinds)) common[what] = Math.max(1e-300, ...data.sculptures.filter(s => s[what]).map(s => s[what].most));
 const common_difference = Math.max(1e-300, ...data.differences.filter(d => d.values).map(d => d.most));
 
 class Panel {
@@ -51,10 +54,14 @@ class Panel {
       fill(select, options);
       if (this.chosen[name] !== undefined && options.some(o => o[0] === this.chosen[name])) select.value = this.chosen[name];
       this.chosen[name] = select.value;
-      select.addEventListener('change', () => { this.chosen[name] = select.value; this.show(); });
+      select.addEventListener('change', () => { this.chosen[name] = select.value; this.show(); if (kind.value === 'exposure') draw_legend(panels); });
       this.picks.append(element('label', {}, name + ' ', select));
     };
-    if (kind.value === 'difference') {
+    if (kind.value === 'exposure') {
+      add('sculpture', data.sculptures.map((s, i) => [String(i), s.title || s.id]));
+      if (this.first && this.chosen.quantity === undefined) this.chosen.quantity = 'seconds';
+      add('quantity', Object.entries(exposure_kinds).map(([what, texts]) => [what, texts[0]]));
+    } else if (kind.value === 'difference') {
       const options = data.differences.map((d, i) => [String(i), `${data.sculptures[d.sculpture].title}: ${words(d.keys)}, ${d.a} less ${d.b}`]);
       add('difference', options);
       if (this.first && options.length > 1 && this.chosen.seen === undefined) {
@@ -75,6 +82,10 @@ class Panel {
     this.show();
   }
   map() {
+    if (kind.value === 'exposure') {
+      const sculpture = Number(this.chosen.sculpture), found = data.sculptures[sculpture] && data.sculptures[sculpture][this.chosen.quantity];
+      return found ? {sculpture, ...found} : null;
+    }
     if (kind.value === 'difference') return data.differences[Number(this.chosen.difference)];
     return data.maps.find(m => m.by === weighting.value && m.sculpture === Number(this.chosen.sculpture) &&
                                data.groups[m.group].keys.every(([c, v]) => c === 'sculpture' || this.chosen[c] === v));
@@ -91,51 +102,72 @@ class Panel {
     }
     const coarse = sculpture.mesh.vertices < sculpture.mesh.of ?
         ` Shown with ${sculpture.mesh.vertices.toLocaleString('en')} of ${sculpture.mesh.of.toLocaleString('en')} vertices.` : '';
-    if (kind.value === 'difference') {
+    if (kind.value === 'exposure') {
+      const [name, unit] = exposure_kinds[this.chosen.quantity], most = scale.value === 'own' ? map.most : common[this.chosen.quantity];
+      const values = Float32Array.from(bytes_of(map.values), q => q / 255 * map.most / most);
+      const all = data.tables.exposures.find(e => e.sculpture === index && e.part === 'all');
+      text.textContent = (this.chosen.quantity === 'exposure' ? 'Where gaze would lie that is spread evenly over the picture all the time, blurred as the maps are'
+                                                              : 'How long each place is visible in one presentation') +
+          `; highest ${digits(map.most)} ${unit}` + (all ? `; ${percent(all.never)} of the surface is never visible` : '') + '.' + coarse;
+      this.view.show(geometry, values, colour_tables[colours.value], v => `${digits(v * most)} ${unit}`);
+    } else if (kind.value === 'difference') {
       const coded = numbers_of(map.values, Int8Array), most = scale.value === 'own' ? map.most : common_difference;
-      const values = Float32Array.from(coded, q => 0.5 + 0.5 * q / 127 * map.most / most);
-      const clusters = map.clusters.filter(c => c.p <= 1 - data.confidence).length;
+      const of_cluster = bytes_of(map.cluster), is_significant = n => n > 0 && map.clusters[n - 1] && map.clusters[n - 1].p <= alpha;
+      const values = Float32Array.from(coded, (q, v) => clusters_shown.value === 'all' || is_significant(of_cluster[v]) ? 0.5 + 0.5 * q / 127 * map.most / most : 0.5);
+      const clusters = map.clusters.filter(c => c.p <= alpha).length;
       text.textContent = `${map.a} less ${map.b}, ${map.observers} observers; ${clusters} of ${map.clusters.length} clusters with corrected p at most ` +
-          `${digits(1 - data.confidence, 2)} (|t| above ${digits(map.threshold)}).` + coarse;
-      this.view.show(geometry, values, colour_tables.coolwarm, v => `${digits((2 * v - 1) * most)} of the fixation time per mm²`);
+          `${digits(alpha, 2)} (|t| above ${digits(map.threshold)}).` +
+          (map.least_p > alpha + 1e-9 ? ` So many observers can give no p below ${digits(map.least_p)}.` : '') + coarse;
+      this.view.show(geometry, values, colour_tables.coolwarm, (value, v) => {
+        const n = of_cluster[v], c = n ? map.clusters[n - 1] : null;
+        return `${digits((2 * value - 1) * most)} of the fixation time per mm²` + (c ? `, in cluster ${n} (${digits(c.area)} mm², p ${digits(c.p)})` : ', in no cluster');
+      });
     } else {
       const unit = map.by === 'duration' ? 'ms/mm²' : 'fixations/mm²', most = scale.value === 'own' ? map.peak : common[map.by];
       const values = Float32Array.from(bytes_of(map.values), q => q / 255 * map.peak / most);
       text.textContent = `${map.observers} observers, ${map.trials} trials, ${map.fixations} fixations; peak ${digits(map.peak)} ${unit} a trial; ` +
           `kernel sigma ${digits(map.sigma[0])} to ${digits(map.sigma[1])} mm` +
-          (map.leak !== null ? `; a Euclidean kernel would put ${percent(map.leak)} on other parts of the surface` : '') +
-          (map.error[3] !== null ? `; uncertainty of a place ${digits(map.error[3])} mm` : '') + '.' + coarse;
+          (map.leak !== null ? `; a Euclidean kernel would put ${percent(map.leak)} beyond three sigmas along the surface` : '') +
+          (map.error.together !== null ? `; uncertainty of a place ${digits(map.error.together)} mm` : '') + '.' + coarse;
       this.view.show(geometry, values, colour_tables[colours.value], v => `${digits(v * most)} ${unit} a trial`);
     }
   }
 }
 
 function draw_legend(panels) {
-  const is_difference = kind.value === 'difference', name = is_difference ? 'coolwarm' : colours.value;
+  const is_difference = kind.value === 'difference', is_exposure = kind.value === 'exposure', name = is_difference ? 'coolwarm' : colours.value;
   const canvas = element('canvas', {width: 256, height: 1}), pen = canvas.getContext('2d'), line = pen.createImageData(256, 1);
   for (let i = 0; i < 256; ++i) for (let c = 0; c < 4; ++c) line.data[4 * i + c] = c < 3 ? colour_tables[name][3 * i + c] : 255;
   pen.putImageData(line, 0, 0);
-  const most = is_difference ? common_difference : common[weighting.value];
-  const unit = is_difference ? 'share of fixation time per mm²' : weighting.value === 'duration' ? 'ms of fixation per mm² and trial' : 'fixations per mm² and trial';
+  const quantities = is_exposure ? [...new Set(panels.map(p => p.chosen.quantity))] : [];
+  const most = is_difference ? common_difference : is_exposure ? common[quantities[0]] : common[weighting.value];
+  const unit = is_difference ? 'share of fixation time per mm²' : is_exposure ? quantities.map(q => `${exposure_kinds[q][0]}: ${digits(common[q])} ${exposure_kinds[q][1]}`).join('; at the right end ') :
+               weighting.value === 'duration' ? 'ms of fixation per mm² and trial' : 'fixations per mm² and trial';
   const svg = shape('svg', {width: 760, height: 62, viewBox: '0 0 760 62', role: 'img', 'aria-label': 'Legend: ' + unit});
   svg.append(shape('image', {href: canvas.toDataURL(), x: 10, y: 6, width: 300, height: 18, preserveAspectRatio: 'none'}));
-  if (scale.value === 'common')
+  if (scale.value === 'common' && quantities.length < 2)
     for (const v of ticks(is_difference ? -most : 0, most, 4))
       svg.append(shape('text', {x: 10 + 300 * (is_difference ? 0.5 + 0.5 * v / most : v / most), y: 39, 'text-anchor': 'middle'}, digits(v)));
-  else svg.append(shape('text', {x: 10, y: 39}, 'lowest'), shape('text', {x: 310, y: 39, 'text-anchor': 'end'}, 'highest of each map'));
+  else svg.append(shape('text', {x: 10, y: 39}, 'lowest'), shape('text', {x: 310, y: 39, 'text-anchor': 'end'}, scale.value === 'common' ? 'highest' : 'highest of each map'));
   svg.append(shape('text', {x: 10, y: 57, class: 'soft'}, unit + (scale.value === 'common' ? ', one scale for all maps' : ', each map its own scale')));
   svg.append(shape('rect', {x: 350, y: 6, width: 18, height: 18, fill: 'rgb(150,150,150)'}), shape('text', {x: 374, y: 20}, 'never visible'));
   const low = is_difference ? 128 : 0, c = colour_tables[name];
   svg.append(shape('rect', {x: 476, y: 6, width: 18, height: 18, fill: `rgb(${c[3 * low]},${c[3 * low + 1]},${c[3 * low + 2]})`}),
-             shape('text', {x: 500, y: 20}, is_difference ? 'no difference' : 'visible, not looked at'));
+             shape('text', {x: 500, y: 20}, is_difference ? 'no difference' : is_exposure ? 'hardly visible' : 'visible, not looked at'));
   by_id('legend').replaceChildren(svg);
 }
 
-if (!data.differences.length) kind.querySelector('[value=difference]').disabled = true;
+if (!data.differences.some(d => d.values)) kind.querySelector('[value=difference]').disabled = true;
+if (!data.sculptures.some(s => s.exposure || s.seconds)) kind.querySelector('[value=exposure]').disabled = true;
 const panels = [new Panel('a', 0), new Panel('b', 1)];
 const renew = rebuild => { for (const p of panels) rebuild ? p.rebuild() : p.show(); draw_legend(panels); };
-kind.addEventListener('change', () => { weighting.disabled = colours.disabled = kind.value === 'difference'; renew(true); });
-for (const select of [weighting, scale, colours]) select.addEventListener('change', () => renew(false));
+kind.addEventListener('change', () => {
+  weighting.disabled = kind.value !== 'density';
+  colours.disabled = kind.value === 'difference';
+  clusters_shown.disabled = kind.value !== 'difference';
+  renew(true);
+});
+for (const select of [weighting, scale, colours, clusters_shown]) select.addEventListener('change', () => renew(false));
 by_id('view_front').addEventListener('click', () => orbit.look(0));
 by_id('view_left').addEventListener('click', () => orbit.look(-1.1));
 by_id('view_right').addEventListener('click', () => orbit.look(1.1));
@@ -195,12 +227,56 @@ draw_figure5();
       'Each score is of one observer and one sculpture, then averaged. The ceiling is what two halves of the gaze on one and the same condition give, ' +
       'the null what labels exchanged within observers give: a CC or SIM below its ceiling, not below 1, tells of a difference. SIM after scaling each map from 0 to 1 (MIT benchmark), and without (pysaliency).')
       : element('p', {class: 'note'}, 'There is no factor whose levels the same observers saw on the same sculpture.'));
-  const m = data.tables.metrics;
-  by_id('metrics').hidden = m.length === 0;
-  if (m.length) by_id('metrics_body').append(table(
-      [{text: 'condition'}, {text: 'sculpture'}, 'split-half CC', 'reliability', 'KL from exposure / bit', 'NSS', 'AUC (Judd)', 'AUC (Borji)', 'information gain / bit', 'exposure: NSS', 'exposure: AUC'],
-      m.map(r => [words(data.groups[r.group].keys), data.sculptures[r.sculpture].title, ...['split', 'reliability', 'kl', 'nss', 'auc', 'borji', 'gain', 'exposure_nss', 'exposure_auc'].map(k => estimate_text(r[k]))]),
-      'NSS, AUC and information gain: fixations of each observer told from the map of the others; the exposure alone is the baseline.'));
+}
+
+// Maps of differences, cluster by cluster.
+{
+  const maps = data.differences, rows = [];
+  for (const d of maps) {
+    const name = words(d.keys), where = data.sculptures[d.sculpture], pair = `${d.a} less ${d.b}`;
+    if (!d.values || !d.clusters.length) rows.push([name, where.title, pair, d.observers, d.absent || 'no vertex beyond the threshold', 'n/a', 'n/a', 'n/a', 'n/a', 'n/a', digits(d.least_p)]);
+    d.clusters.forEach((c, i) => {
+      // Small ones are in the table of clusters.
+      if (i > 0 && c.p > 0.2) return;
+      rows.push([name, where.title, pair, d.observers, (c.part !== null ? where.parts[c.part] : 'n/a') + `, cluster ${i + 1} of ${d.clusters.length}`,
+                 digits(c.area), c.centre.map(x => digits(x)).join(', '), percent(c.difference), digits(c.p), digits(c.p_all), digits(d.least_p)]);
+    });
+  }
+  by_id('differences').hidden = rows.length === 0;
+  if (rows.length) by_id('differences_body').append(table(
+      [{text: 'condition'}, {text: 'sculpture'}, {text: 'difference'}, 'observers', {text: 'where'}, 'area / mm²', 'centre / mm', 'of the fixation time', 'p', 'p over all maps', 'smallest p there can be'], rows,
+      'Each observer with fixations in both conditions gives a map of differences; clusters of vertices with a t beyond the threshold are tested by flipping the signs of ' +
+      'observers\' maps (largest cluster, sum of t times area). p holds for the whole surface of one sculpture; "over all maps" also for all rows (Bonferroni). ' +
+      'Shown are the largest cluster of each map, and others with p up to 0.2.'));
+}
+
+// Exposure, prediction, reliability, errors.
+{
+  const t = data.tables, title = r => data.sculptures[r.sculpture].title, condition = r => words(data.groups[r.group].keys);
+  const put = (id, rows, make) => {
+    by_id(id).hidden = by_id(id).previousElementSibling.hidden = rows.length === 0;
+    if (rows.length) by_id(id).append(make());
+  };
+  put('exposure_body', t.exposures, () => table(
+      [{text: 'sculpture'}, {text: 'part'}, 'area / mm²', 'of the area', 'of the exposure', 'of the fixations', 'visible / s', 'never visible', 'mean cosine of view'],
+      t.exposures.map(e => [title(e), e.part, digits(e.area), percent(e.share_of_area), percent(e.share), percent(e.fixations), digits(e.seconds), percent(e.never), digits(e.foreshortening)]),
+      'What one presentation shows of each part: the exposure is the share of time and picture area that a part fills among all that shows the sculpture. Gaze that looks at all of the picture alike has the same share of fixations.'));
+  put('predictions_body', t.predictions, () => table(
+      [{text: 'condition'}, {text: 'sculpture'}, {text: 'predicted by'}, 'KL / nat', 'NSS', 'AUC (Judd)', 'AUC (Borji)', 'gain over exposure / bit', 'gain over even gaze / bit', 'observers'],
+      t.predictions.map(r => [condition(r), title(r), r.by + (r.level ? ': ' + r.level : ''), ...['kl', 'nss', 'auc', 'borji', 'gain', 'gain_area'].map(k => estimate_text(r[k])), r.observers]),
+      'Each observer\'s fixations are told from a map of other observers, in the same condition or in another one, or from the exposure alone. A material that gaze does not care about is predicted as well by another material as by itself.'));
+  put('reliability_body', t.reliabilities, () => table(
+      [{text: 'condition'}, {text: 'sculpture'}, 'CC of halves', 'reliability', 'observers', 'fixations'],
+      t.reliabilities.map(r => [words(r.keys), title(r), estimate_text(r.split), estimate_text(r.reliability), r.observers, r.fixations]),
+      'Correlation of the maps of random halves of the observers, and of all observers after Spearman and Brown; the interval is by leaving out each observer in turn.'));
+  const errors = data.maps.filter(m => m.by === 'duration' && m.values);
+  put('errors_body', errors, () => table(
+      [{text: 'condition'}, {text: 'sculpture'}, 'accuracy / mm', 'precision / mm', 'timing / mm', 'look-up / mm', 'together / mm', 'kernel sigma / mm', 'Euclidean leak', 'cone beyond an edge', 'samples near an edge'],
+      errors.map(m => [condition(m), title(m), ...['accuracy', 'precision', 'timing', 'lut', 'together'].map(k => digits(m.error[k])), `${digits(m.sigma[0])} to ${digits(m.sigma[1])}`,
+                       percent(m.leak), percent(m.error.at_edge), percent(m.error.near_edge)]),
+      'Root mean squares over the fixations, along the surface. Accuracy: the gaze cone of the validation before each trial. Precision: of a single sample (RMS-S2S divided by the root of 2). ' +
+      'Timing: uncertainty of the clocks times the speed of the surface under gaze. An edge is where the sculpture ends or another sheet of it begins.'));
+  by_id('metrics').hidden = !t.exposures.length && !t.predictions.length && !t.reliabilities.length && !errors.length;
 }
 
 // Time course.

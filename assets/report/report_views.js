@@ -150,7 +150,7 @@ class MapView {
     const hit = caster.intersectObject(this.mesh)[0];
     if (!hit) return;
     const v = hit.face.a;
-    this.caption.lastChild.textContent = ' Here: ' + (this.visible[v] ? this.meaning(this.values[v]) : 'never visible') + '.';
+    this.caption.lastChild.textContent = ' Here: ' + (this.visible[v] ? this.meaning(this.values[v], v) : 'never visible') + '.';
   }
 }
 

@@ -76,6 +76,10 @@ Json json_of(const StudyQuality& q) {
 
 Json json_of(const glm::dvec3& v) { return {number(v.x, 8), number(v.y, 8), number(v.z, 8)}; }
 
+double highest_of(const std::vector<float>& values) {
+    return values.empty() ? 0.0 : static_cast<double>(*std::max_element(values.begin(), values.end()));
+}
+
 /// The mesh that the page shows of a sculpture.
 struct ShownMesh {
     std::vector<std::uint32_t> vertices; ///< of the study's mesh
@@ -161,8 +165,13 @@ Json json_of_maps(const StudyResults& results, const std::vector<ShownMesh>& sho
                   {"sigma", {number(map.least_sigma_mm, 4), number(map.most_sigma_mm, 4)}},
                   {"leak", number(map.euclidean_leak, 4)},
                   {"error",
-                   {number(map.accuracy_mm, 4), number(map.lut_mm, 4), number(map.timing_mm, 4),
-                    number(map.together_mm, 4), number(map.at_edge, 4)}}};
+                   {{"accuracy", number(map.error.accuracy_mm, 4)},
+                    {"precision", number(map.error.precision_mm, 4)},
+                    {"timing", number(map.error.timing_mm, 4)},
+                    {"lut", number(map.error.lut_mm, 4)},
+                    {"together", number(map.error.together_mm, 4)},
+                    {"at_edge", number(map.error.at_edge, 4)},
+                    {"near_edge", number(map.error.near_edge, 4)}}}};
         if (!map.density.empty() && !mesh.vertices.empty())
             json["values"] = bytes_of(map.density, mesh, map.peak);
         else
@@ -182,7 +191,13 @@ Json json_of_differences(const StudyResults& results, const std::vector<ShownMes
         Json clusters = Json::array();
         for (const DifferenceMap::Cluster& cluster : map.clusters)
             clusters.push_back(
-                {{"area", number(cluster.area_mm2)}, {"mass", number(cluster.mass)}, {"p", cluster.p}});
+                {{"area", number(cluster.area_mm2)},
+                 {"mass", number(cluster.mass)},
+                 {"difference", number(cluster.difference, 4)},
+                 {"centre", json_of(cluster.centroid_mm)},
+                 {"part", cluster.part ? Json(static_cast<int>(*cluster.part)) : Json(nullptr)},
+                 {"p", number(cluster.p)},
+                 {"p_all", number(cluster.p_of_all)}});
         Json json{{"keys", json_of(map.keys)},
                   {"sculpture", map.sculpture},
                   {"column", map.column},
@@ -190,12 +205,20 @@ Json json_of_differences(const StudyResults& results, const std::vector<ShownMes
                   {"b", map.b},
                   {"most", number(most)},
                   {"threshold", number(map.threshold_t)},
+                  {"least_p", number(map.least_p)},
                   {"observers", map.observers},
                   {"clusters", clusters}};
-        if (!map.difference.empty() && !mesh.vertices.empty())
+        if (!map.difference.empty() && !mesh.vertices.empty()) {
             json["values"] = signed_bytes_of(map.difference, mesh, most);
-        else
+            std::vector<std::uint8_t> numbers;
+            for (const std::uint32_t v : mesh.vertices)
+                numbers.push_back(v < map.cluster.size()
+                                      ? static_cast<std::uint8_t>(std::min<int>(map.cluster[v], 255))
+                                      : 0);
+            json["cluster"] = packed(numbers);
+        } else {
             json["absent"] = map.absent;
+        }
         differences.push_back(std::move(json));
     }
     return differences;
@@ -279,7 +302,8 @@ Json json_of_traces(const StudyResults& results) {
 }
 
 Json json_of_tables(const StudyResults& results) {
-    Json heads = Json::array(), distributions = Json::array(), pairs = Json::array(), metrics = Json::array(),
+    Json heads = Json::array(), distributions = Json::array(), pairs = Json::array(),
+         predictions = Json::array(), reliabilities = Json::array(), exposures = Json::array(),
          course = Json::array();
     for (const HeadFractionRow& row : results.head_fractions) {
         Json json{{"keys", json_of(row.keys)},
@@ -326,18 +350,35 @@ Json json_of_tables(const StudyResults& results) {
                          {"observers", row.observers},
                          {"comparisons", row.comparisons},
                          {"absent", row.absent}});
-    for (const MapMetricsRow& row : results.metrics)
-        metrics.push_back({{"group", row.group},
-                           {"sculpture", row.sculpture},
-                           {"split", json_of(row.split_half_cc)},
-                           {"reliability", json_of(row.reliability)},
-                           {"kl", json_of(row.kl_from_exposure)},
-                           {"nss", json_of(row.nss)},
-                           {"auc", json_of(row.auc_judd)},
-                           {"borji", json_of(row.auc_borji)},
-                           {"gain", json_of(row.information_gain)},
-                           {"exposure_nss", json_of(row.exposure_nss)},
-                           {"exposure_auc", json_of(row.exposure_auc)}});
+    for (const MapPredictionRow& row : results.predictions)
+        predictions.push_back({{"group", row.group},
+                               {"sculpture", row.sculpture},
+                               {"by", name_of(row.by)},
+                               {"level", row.level},
+                               {"kl", json_of(row.kl)},
+                               {"nss", json_of(row.nss)},
+                               {"auc", json_of(row.auc_judd)},
+                               {"borji", json_of(row.auc_borji)},
+                               {"gain", json_of(row.gain_over_exposure)},
+                               {"gain_area", json_of(row.gain_over_area)},
+                               {"observers", row.observers}});
+    for (const MapReliabilityRow& row : results.reliabilities)
+        reliabilities.push_back({{"keys", json_of(row.keys)},
+                                 {"sculpture", row.sculpture},
+                                 {"split", json_of(row.split_half_cc)},
+                                 {"reliability", json_of(row.reliability)},
+                                 {"observers", row.observers},
+                                 {"fixations", row.fixations}});
+    for (const ExposureRow& row : results.exposures)
+        exposures.push_back({{"sculpture", row.sculpture},
+                             {"part", row.part},
+                             {"area", number(row.area_mm2)},
+                             {"share_of_area", number(row.share_of_area, 4)},
+                             {"never", number(row.never_visible, 4)},
+                             {"seconds", number(row.seconds_visible, 4)},
+                             {"share", number(row.share_of_exposure, 4)},
+                             {"foreshortening", number(row.foreshortening, 4)},
+                             {"fixations", number(row.share_of_fixations, 4)}});
     for (const TimeCourseRow& row : results.time_course)
         course.push_back({{"key", {row.key.column, row.key.value}},
                           {"from", row.from_s},
@@ -347,7 +388,9 @@ Json json_of_tables(const StudyResults& results) {
     return {{"heads", heads},
             {"distributions", distributions},
             {"pairs", pairs},
-            {"metrics", metrics},
+            {"predictions", predictions},
+            {"reliabilities", reliabilities},
+            {"exposures", exposures},
             {"course", course}};
 }
 
@@ -376,6 +419,20 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
              {"mm_per_unit", number(sculpture.mm_per_unit)},
              {"remark", sculpture.remark},
              {"mesh", shown.back().json}});
+        const ShownMesh& mesh = shown.back();
+        const std::size_t vertex_count = sculpture.mesh ? sculpture.mesh->positions.size() : 0;
+        if (mesh.vertices.empty())
+            continue;
+        if (sculpture.exposure_density.size() == vertex_count) {
+            const double most = highest_of(sculpture.exposure_density);
+            sculptures.back()["exposure"] = {{"most", number(most)},
+                                             {"values", bytes_of(sculpture.exposure_density, mesh, most)}};
+        }
+        if (sculpture.seconds_visible.size() == vertex_count) {
+            const double most = highest_of(sculpture.seconds_visible);
+            sculptures.back()["seconds"] = {{"most", number(most)},
+                                            {"values", bytes_of(sculpture.seconds_visible, mesh, most)}};
+        }
     }
     Json sessions = Json::array(), parameters = Json::array(), groups = Json::array(),
          not_counted = Json::array();

@@ -86,6 +86,19 @@ std::vector<SurfaceFile> files_of(const StudyResults& results) {
              fmt::format("{}: {}", sculpture.title, words), "ms of fixation per mm^2 and trial", "map",
              &sculpture, &map.density, ColourMap::viridis, 0.0, most > 0.0 ? most : 1.0});
     }
+    for (const StudySculpture& sculpture : results.sculptures) {
+        const auto highest = [](const std::vector<float>& values) {
+            const double top = values.empty() ? 0.0 : *std::ranges::max_element(values);
+            return top > 0.0 ? top : 1.0;
+        };
+        add({file_name_of(fmt::format("exposure_{}", sculpture.id)),
+             fmt::format("{}: exposure", sculpture.title), "share of the exposure per mm^2", "exposure",
+             &sculpture, &sculpture.exposure_density, ColourMap::viridis, 0.0,
+             highest(sculpture.exposure_density)});
+        add({file_name_of(fmt::format("visible_{}", sculpture.id)),
+             fmt::format("{}: time visible", sculpture.title), "s of a presentation", "visible", &sculpture,
+             &sculpture.seconds_visible, ColourMap::viridis, 0.0, highest(sculpture.seconds_visible)});
+    }
     for (const DifferenceMap& map : results.differences) {
         const StudySculpture& sculpture = results.sculptures[static_cast<std::size_t>(map.sculpture)];
         const std::string words =

@@ -9,7 +9,12 @@
 #include <fmt/ranges.h>
 
 #include "experiment/base/counted.h"
+#include "experiment/study/difference_maps.h"
+#include "experiment/study/error_budget.h"
+#include "experiment/study/fixation_maps.h"
 #include "experiment/study/head_fractions.h"
+#include "experiment/study/map_predictions.h"
+#include "experiment/study/map_reliability.h"
 #include "experiment/study/point_distributions.h"
 #include "experiment/study/study_maps.h"
 #include "experiment/study/study_pairs.h"
@@ -82,6 +87,44 @@ void analyze_sculpture(ReadStudy& study, int sculpture, const StudyOptions& opti
     if (surface.geometry && surface.scale && widest > 0.0)
         maker.emplace(surface, *shown.mesh, options, widest);
     add_maps(results, sculpture, surface, maker ? &*maker : nullptr, options);
+    add_error_budget(results, sculpture, surface);
+}
+
+/// The share of the fixations on each part, beside its share of the exposure.
+void add_fixations_to_exposures(StudyResults& results) {
+    for (ExposureRow& row : results.exposures) {
+        const StudySculpture& shown = results.sculptures[static_cast<std::size_t>(row.sculpture)];
+        int all = 0, own = 0;
+        for (const StudyFixation& fixation : results.fixations) {
+            if (!fixation.counted() || !fixation.part ||
+                results.trials[static_cast<std::size_t>(fixation.trial)].sculpture != row.sculpture)
+                continue;
+            ++all;
+            own += row.part == "all" || shown.part_names[*fixation.part] == row.part;
+        }
+        if (all > 0)
+            row.share_of_fixations = static_cast<double>(own) / all;
+    }
+}
+
+/// What a reader must know of the maps of differences.
+void remark_on_differences(StudyResults& results, const StudyOptions& options) {
+    int most = 0;
+    double least_p = 1.0;
+    for (const DifferenceMap& map : results.differences) {
+        most = std::max(most, map.observers);
+        least_p = std::min(least_p, map.least_p);
+    }
+    if (most < 2)
+        results.remarks.push_back(
+            fmt::format("No two observers saw one sculpture in two levels of {}: there are no maps of "
+                        "differences.",
+                        options.compare));
+    else if (least_p > 1.0 - options.confidence + 1e-9)
+        results.remarks.push_back(fmt::format(
+            "Maps of differences are of {} at most, for whom no cluster can have a smaller p than {:.3g}: "
+            "that takes {} observers for p below 0.05.",
+            counted(most, "observer"), least_p, 6));
 }
 
 } // namespace
@@ -109,8 +152,18 @@ StudyResults analyze_study(std::span<const std::filesystem::path> sessions, cons
     results.distributions = point_distributions(results, study.surfaces, options);
     results.time_course = head_time_course(results, study.levels, options);
     progress("comparisons", 0, 1);
-    results.pairs = study_pairs(results, study.surfaces, study.levels, options);
+    const SculptureFixationMaps maps = fixation_maps(results, study.surfaces);
+    results.pairs = study_pairs(results, study.surfaces, maps, study.levels, options);
     progress("comparisons", 1, 1);
+    progress("differences", 0, 1);
+    results.differences = difference_maps(results, maps, study.levels, options);
+    remark_on_differences(results, options);
+    progress("differences", 1, 1);
+    progress("metrics", 0, 1);
+    results.predictions = map_predictions(results, maps, options);
+    results.reliabilities = map_reliabilities(results, maps, study.levels, options);
+    add_fixations_to_exposures(results);
+    progress("metrics", 1, 1);
     return std::move(study.results);
 }
 

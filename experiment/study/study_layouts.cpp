@@ -1,29 +1,11 @@
 #include "experiment/study/study_layouts.h"
 
-#include <algorithm>
-#include <initializer_list>
-
 #include "experiment/record/tables/joined_cells.h"
-#include "experiment/study/study_columns.h"
+#include "experiment/study/layout_parts.h"
 
 namespace overt {
 
 namespace {
-
-constexpr int share_decimals = 6, second_decimals = 6, place_decimals = 6, density_decimals = 9;
-
-const auto& of(const auto& list, int index) { return list[static_cast<std::size_t>(index)]; }
-
-/// Columns of `--by` that the own ones do not have.
-std::vector<std::string> others_of(const std::vector<std::string>& by,
-                                   std::initializer_list<const char*> own) {
-    std::vector<std::string> others;
-    for (const std::string& column : by) {
-        if (std::find(own.begin(), own.end(), column) == own.end())
-            others.push_back(column);
-    }
-    return others;
-}
 
 /// Observer, trial, and the usual factors, of anything that is of a trial.
 template <class Row> StudyColumns<Row> trial_columns(const StudyResults& results) {
@@ -53,18 +35,6 @@ auto fixation_number(const char* name, const char* meaning, const char* unit, in
     return number_column<Row>(name, meaning, unit, decimals, [member](const Row& row) {
         return std::optional<double>(member(row.fixation));
     });
-}
-
-/// The keys of a group, and the sculpture that a row of a group is of.
-template <class Row> StudyColumns<Row> group_columns(const StudyResults& results) {
-    auto columns = key_columns<Row>(results.by, [&results](const Row& row) -> const std::vector<StudyKey>& {
-        return of(results.groups, row.group).keys;
-    });
-    add_columns<Row>(columns, text_column<Row>("on_sculpture", "The sculpture on whose surface this is",
-                                               [&results](const Row& row) {
-                                                   return of(results.sculptures, row.sculpture).id;
-                                               }));
-    return columns;
 }
 
 } // namespace
@@ -171,48 +141,6 @@ RowLayout<TrialSummaryRow> study_trials_layout(const StudyResults& results) {
                                }),
             number_column<Row>("wss_mm2", "Mean within-cluster sum of squares of these, two at least", "mm^2",
                                place_decimals, [](const Row& row) { return row.wss_mm2; }))};
-}
-
-RowLayout<StudyMap> study_maps_layout(const StudyResults& results) {
-    using Row = StudyMap;
-    const auto number = [](const char* name, const char* meaning, const char* unit, auto member) {
-        return number_column<Row>(name, meaning, unit, density_decimals, [member](const Row& row) {
-            return row.absent.empty() ? std::optional<double>(row.*member) : std::nullopt;
-        });
-    };
-    const auto budget = [](const char* name, const char* meaning, auto member) {
-        return number_column<Row>(name, meaning, "mm", place_decimals,
-                                  [member](const Row& row) { return row.*member; });
-    };
-    return {
-        "maps",
-        "One row for each map of a group on a sculpture: by duration in ms per mm^2 and trial, by count in "
-        "fixations per mm^2 and trial.",
-        joined_columns<Row>(
-            group_columns<Row>(results),
-            text_column<Row>("weighting", "duration: fixations count with their duration; count: alike",
-                             [](const Row& row) { return name_of(row.weighting); }),
-            count_column<Row>("observers", "Observers", [](const Row& row) { return row.observers; }),
-            count_column<Row>("trials", "Trials", [](const Row& row) { return row.trials; }),
-            count_column<Row>("fixations", "Counted fixations", [](const Row& row) { return row.fixations; }),
-            number("total", "Integral over the surface: ms, or fixations, of a trial", "", &StudyMap::total),
-            number("peak", "Highest density", "1/mm^2 of that", &StudyMap::peak),
-            number("mean", "Mean density over the whole surface", "1/mm^2 of that", &StudyMap::mean),
-            number("area_mm2", "Area of the surface", "mm^2", &StudyMap::area_mm2),
-            number("least_sigma_mm", "Narrowest kernel", "mm", &StudyMap::least_sigma_mm),
-            number("most_sigma_mm", "Widest kernel", "mm", &StudyMap::most_sigma_mm),
-            number_column<Row>("euclidean_leak",
-                               "Share that a Gaussian in space puts beyond three sigmas along the surface",
-                               "", share_decimals, [](const Row& row) { return row.euclidean_leak; }),
-            budget("accuracy_mm", "Error by the tracker's accuracy, standard deviation on the surface",
-                   &StudyMap::accuracy_mm),
-            budget("timing_mm", "Error by the clocks' and the frames' timing", &StudyMap::timing_mm),
-            budget("lut_mm", "Error of the look-up of surface points", &StudyMap::lut_mm),
-            budget("together_mm", "Root of the sum of these squares", &StudyMap::together_mm),
-            number_column<Row>("at_edge", "Mean share of the gaze cone beyond a depth edge", "",
-                               share_decimals, [](const Row& row) { return row.at_edge; }),
-            text_column<Row>("absent", "Why there is no map; n/a: there is one",
-                             [](const Row& row) { return row.absent; }))};
 }
 
 RowLayout<HeadFractionRow> head_fractions_layout(const StudyResults& results) {
@@ -356,65 +284,6 @@ RowLayout<TimeCourseRow> time_course_layout(const StudyResults& results) {
                                     [](const Row& row) -> auto& { return row.head_fraction; }),
                                 count_column<Row>("observers", "Observers with fixations then",
                                                   [](const Row& row) { return row.observers; }))};
-}
-
-RowLayout<MapMetricsRow> map_metrics_layout(const StudyResults& results) {
-    using Row = MapMetricsRow;
-    const auto estimate = [](const char* name, const char* meaning, const char* unit, auto member) {
-        return estimate_columns<Row>(
-            name, meaning, unit, share_decimals, [member](const Row& row) -> auto& { return row.*member; });
-    };
-    return {"map_metrics",
-            "How well a map is determined, and what it tells beyond where the sculpture could be seen.",
-            joined_columns<Row>(
-                group_columns<Row>(results),
-                estimate("split_half_cc", "Correlation of the maps of halves of the observers", "",
-                         &MapMetricsRow::split_half_cc),
-                estimate("reliability", "The same for all observers, after Spearman and Brown", "",
-                         &MapMetricsRow::reliability),
-                estimate("kl_from_exposure", "Divergence of the map from the exposure", "nat",
-                         &MapMetricsRow::kl_from_exposure),
-                estimate("nss", "Of each observer's fixations by the others' map", "", &MapMetricsRow::nss),
-                estimate("auc_judd", "The same", "", &MapMetricsRow::auc_judd),
-                estimate("auc_borji", "The same", "", &MapMetricsRow::auc_borji),
-                estimate("information_gain", "The same, over the exposure", "bit",
-                         &MapMetricsRow::information_gain),
-                estimate("exposure_nss", "NSS of the exposure", "", &MapMetricsRow::exposure_nss),
-                estimate("exposure_auc", "AUC-Judd of the exposure", "", &MapMetricsRow::exposure_auc))};
-}
-
-RowLayout<ClusterRow> clusters_layout(const StudyResults& results) {
-    using Row = ClusterRow;
-    const auto of_cluster = [](const char* name, const char* meaning, const char* unit, auto member) {
-        return number_column<Row>(name, meaning, unit, place_decimals, [member](const Row& row) {
-            return row.cluster ? std::optional<double>(row.cluster->*member) : std::nullopt;
-        });
-    };
-    return {
-        "difference_clusters",
-        "Clusters of vertices where two levels differ within observers, corrected over the surface by the "
-        "largest cluster of permutations.",
-        joined_columns<Row>(
-            key_columns<Row>(
-                others_of(results.by, {"sculpture"}), [](const Row& row) -> auto& { return row.map.keys; }),
-            text_column<Row>(
-                "on_sculpture", "The sculpture",
-                [&results](const Row& row) { return of(results.sculptures, row.map.sculpture).id; }),
-            text_column<Row>("compared", "The column whose levels are compared",
-                             [](const Row& row) { return row.map.column; }),
-            text_column<Row>("a", "First level", [](const Row& row) { return row.map.a; }),
-            text_column<Row>("b", "Second level", [](const Row& row) { return row.map.b; }),
-            count_column<Row>("observers", "Observers", [](const Row& row) { return row.map.observers; }),
-            number_column<Row>("threshold_t", "t beyond which a vertex belongs to a cluster", "",
-                               share_decimals,
-                               [](const Row& row) { return std::optional(row.map.threshold_t); }),
-            count_column<Row>("cluster", "Number of the cluster, the largest first; 0: there is none",
-                              [](const Row& row) { return row.number; }),
-            of_cluster("mass", "Sum of t times area", "mm^2", &DifferenceMap::Cluster::mass),
-            of_cluster("area_mm2", "Area", "mm^2", &DifferenceMap::Cluster::area_mm2),
-            of_cluster("p", "Corrected over the surface", "", &DifferenceMap::Cluster::p),
-            text_column<Row>("absent", "Why there is no map; n/a: there is one",
-                             [](const Row& row) { return row.map.absent; }))};
 }
 
 RowLayout<QualityRow> quality_layout() {

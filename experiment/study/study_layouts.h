@@ -29,7 +29,9 @@ RowLayout<HeadFractionRow> head_fractions_layout(const StudyResults& results);
 RowLayout<DistributionRow> distributions_layout(const StudyResults& results);
 RowLayout<PairRow> pairs_layout(const StudyResults& results);
 RowLayout<TimeCourseRow> time_course_layout(const StudyResults& results);
-RowLayout<MapMetricsRow> map_metrics_layout(const StudyResults& results);
+RowLayout<MapPredictionRow> map_predictions_layout(const StudyResults& results);
+RowLayout<MapReliabilityRow> map_reliability_layout(const StudyResults& results);
+RowLayout<ExposureRow> exposure_layout(const StudyResults& results);
 
 /// A cluster of a map of differences.
 struct ClusterRow {

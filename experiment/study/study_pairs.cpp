@@ -13,7 +13,6 @@
 #include "experiment/statistics/point_spread.h"
 #include "experiment/statistics/split_half.h"
 #include "experiment/study/study_maps.h"
-#include "experiment/surface/surface_smoother.h"
 
 namespace overt {
 
@@ -30,53 +29,6 @@ Similarities similarities(std::span<const double> a, std::span<const double> b,
     return {{correlation(a, b, areas), similarity(a, b, areas, SimConvention::mit),
              similarity(a, b, areas, SimConvention::pysaliency)}};
 }
-
-/// Each fixation's own density on the coarse surface of one sculpture: any choice of them is a sum.
-class FixationMaps {
-  public:
-    FixationMaps(const StudyResults& results, int sculpture, const SculptureSurface& surface)
-        : areas_(surface.coarse_geometry->vertex_areas_mm2()) {
-        const double widest = widest_sigma_mm(results, sculpture);
-        std::vector<std::vector<SurfaceWeight>> weights;
-        for (std::size_t i = 0; i < results.fixations.size(); ++i) {
-            const StudyFixation& fixation = results.fixations[i];
-            if (!fixation.counted() ||
-                results.trials[static_cast<std::size_t>(fixation.trial)].sculpture != sculpture)
-                continue;
-            const auto moved = surface.coarse->moved(weight_of(fixation, 1.0));
-            index_of_[&fixation] = weights.size();
-            weights.emplace_back(moved.begin(), moved.end());
-        }
-        const SurfaceSmoother smoother(*surface.coarse_geometry, widest);
-        maps_.reserve(weights.size());
-        // Some at a time: in double they take twice the memory.
-        constexpr std::size_t at_a_time = 256;
-        for (std::size_t begin = 0; begin < weights.size(); begin += at_a_time) {
-            const auto some = std::span(weights).subspan(begin, std::min(at_a_time, weights.size() - begin));
-            for (const std::vector<double>& density : smoother.densities(some))
-                maps_.emplace_back(density.begin(), density.end());
-        }
-    }
-
-    std::span<const double> areas() const { return areas_; }
-
-    std::vector<double> sum_of(std::span<const StudyFixation* const> fixations) const {
-        std::vector<double> sum(areas_.size(), 0.0);
-        for (const StudyFixation* fixation : fixations) {
-            const std::vector<float>& map = maps_[index_of_.at(fixation)];
-            for (std::size_t v = 0; v < sum.size(); ++v)
-                sum[v] += static_cast<double>(map[v]);
-        }
-        return sum;
-    }
-
-  private:
-    std::vector<double> areas_;
-    std::map<const StudyFixation*, std::size_t> index_of_;
-    std::vector<std::vector<float>> maps_;
-};
-
-using Fixations = std::vector<const StudyFixation*>;
 
 /// One observer's fixations on one sculpture in both levels.
 struct Comparison {
@@ -222,17 +174,9 @@ constexpr int most_map_permutations = 200;
 } // namespace
 
 std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<SculptureSurface>& surfaces,
-                                 const LevelLists& levels, const StudyOptions& options) {
-    std::vector<std::string> others;
-    for (const std::string& column : options.by) {
-        if (column != options.compare && column != "sculpture")
-            others.push_back(column);
-    }
-    std::vector<std::unique_ptr<FixationMaps>> maps(results.sculptures.size());
-    for (std::size_t i = 0; i < maps.size(); ++i) {
-        if (surfaces[i].coarse && widest_sigma_mm(results, static_cast<int>(i)) > 0.0)
-            maps[i] = std::make_unique<FixationMaps>(results, static_cast<int>(i), surfaces[i]);
-    }
+                                 const SculptureFixationMaps& maps, const LevelLists& levels,
+                                 const StudyOptions& options) {
+    const std::vector<std::string> others = columns_beside_compared(options);
     const std::vector<std::string> compared = levels_of(results, options.compare, levels);
     const int permutations = std::min(options.permutations, most_map_permutations);
     std::vector<PairRow> rows;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "experiment/study/fixation_maps.h"
 #include "experiment/study/study_groups.h"
 #include "experiment/study/study_options.h"
 #include "experiment/study/study_reader.h"
@@ -20,6 +21,7 @@ namespace overt {
 ///
 /// Maps count fixations alike and are made on the coarse surface. Empty if no column of `--by` is compared.
 std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<SculptureSurface>& surfaces,
-                                 const LevelLists& levels, const StudyOptions& options);
+                                 const SculptureFixationMaps& maps, const LevelLists& levels,
+                                 const StudyOptions& options);
 
 } // namespace overt

@@ -335,6 +335,14 @@ class StudyReader {
             surface.areas_mm2 = surface.geometry->vertex_areas_mm2();
             progress_(fmt::format("exposure of {}", sculpture.id), 0, 1);
             Exposure exposure = exposure_of(*maps, header->animation, header->poses);
+            if (surface.scale) {
+                const ScreenGeometry& screen = sculpture.screen;
+                const double px_mm = screen.screen_mm.y / screen.screen_px.y;
+                for (ExposureRow& row :
+                     exposure_rows({exposure, *sculpture.mesh, surface.scale->mm_per_unit, px_mm * px_mm},
+                                   index, sculpture.part_names))
+                    results().exposures.push_back(std::move(row));
+            }
             sculpture.seconds_visible = std::move(exposure.seconds_visible);
             surface.pixel_seconds = std::move(exposure.pixel_seconds);
             progress_(fmt::format("exposure of {}", sculpture.id), 1, 1);

@@ -28,6 +28,18 @@ std::string_view name_of(MapWeighting weighting) {
     return weighting == MapWeighting::duration ? "duration" : "count";
 }
 
+std::string_view name_of(MapPredictor predictor) {
+    switch (predictor) {
+    case MapPredictor::same_level:
+        return "same level";
+    case MapPredictor::other_level:
+        return "other level";
+    case MapPredictor::exposure:
+        return "exposure";
+    }
+    return "";
+}
+
 const std::string& StudyTrial::key(const std::string& column) const {
     static const std::string nothing = "n/a";
     const auto found =

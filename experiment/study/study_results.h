@@ -114,9 +114,14 @@ struct StudyFixation {
     glm::dvec3 position{0.0}; ///< object coordinates, in the mesh's unit: of the sample nearest to all others
     std::optional<PartIndex> part;      ///< the part with most samples
     double sigma_mm = 0.0;              ///< of the map's kernel at this depth
+    double mm_per_deg = 0.0;            ///< of visual angle at this depth; 0 without a known camera
     std::optional<double> spread_mm;    ///< root mean square distance of its samples from the point
     std::optional<double> spread_deg;   ///< the same, seen by the observer
     std::optional<double> cone_at_edge; ///< share of the tracker's gaze cone on another sheet, or beside
+    /// Root mean square distance of the rest of the cone from its middle: the tracker's error along the
+    /// surface, however obliquely that is seen.
+    std::optional<double> cone_mm;
+    std::optional<double> lut_mm; ///< distance of the point that the map gave from the line of sight
     bool counted() const { return why == NotCounted::counted; }
 };
 
@@ -193,6 +198,18 @@ struct StudyGroup {
     int fixations = 0; ///< counted ones
 };
 
+/// How well the places of a map's fixations are known: root mean squares over the fixations, weighted as the
+/// map weighs them, in millimetres on the surface. The kernel is no error: it stands beside these in the map.
+struct ErrorBudget {
+    std::optional<double> accuracy_mm;  ///< of the tracker, by the validation before each trial
+    std::optional<double> precision_mm; ///< of a single sample, by RMS-S2S
+    std::optional<double> lut_mm;       ///< of the look-up of surface points
+    std::optional<double> timing_mm;    ///< uncertainty of the clocks times the speed of the surface there
+    std::optional<double> together_mm;  ///< root of the sum of these squares; nothing without the accuracy
+    std::optional<double> at_edge;   ///< mean share of the gaze cone beside the sculpture or on another sheet
+    std::optional<double> near_edge; ///< share of samples with any of their gaze cone there
+};
+
 /// The map of one group on one sculpture.
 struct StudyMap {
     int group = 0;
@@ -208,11 +225,10 @@ struct StudyMap {
     double area_mm2 = 0.0;
     int observers = 0, trials = 0, fixations = 0;
     double least_sigma_mm = 0.0, most_sigma_mm = 0.0; ///< of the kernel, over the fixations
-    std::optional<double>
-        euclidean_leak; ///< share that a Euclidean kernel puts on other parts of the surface
-    // Error budget: standard deviations on the surface.
-    std::optional<double> accuracy_mm, lut_mm, timing_mm, together_mm;
-    std::optional<double> at_edge; ///< share of fixations with a depth edge in their gaze cone
+    /// Share of the weight that a Gaussian in space of the same sigma puts beyond three sigmas along the
+    /// surface; EuclideanKernel::share_on_a_plane of it is no leak.
+    std::optional<double> euclidean_leak;
+    ErrorBudget error;
 };
 
 /// Figure 4: share of fixations on the head, of all that are counted.
@@ -255,33 +271,72 @@ struct PairRow {
     std::string absent;                 ///< why there is nothing
 };
 
-/// Where two levels differ on one sculpture.
+/// Where two levels differ on one sculpture, within observers.
 struct DifferenceMap {
-    std::vector<StudyKey> keys;
+    std::vector<StudyKey> keys; ///< what is the same in both; empty: anything
     int sculpture = 0;
     std::string column, a, b;
-    std::vector<float> difference; ///< by vertex: mean over observers of a less b, shares per mm^2
-    std::vector<float> t;          ///< by vertex: paired t over observers
+    /// By vertex: mean over observers of a less b, of maps that hold each observer's share of the time of
+    /// fixation per mm^2. Empty if there is none, and `absent` says why.
+    std::vector<float> difference;
+    std::vector<std::uint16_t> cluster; ///< by vertex: number of the cluster that it is in, from 1; 0: none
     struct Cluster {
-        std::vector<std::uint32_t> vertices;
         double mass = 0.0; ///< sum of t * area, mm^2
         double area_mm2 = 0.0;
-        double p = 1.0; ///< corrected over the surface
+        glm::dvec3 centroid_mm{0.0};   ///< of the size of the difference; object coordinates
+        std::optional<PartIndex> part; ///< with most of it
+        double difference = 0.0; ///< integral: share of the time of fixation that a has there more than b
+        double p = 1.0;          ///< corrected over the surface
+        double p_of_all = 1.0;   ///< and over all maps of differences of the study (Bonferroni)
     };
     std::vector<Cluster> clusters; ///< largest first
     double threshold_t = 0.0;
+    double least_p = 1.0; ///< that so many observers can give
     int observers = 0;
     std::string absent;
 };
 
-/// How well a group's map is determined, and what it tells beyond where the sculpture could be seen.
-struct MapMetricsRow {
+/// What a map of fixations is told from.
+enum class MapPredictor : std::uint8_t {
+    same_level,  ///< the other observers' fixations in the same group
+    other_level, ///< the other observers' fixations in another level of the compared column
+    exposure     ///< how long, how large and how obliquely each place could be seen
+};
+
+/// How well a group's fixations on one sculpture are told by a map that none of them made: means over
+/// observers of what each one's fixations give. Only places that could be seen count.
+struct MapPredictionRow {
     int group = 0, sculpture = 0;
-    Estimate split_half_cc;    ///< of halves of the observers, mean over random halves
-    Estimate reliability;      ///< the same for all observers together, by Spearman and Brown
-    Estimate kl_from_exposure; ///< bits that the map has beyond the exposure
-    Estimate nss, auc_judd, auc_borji, information_gain; ///< of each observer's fixations by the others' map
-    Estimate exposure_nss, exposure_auc;                 ///< the same by the exposure alone
+    MapPredictor by = MapPredictor::same_level;
+    std::string level; ///< of the compared column, of the predicting map; empty: exposure
+    Estimate kl;       ///< nats, of the observer's map from the predicting one
+    Estimate nss;      ///< standard deviations
+    Estimate auc_judd, auc_borji;
+    Estimate gain_over_exposure; ///< bits per fixation; of the exposure absent
+    Estimate gain_over_area;     ///< the same over gaze that is spread evenly over all that could be seen
+    int observers = 0, fixations = 0;
+};
+
+/// How well a map would come out again with other observers.
+struct MapReliabilityRow {
+    std::vector<StudyKey> keys; ///< a group's, or a single one of these: all trials with it; empty: all
+    int sculpture = 0;
+    Estimate split_half_cc; ///< of the maps of halves of the observers, mean over random halves
+    Estimate reliability;   ///< the same for all observers together, by Spearman and Brown
+    int observers = 0, fixations = 0;
+};
+
+/// What a presentation shows of a part of a sculpture.
+struct ExposureRow {
+    int sculpture = 0;
+    std::string part; ///< "all": the whole sculpture
+    double area_mm2 = 0.0;
+    double share_of_area = 0.0;
+    double never_visible = 0.0;     ///< share of its area
+    double seconds_visible = 0.0;   ///< mean over its area
+    double share_of_exposure = 0.0; ///< of the time and solid angle that the sculpture fills in the picture
+    std::optional<double> foreshortening;     ///< mean cosine of sight line and normal while it is visible
+    std::optional<double> share_of_fixations; ///< of all that are counted on the sculpture
 };
 
 /// Share of fixations on the head in a stretch of the presentation.
@@ -321,7 +376,9 @@ struct StudyResults {
     std::vector<DistributionRow> distributions;
     std::vector<PairRow> pairs;
     std::vector<DifferenceMap> differences;
-    std::vector<MapMetricsRow> metrics;
+    std::vector<MapPredictionRow> predictions;
+    std::vector<MapReliabilityRow> reliabilities;
+    std::vector<ExposureRow> exposures;
     std::vector<TimeCourseRow> time_course;
     std::vector<StudyQuality> session_quality; ///< by session
     std::vector<StudyTrace> traces;
@@ -330,5 +387,6 @@ struct StudyResults {
 /// A few words for tables and sentences.
 std::string_view name_of(NotCounted why);
 std::string_view name_of(MapWeighting weighting);
+std::string_view name_of(MapPredictor predictor);
 
 } // namespace overt

@@ -158,8 +158,12 @@ void write_study_tables(const StudyResults& results, const std::filesystem::path
     tables.write_all(time_course_layout(results), results.time_course);
     tables.write_all(study_maps_layout(results), results.maps);
     // A table without a row would look like a result.
-    if (!results.metrics.empty())
-        tables.write_all(map_metrics_layout(results), results.metrics);
+    if (!results.exposures.empty())
+        tables.write_all(exposure_layout(results), results.exposures);
+    if (!results.predictions.empty())
+        tables.write_all(map_predictions_layout(results), results.predictions);
+    if (!results.reliabilities.empty())
+        tables.write_all(map_reliability_layout(results), results.reliabilities);
     if (!results.differences.empty()) {
         tables.write(clusters_layout(results), [&](const auto& take) {
             for (const DifferenceMap& map : results.differences) {
@@ -186,8 +190,9 @@ void write_study_tables(const StudyResults& results, const std::filesystem::path
 
 bool is_study_table(const std::string& file) {
     static const std::vector<std::string> names{
-        "fixations",   "trials", "figure4_head_fraction", "figure5_distribution", "table1_pairs",
-        "time_course", "maps",   "map_metrics",           "difference_clusters",  "quality"};
+        "fixations",           "trials", "figure4_head_fraction", "figure5_distribution", "table1_pairs",
+        "time_course",         "maps",   "map_predictions",       "map_reliability",      "exposure",
+        "difference_clusters", "quality"};
     if (file == "dictionary.json" || file == "study.json")
         return true;
     const std::size_t dot = file.find('.');

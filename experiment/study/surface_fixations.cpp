@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "experiment/maps/coordinate_maps.h"
+
 namespace overt {
 
 namespace {
@@ -78,6 +80,8 @@ void find_point(StudyFixation& fixation, std::span<const PlacedSample* const> pl
         }
     }
     fixation.position = median->surface.position;
+    if (context.scale)
+        fixation.mm_per_deg = context.scale->mm_per_deg * median->surface.depth / context.scale->axis_depth;
     if (context.fine) {
         fixation.triangle = median->surface.triangle;
         fixation.barycentric = glm::max(median->surface.barycentric, glm::dvec3(0.0));
@@ -105,18 +109,33 @@ void find_spread(StudyFixation& fixation, std::span<const PlacedSample* const> p
     fixation.spread_deg = *fixation.spread_mm / (scale.mm_per_deg * depth / count / scale.axis_depth);
 }
 
-/// The share of a gaze cone around the fixation's middle sample that lands beside the sculpture, or on a
-/// sheet of surface whose depth differs by more than the kernel's sigma.
-double share_at_edge(const PlacedSample& middle, const StudyFixation& fixation,
-                     const FixationContext& context) {
-    double same_sheet = 0.0;
+/// Where else a gaze cone around the fixation's middle sample lands: its share beside the sculpture, or on a
+/// sheet of surface whose depth differs by more than the kernel's sigma, and how far the rest scatters.
+void find_cone(StudyFixation& fixation, const PlacedSample& middle, const FixationContext& context) {
+    double same_sheet = 0.0, squares = 0.0;
     const double limit = std::max(fixation.sigma_mm / context.scale->mm_per_unit, 1e-12);
     for (const WeightedSurfacePoint& place :
          context.cone->on_surface(*context.lookup, middle.pose, middle.gaze)) {
-        if (std::abs(place.point.depth - middle.surface.depth) <= limit)
-            same_sheet += place.weight;
+        if (std::abs(place.point.depth - middle.surface.depth) > limit)
+            continue;
+        const glm::dvec3 off = place.point.position - middle.surface.position;
+        same_sheet += place.weight;
+        squares += place.weight * glm::dot(off, off);
     }
-    return std::clamp(1.0 - same_sheet, 0.0, 1.0);
+    fixation.cone_at_edge = std::clamp(1.0 - same_sheet, 0.0, 1.0);
+    if (same_sheet > 0.0)
+        fixation.cone_mm = std::sqrt(squares / same_sheet) * context.scale->mm_per_unit;
+}
+
+/// How far the point that the map gave for a sample lies from its line of sight, which it should be on.
+std::optional<double> lut_error_mm(const PlacedSample& sample, const FixationContext& context) {
+    const auto* maps = dynamic_cast<const CoordinateMaps*>(context.lookup);
+    if (!maps || !context.screen || !sample.is_on_surface)
+        return std::nullopt;
+    const SightLines& lines = maps->sight_lines(sample.pose);
+    const glm::dvec3 seen = lines.project(sample.surface.position);
+    const double off_px = glm::distance(glm::dvec2(seen), context.screen->image_from_screen(sample.gaze));
+    return off_px * lines.pixel_width_at(seen.z) * context.scale->mm_per_unit;
 }
 
 } // namespace
@@ -179,8 +198,10 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
         find_part(fixation, placed);
         if (context.scale) {
             find_spread(fixation, placed, *context.scale);
+            const PlacedSample& middle = *placed[placed.size() / 2];
             if (context.cone && context.lookup)
-                fixation.cone_at_edge = share_at_edge(*placed[placed.size() / 2], fixation, context);
+                find_cone(fixation, middle, context);
+            fixation.lut_mm = lut_error_mm(middle, context);
         }
     }
     if (fixation.onset_s < 0.0)

@@ -37,11 +37,12 @@ struct FixationContext {
     std::span<const Degrees> angles;          ///< by PoseIndex
     const std::optional<SurfaceScale>& scale; ///< nothing without a known camera
     bool has_surface = false;
-    const SurfaceGeometry* fine = nullptr; ///< the sculpture's mesh; null without one
-    const CoarseSurface* coarse = nullptr; ///< of that; null without a scale
-    GeodesicField* field = nullptr;        ///< on the coarse surface; the same
-    const SurfaceLookup* lookup = nullptr; ///< for the gaze cone; may be null
-    const GazeCone* cone = nullptr;        ///< the same
+    const SurfaceGeometry* fine = nullptr;  ///< the sculpture's mesh; null without one
+    const CoarseSurface* coarse = nullptr;  ///< of that; null without a scale
+    GeodesicField* field = nullptr;         ///< on the coarse surface; the same
+    const SurfaceLookup* lookup = nullptr;  ///< for the gaze cone; may be null
+    const GazeCone* cone = nullptr;         ///< the same
+    const ScreenGeometry* screen = nullptr; ///< for the error of the look-up; null: it is not reckoned
 };
 
 /// A fixation of the events with the samples that are its own. Those that ended before the onset, or began

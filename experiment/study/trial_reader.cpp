@@ -144,7 +144,8 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                                   surface.coarse,
                                   surface.field,
                                   surface.lookup,
-                                  cone ? &*cone : nullptr};
+                                  cone ? &*cone : nullptr,
+                                  &header.display.screen};
     for (const GazeEvent& event : events) {
         if (event.kind != GazeEvent::Kind::fixation)
             continue;

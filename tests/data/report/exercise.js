@@ -61,7 +61,14 @@ window.addEventListener('load', () => setTimeout(() => {
   step('viridis', () => choose('map_colours', 0), both);
   if (!by('map_kind').options[1].disabled) {
     step('differences', () => choose('map_kind', 1), both);
+    step('significant clusters', () => choose('map_clusters', 1), both);
+    step('all differences', () => choose('map_clusters', 0), both);
     step('densities', () => choose('map_kind', 0), both);
+  }
+  if (!by('map_kind').options[2].disabled) {
+    step('exposure', () => choose('map_kind', 2), both);
+    step('the other quantity', () => choose('pick_a_quantity', 1), () => [look('stage_a').sum, by('caption_a').textContent]);
+    step('densities again', () => choose('map_kind', 0), both);
   }
   step('unit of figure 5', () => choose('unit5', 1), () => by('figure5').textContent);
   const trial = () => [by('trial_caption').textContent, by('trace').innerHTML.length];

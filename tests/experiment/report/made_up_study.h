@@ -51,7 +51,9 @@ inline StudyMap map(const StudyResults& study, int group, int on, MapWeighting w
     made.least_sigma_mm = 28.5;
     made.most_sigma_mm = 31.0;
     made.euclidean_leak = 0.042;
-    made.together_mm = 12.5;
+    made.error.accuracy_mm = 12.0;
+    made.error.together_mm = 12.5;
+    made.error.near_edge = 0.1;
     return made;
 }
 
@@ -197,9 +199,21 @@ inline StudyResults made_up_study() {
     difference.b = "smooth";
     for (std::size_t v = 0; v < study.maps[0].density.size(); ++v)
         difference.difference.push_back(study.maps[0].density[v] - study.maps[2].density[v]);
-    difference.clusters.push_back({{1, 2}, 30.0, 12.0, 0.03});
+    difference.cluster.assign(difference.difference.size(), 0);
+    std::fill_n(difference.cluster.begin(), 60, std::uint16_t{1});
+    difference.clusters.push_back({30.0, 12.0, {1.0, 2.0, 3.0}, PartIndex{1}, 0.04, 0.03, 0.06});
+    difference.observers = 6;
+    difference.least_p = 1.0 / 32.0;
     study.differences.push_back(difference);
-    study.metrics.emplace_back();
+    MapPredictionRow prediction;
+    prediction.nss = Estimate::of(1.2, Interval{0.8, 1.5});
+    prediction.kl = Estimate::none("no other observer has fixations there");
+    study.predictions.push_back(prediction);
+    MapReliabilityRow reliability;
+    reliability.reliability = Estimate::of(0.8, Interval{0.6, 0.9});
+    study.reliabilities.push_back(reliability);
+    study.exposures.push_back({0, "all", 31400.0, 1.0, 0.35, 4.0, 1.0, 0.5, 1.0});
+    study.exposures.push_back({0, "head", 3140.0, 0.1, 0.2, 5.0, 0.12, std::nullopt, 0.4});
     for (int trial = 0; trial < 4; ++trial)
         made_up::add_trial(study, trial);
     return study;

@@ -59,12 +59,15 @@ TEST_CASE("the report's data come back from the page, whatever a session's texts
 TEST_CASE("coloured meshes are written of all maps that there are, with an index", "[unit]") {
     const test::TemporaryFolder folder;
     const StudyResults study = test::made_up_study();
-    // Eight maps by duration and one difference; the last map, which is by count, is absent.
-    CHECK(write_surfaces(study, folder.path() / "surfaces") == 9);
+    // Eight maps by duration, one difference, and of two sculptures the exposure and the time visible; the
+    // last map, which is by count, is absent.
+    CHECK(write_surfaces(study, folder.path() / "surfaces") == 13);
+    CHECK(std::filesystem::exists(folder.path() / "surfaces/exposure_ball.glb"));
+    CHECK(std::filesystem::exists(folder.path() / "surfaces/visible_globe.ply"));
     CHECK(std::filesystem::exists(folder.path() /
                                   "surfaces/map_ball_task_free__sculpture_ball__material_smooth.glb"));
     const std::string index = read_whole_file(folder.path() / "surfaces/index.csv");
-    CHECK(std::count(index.begin(), index.end(), '\n') == 10);
+    CHECK(std::count(index.begin(), index.end(), '\n') == 14);
 }
 
 TEST_CASE("the report opens in a browser without errors, and each control changes what is shown", "[gl]") {
@@ -90,7 +93,7 @@ TEST_CASE("the report opens in a browser without errors, and each control change
     CHECK(seen["blank"].dump() == "[]");
     CHECK(seen["bad_texts"].dump() == "[]");
     CHECK(seen["svg_nan"] == 0);
-    CHECK(seen["steps"].size() >= 27);
+    CHECK(seen["steps"].size() >= 32);
     for (const auto& step : seen["steps"]) {
         INFO(step["name"].get<std::string>());
         CHECK(step["changed"] == true);

@@ -1,0 +1,143 @@
+#include "experiment/study/difference_maps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "experiment/study/study_maps.h"
+#include "experiment/surface/coarse_to_fine.h"
+
+namespace overt {
+
+namespace {
+
+/// The share of an observer's time of fixation, by vertex and mm^2.
+std::vector<double> share_of_time(const FixationMaps& maps, const Fixations& fixations) {
+    std::vector<double> map = maps.durations_of(fixations);
+    double seconds = 0.0;
+    for (const StudyFixation* fixation : fixations)
+        seconds += fixation->duration_s;
+    for (double& value : map)
+        value /= seconds;
+    return map;
+}
+
+/// Of each observer who saw the sculpture in both levels.
+std::vector<std::vector<float>> observer_differences(const StudyResults& results, const StudyGroup& group,
+                                                     const DifferenceMap& of, const FixationMaps& maps) {
+    std::vector<std::vector<float>> differences;
+    for (const auto& [observer, trials] : by_observer(results, group.trials)) {
+        std::vector<int> in_a, in_b;
+        for (const int trial : trials) {
+            const std::string& level = results.trials[static_cast<std::size_t>(trial)].key(of.column);
+            if (level == of.a)
+                in_a.push_back(trial);
+            else if (level == of.b)
+                in_b.push_back(trial);
+        }
+        const Fixations a = fixations_on(results, in_a, of.sculpture),
+                        b = fixations_on(results, in_b, of.sculpture);
+        if (a.empty() || b.empty())
+            continue;
+        const std::vector<double> share_a = share_of_time(maps, a), share_b = share_of_time(maps, b);
+        std::vector<float>& difference = differences.emplace_back();
+        for (std::size_t v = 0; v < share_a.size(); ++v)
+            difference.push_back(static_cast<float>(share_a[v] - share_b[v]));
+    }
+    return differences;
+}
+
+DifferenceMap::Cluster cluster_of(const Cluster& found, const FixationMaps& maps,
+                                  std::span<const float> mean) {
+    DifferenceMap::Cluster cluster;
+    cluster.mass = found.mass;
+    cluster.area_mm2 = found.area;
+    cluster.p = found.p;
+    std::array<double, 256> of_part{};
+    double weights = 0.0;
+    for (const std::uint32_t v : found.vertices) {
+        const double difference = maps.areas()[v] * static_cast<double>(mean[v]),
+                     weight = std::abs(difference);
+        cluster.centroid_mm += weight * glm::dvec3(maps.surface().mesh().positions[v]);
+        weights += weight;
+        cluster.difference += difference;
+        of_part[maps.part(v)] += weight;
+    }
+    if (weights > 0.0)
+        cluster.centroid_mm /= weights;
+    cluster.part = static_cast<PartIndex>(std::max_element(of_part.begin(), of_part.end()) - of_part.begin());
+    return cluster;
+}
+
+void test_differences(DifferenceMap& of, std::span<const std::vector<float>> differences,
+                      const FixationMaps& maps, const CoarseToFine& to_fine, const StudyOptions& options) {
+    ClusterTestSettings settings;
+    settings.permutations = options.permutations;
+    settings.seed = options.seed;
+    const ClusterTest test = cluster_test(differences, maps.visible_areas(), maps.adjacency(), settings);
+    of.threshold_t = test.threshold_t;
+    of.least_p = 1.0 / static_cast<double>(test.permutations);
+    of.difference = to_fine.at_vertices(test.mean);
+    std::vector<std::uint16_t> numbers(test.mean.size(), 0);
+    constexpr std::size_t most_clusters = std::numeric_limits<std::uint16_t>::max();
+    for (std::size_t i = 0; i < std::min(test.clusters.size(), most_clusters); ++i) {
+        of.clusters.push_back(cluster_of(test.clusters[i], maps, test.mean));
+        for (const std::uint32_t v : test.clusters[i].vertices)
+            numbers[v] = static_cast<std::uint16_t>(i + 1);
+    }
+    for (const std::uint32_t vertex : to_fine.nearest())
+        of.cluster.push_back(numbers[vertex]);
+}
+
+} // namespace
+
+std::vector<DifferenceMap> difference_maps(const StudyResults& results, const SculptureFixationMaps& maps,
+                                           const LevelLists& levels, const StudyOptions& options) {
+    std::vector<DifferenceMap> rows;
+    const std::vector<std::string> others = columns_beside_compared(options),
+                                   compared = levels_of(results, options.compare, levels);
+    std::vector<StudyGroup> groups = make_groups(results, {}, levels);
+    if (!others.empty())
+        std::ranges::copy(make_groups(results, others, levels), std::back_inserter(groups));
+    for (std::size_t sculpture = 0; sculpture < maps.size(); ++sculpture) {
+        if (!maps[sculpture])
+            continue;
+        std::optional<CoarseToFine> to_fine;
+        for (const StudyGroup& group : groups) {
+            for (std::size_t a = 0; a < compared.size(); ++a) {
+                for (std::size_t b = a + 1; b < compared.size(); ++b) {
+                    DifferenceMap row;
+                    row.keys = group.keys;
+                    row.sculpture = static_cast<int>(sculpture);
+                    row.column = options.compare;
+                    row.a = compared[a];
+                    row.b = compared[b];
+                    const auto differences = observer_differences(results, group, row, *maps[sculpture]);
+                    row.observers = static_cast<int>(differences.size());
+                    if (differences.empty())
+                        continue;
+                    if (differences.size() == 1) {
+                        row.absent = "one observer alone saw it in both levels";
+                    } else {
+                        if (!to_fine)
+                            to_fine.emplace(maps[sculpture]->surface(), maps[sculpture]->fine());
+                        test_differences(row, differences, *maps[sculpture], *to_fine, options);
+                    }
+                    rows.push_back(std::move(row));
+                }
+            }
+        }
+    }
+    const auto tested = static_cast<double>(
+        std::ranges::count_if(rows, [](const DifferenceMap& row) { return row.absent.empty(); }));
+    for (DifferenceMap& row : rows) {
+        for (DifferenceMap::Cluster& cluster : row.clusters)
+            cluster.p_of_all = std::min(1.0, cluster.p * tested);
+    }
+    return rows;
+}
+
+} // namespace overt
