@@ -42,7 +42,8 @@ TEST_CASE("the onset of a voice is found within 10 ms, in rooms from silent to n
                 finder.add(sound_with_voice(noise_dbfs, -24.0, begin_s, end_s, 3.0, rate_hz, seed));
                 const auto voice = finder.voice();
                 REQUIRE(voice);
-                CHECK(std::abs(voice->begin / rate_hz - begin_s) < 0.010);
+                // Where the voice stands far above the noise, to the three milliseconds that tell it.
+                CHECK(std::abs(voice->begin / rate_hz - begin_s) < (noise_dbfs <= -55.0 ? 0.003 : 0.010));
                 CHECK(std::abs(voice->end / rate_hz - end_s) < 0.025);
                 CHECK(finder.noise_dbfs() == Approx(noise_dbfs).margin(1.0));
                 CHECK(finder.clipped_samples() == 0);
