@@ -22,12 +22,13 @@ inline double clipped(double light) {
 // nothing is rounded differently by one processor than by another.
 using Four = double __attribute__((vector_size(32)));
 using FourInts = std::int32_t __attribute__((vector_size(16)));
-using FourLongs = std::int64_t __attribute__((vector_size(32)));
+using FourLongs = std::uint64_t __attribute__((vector_size(32)));
 
-inline __attribute__((always_inline)) void take_clipped(const double* lights, Four& light) {
+/// To least … 1; what is not a number is `least`.
+inline __attribute__((always_inline)) void take_clipped(const double* lights, double least, Four& light) {
     std::memcpy(&light, lights, sizeof light);
-    const Four zero{}, one = zero + 1.0;
-    light = light > zero ? light : zero;
+    const Four zero{}, low = zero + least, one = zero + 1.0;
+    light = light > low ? light : low;
     light = light < one ? light : one;
 }
 
@@ -37,27 +38,28 @@ void linear_levels(const double* lights, std::size_t count, double levels, int* 
     const Four all_levels = Four{} + levels, all_halves = Four{} + LevelTable::half;
     for (std::size_t i = 0; i < count; i += 4) {
         Four light;
-        take_clipped(lights + i, light);
+        take_clipped(lights + i, 0.0, light);
         const FourInts level = __builtin_convertvector(light * all_levels + all_halves, FourInts);
         std::memcpy(into + i, &level, sizeof level);
     }
 }
 
-/// LevelTable::told of each; `count`: a multiple of 4.
+/// The level of each, or LevelTable::untold; `count`: a multiple of 4. `first_bucket` begins at `least`.
 OVERT_PROCESSOR_CLONES("avx2")
-void told_levels(const double* lights, std::size_t count, const LevelTable::Piece* pieces,
-                 std::int64_t first_bucket, int below_bucket, int* into) {
-    const FourLongs first = FourLongs{} + first_bucket, zero{};
+void told_levels(const double* lights, std::size_t count, const LevelTable::Piece* pieces, double least,
+                 std::uint64_t first_bucket, int below_bucket, int* into) {
+    const FourLongs first = FourLongs{} + first_bucket;
     for (std::size_t i = 0; i < count; i += 4) {
         Four light, begin;
-        take_clipped(lights + i, light);
+        take_clipped(lights + i, least, light);
         FourLongs bits;
         std::memcpy(&bits, &light, sizeof bits);
         const FourLongs number = bits >> below_bucket;
         bits = number << below_bucket;
         std::memcpy(&begin, &bits, sizeof begin);
-        FourLongs bucket = number - first;
-        bucket = bucket > zero ? bucket : zero;
+        std::uint64_t bucket[4];
+        const FourLongs buckets = number - first;
+        std::memcpy(bucket, &buckets, sizeof bucket);
         Four a, b, c, d;
         std::memcpy(&a, pieces + bucket[0], sizeof a);
         std::memcpy(&b, pieces + bucket[1], sizeof b);
@@ -107,11 +109,9 @@ void LevelTable::tabulate(const std::function<double(double)>& curve) {
 
     // A curve may be flat at its beginning: where the light of borders is 0, nothing is to be found.
     const auto lit = std::upper_bound(borders_.begin(), borders_.end(), 0.0);
-    first_bucket_ = bucket_of(lit == borders_.end() ? 1.0 : std::min(*lit, 1.0)) - 1;
+    first_bucket_ =
+        std::max<std::int64_t>(bucket_of(lit == borders_.end() ? 1.0 : std::min(*lit, 1.0)) - 1, 0);
     const std::int64_t last_bucket = bucket_of(1.0);
-    const auto begin_of = [](std::int64_t number) {
-        return number <= 0 ? 0.0 : std::bit_cast<double>(number << below_bucket);
-    };
     for (std::int64_t number = first_bucket_; number <= last_bucket; ++number) {
         const double low = number == first_bucket_ ? 0.0 : begin_of(number);
         firsts_.push_back(
@@ -184,7 +184,8 @@ void LevelTable::find_fours(const double* lights, std::size_t count, int* levels
         linear_levels(lights, count, levels_, levels);
         return;
     }
-    told_levels(lights, count, pieces_.data(), first_bucket_, below_bucket, levels);
+    told_levels(lights, count, pieces_.data(), begin_of(first_bucket_),
+                static_cast<std::uint64_t>(first_bucket_), below_bucket, levels);
     for (std::size_t i = 0; i < count; i += 4) {
         // `untold` alone is negative.
         if ((levels[i] | levels[i + 1] | levels[i + 2] | levels[i + 3]) >= 0) [[likely]]

@@ -54,6 +54,7 @@ class LevelTable {
     /// Bits of a double below those that number its bucket.
     static constexpr int below_bucket = 52 - 6;
     static std::int64_t bucket_of(double light) { return std::bit_cast<std::int64_t>(light) >> below_bucket; }
+    static double begin_of(std::int64_t bucket) { return std::bit_cast<double>(bucket << below_bucket); }
 
     void tabulate(const std::function<double(double)>& curve);
     Piece piece_of(std::size_t bucket, double low, double high) const;
