@@ -1,7 +1,10 @@
 #include "experiment/study/analyze_study.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <mutex>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -9,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "experiment/base/counted.h"
+#include "experiment/base/parallel.h"
 #include "experiment/study/difference_maps.h"
 #include "experiment/study/error_budget.h"
 #include "experiment/study/fixation_maps.h"
@@ -78,16 +82,51 @@ void glance_at(StudyResults& results) {
         remarks.push_back("The gaze of some sessions is that of simulated observers.");
 }
 
-void analyze_sculpture(ReadStudy& study, int sculpture, const StudyOptions& options) {
-    StudyResults& results = study.results;
-    const SculptureSurface& surface = study.surfaces[static_cast<std::size_t>(sculpture)];
+struct SculptureMaps {
+    std::vector<float> exposure;
+    std::vector<StudyMap> maps;
+};
+
+/// Of one sculpture, beside others. Writes to `surface` alone.
+SculptureMaps maps_of_sculpture(const StudyResults& results, int sculpture, SculptureSurface& surface,
+                                const StudyOptions& options) {
     const StudySculpture& shown = results.sculptures[static_cast<std::size_t>(sculpture)];
-    const double widest = widest_sigma_mm(results, sculpture);
+    const auto [least, widest] = sigma_range_mm(results, sculpture);
+    SculptureMaps made;
     std::optional<MapMaker> maker;
-    if (surface.geometry && surface.scale && widest > 0.0)
+    if (surface.geometry && surface.scale && widest > 0.0) {
+        if (HatSmoother::is_worth_while(*surface.geometry, least))
+            surface.hats = std::make_unique<HatSmoother>(*surface.geometry, least, widest);
         maker.emplace(surface, *shown.mesh, options, widest);
-    add_maps(results, sculpture, surface, maker ? &*maker : nullptr, options);
-    add_error_budget(results, sculpture, surface);
+        made.exposure = exposure_density(results, sculpture, surface, *maker, options);
+    }
+    made.maps = maps_on(results, sculpture, surface, maker ? &*maker : nullptr);
+    return made;
+}
+
+/// Sculptures beside each other; the results come in their order.
+void add_maps(ReadStudy& study, const StudyOptions& options, const StudyProgress& progress) {
+    StudyResults& results = study.results;
+    const int sculptures = static_cast<int>(results.sculptures.size());
+    std::vector<SculptureMaps> made(results.sculptures.size());
+    int done = 0;
+    std::mutex progress_mutex;
+    progress("maps", 0, sculptures);
+    parallel_for(sculptures, [&](int sculpture) {
+        const auto index = static_cast<std::size_t>(sculpture);
+        made[index] = maps_of_sculpture(results, sculpture, study.surfaces[index], options);
+        const std::scoped_lock lock(progress_mutex);
+        progress("maps", ++done, sculptures);
+    });
+    for (std::size_t i = 0; i < made.size(); ++i) {
+        results.sculptures[i].exposure_density = std::move(made[i].exposure);
+        std::ranges::move(made[i].maps, std::back_inserter(results.maps));
+    }
+    for (int sculpture = 0; sculpture < sculptures; ++sculpture)
+        add_error_budget(results, sculpture, study.surfaces[static_cast<std::size_t>(sculpture)]);
+    std::stable_sort(results.maps.begin(), results.maps.end(), [](const StudyMap& a, const StudyMap& b) {
+        return std::tie(a.group, a.sculpture, a.weighting) < std::tie(b.group, b.sculpture, b.weighting);
+    });
 }
 
 /// The share of the fixations on each part, beside its share of the exposure.
@@ -139,15 +178,7 @@ StudyResults analyze_study(std::span<const std::filesystem::path> sessions, cons
     glance_at(results);
     results.groups = make_groups(results, options.by, study.levels);
 
-    const int sculptures = static_cast<int>(results.sculptures.size());
-    for (int sculpture = 0; sculpture < sculptures; ++sculpture) {
-        progress("maps", sculpture, sculptures);
-        analyze_sculpture(study, sculpture, options);
-    }
-    progress("maps", sculptures, sculptures);
-    std::stable_sort(results.maps.begin(), results.maps.end(), [](const StudyMap& a, const StudyMap& b) {
-        return std::tie(a.group, a.sculpture, a.weighting) < std::tie(b.group, b.sculpture, b.weighting);
-    });
+    add_maps(study, options, progress);
     results.head_fractions = head_fractions(results, study.levels, options);
     results.distributions = point_distributions(results, study.surfaces, options);
     results.time_course = head_time_course(results, study.levels, options);

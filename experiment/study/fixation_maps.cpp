@@ -11,7 +11,6 @@ namespace overt {
 FixationMaps::FixationMaps(const StudyResults& results, int sculpture, const SculptureSurface& surface)
     : surface_(surface), areas_(surface.coarse_geometry->vertex_areas_mm2()) {
     const StudySculpture& shown = results.sculptures[static_cast<std::size_t>(sculpture)];
-    const double widest = widest_sigma_mm(results, sculpture);
     const Mesh& mesh = surface.coarse->mesh();
     std::vector<std::vector<SurfaceWeight>> weights;
     for (const StudyFixation& fixation : results.fixations) {
@@ -28,15 +27,27 @@ FixationMaps::FixationMaps(const StudyResults& results, int sculpture, const Scu
                     places.push_back({mesh.triangles[weight.place.triangle][corner], share});
             }
         }
-        weights.emplace_back(moved.begin(), moved.end());
+        if (surface.hats)
+            weights.push_back({weight_of(fixation, 1.0)});
+        else
+            weights.emplace_back(moved.begin(), moved.end());
     }
-    const SurfaceSmoother smoother(*surface.coarse_geometry, widest);
+    std::vector<std::uint32_t> nodes;
+    std::unique_ptr<SurfaceSmoother> smoother;
+    if (surface.hats) {
+        for (std::uint32_t v = 0; v < areas_.size(); ++v)
+            nodes.push_back(surface.coarse->fine_node_of(v));
+    } else {
+        const double widest = sigma_range_mm(results, sculpture).second;
+        smoother = std::make_unique<SurfaceSmoother>(*surface.coarse_geometry, widest);
+    }
     maps_.reserve(weights.size());
     // Some at a time: in double they take twice the memory.
     constexpr std::size_t at_a_time = 256;
     for (std::size_t begin = 0; begin < weights.size(); begin += at_a_time) {
         const auto some = std::span(weights).subspan(begin, std::min(at_a_time, weights.size() - begin));
-        for (const std::vector<double>& density : smoother.densities(some))
+        for (const std::vector<double>& density :
+             surface.hats ? surface.hats->densities_at(some, nodes, areas_) : smoother->densities(some))
             maps_.emplace_back(density.begin(), density.end());
     }
     find_visible(shown);
@@ -117,7 +128,7 @@ SculptureFixationMaps fixation_maps(const StudyResults& results,
                                     const std::vector<SculptureSurface>& surfaces) {
     SculptureFixationMaps maps(surfaces.size());
     for (std::size_t i = 0; i < maps.size(); ++i) {
-        if (surfaces[i].coarse && widest_sigma_mm(results, static_cast<int>(i)) > 0.0)
+        if (surfaces[i].coarse && sigma_range_mm(results, static_cast<int>(i)).second > 0.0)
             maps[i] = std::make_unique<FixationMaps>(results, static_cast<int>(i), surfaces[i]);
     }
     return maps;

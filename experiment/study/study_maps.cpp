@@ -13,13 +13,13 @@ namespace overt {
 MapMaker::MapMaker(const SculptureSurface& surface, const Mesh& mesh, const StudyOptions& options,
                    double widest_sigma_mm)
     : surface_(surface), mesh_(mesh), kernel_(options.kernel) {
-    if (kernel_ == MapKernel::geodesic)
+    if (kernel_ == MapKernel::geodesic && !surface.hats)
         smoother_ = std::make_unique<SurfaceSmoother>(*surface.geometry, widest_sigma_mm);
 }
 
 std::vector<std::vector<double>> MapMaker::densities(std::span<const std::vector<SurfaceWeight>> maps) const {
-    if (smoother_)
-        return smoother_->densities(maps);
+    if (kernel_ == MapKernel::geodesic)
+        return surface_.hats ? surface_.hats->densities(maps) : smoother_->densities(maps);
     std::vector<std::vector<double>> made(maps.size());
     if (kernel_ == MapKernel::voxel) {
         for (std::size_t i = 0; i < maps.size(); ++i)
@@ -82,14 +82,16 @@ std::vector<const StudyFixation*> fixations_on(const StudyResults& results, std:
     return found;
 }
 
-double widest_sigma_mm(const StudyResults& results, int sculpture) {
-    double widest = 0.0;
+std::pair<double, double> sigma_range_mm(const StudyResults& results, int sculpture) {
+    double least = 0.0, widest = 0.0;
     for (const StudyFixation& fixation : results.fixations) {
         if (fixation.counted() &&
-            results.trials[static_cast<std::size_t>(fixation.trial)].sculpture == sculpture)
+            results.trials[static_cast<std::size_t>(fixation.trial)].sculpture == sculpture) {
+            least = widest > 0.0 ? std::min(least, fixation.sigma_mm) : fixation.sigma_mm;
             widest = std::max(widest, fixation.sigma_mm);
+        }
     }
-    return widest;
+    return {least, widest};
 }
 
 namespace {
@@ -99,11 +101,15 @@ double weight_in(MapWeighting weighting, const StudyFixation& fixation) {
     return weighting == MapWeighting::duration ? 1e3 * fixation.duration_s : 1.0;
 }
 
-void add_exposure(StudySculpture& sculpture, const SculptureSurface& surface, const MapMaker& maker,
-                  const StudyOptions& options, double widest) {
+} // namespace
+
+std::vector<float> exposure_density(const StudyResults& results, int of, const SculptureSurface& surface,
+                                    const MapMaker& maker, const StudyOptions& options) {
+    const StudySculpture& sculpture = results.sculptures[static_cast<std::size_t>(of)];
+    const auto [least, widest] = sigma_range_mm(results, of);
     const double all = std::accumulate(surface.pixel_seconds.begin(), surface.pixel_seconds.end(), 0.0);
     if (!(all > 0.0))
-        return;
+        return {};
     // The depth as it stands in the middle of its swing.
     const View view{sculpture.camera, sculpture.screen.image_px};
     std::vector<bool> is_done(surface.pixel_seconds.size(), false);
@@ -118,12 +124,15 @@ void add_exposure(StudySculpture& sculpture, const SculptureSurface& surface, co
             barycentric[corner] = 1.0;
             const double sigma = surface.scale->sigma_mm(
                 options.sigma, view.depth_of(glm::dvec3(sculpture.mesh->positions[v])));
-            weights[0].push_back({{t, barycentric}, surface.pixel_seconds[v] / all, std::min(sigma, widest)});
+            weights[0].push_back(
+                {{t, barycentric}, surface.pixel_seconds[v] / all, std::clamp(sigma, least, widest)});
         }
     }
     const std::vector<double> density = maker.densities(weights).front();
-    sculpture.exposure_density.assign(density.begin(), density.end());
+    return {density.begin(), density.end()};
 }
+
+namespace {
 
 StudyMap map_of(const StudyResults& results, int group, int sculpture, MapWeighting weighting) {
     StudyMap map;
@@ -154,11 +163,9 @@ void finish_map(StudyMap& map, const std::vector<double>& density, std::span<con
 
 } // namespace
 
-void add_maps(StudyResults& results, int sculpture, const SculptureSurface& surface, const MapMaker* maker,
-              const StudyOptions& options) {
-    StudySculpture& shown = results.sculptures[static_cast<std::size_t>(sculpture)];
-    if (maker)
-        add_exposure(shown, surface, *maker, options, widest_sigma_mm(results, sculpture));
+std::vector<StudyMap> maps_on(const StudyResults& results, int sculpture, const SculptureSurface& surface,
+                              const MapMaker* maker) {
+    const StudySculpture& shown = results.sculptures[static_cast<std::size_t>(sculpture)];
     std::vector<StudyMap> maps;
     std::vector<std::vector<SurfaceWeight>> weights;
     for (int group = 0; group < static_cast<int>(results.groups.size()); ++group) {
@@ -196,8 +203,7 @@ void add_maps(StudyResults& results, int sculpture, const SculptureSurface& surf
                 finish_map(maps[i], densities[i], surface.areas_mm2);
         }
     }
-    for (StudyMap& map : maps)
-        results.maps.push_back(std::move(map));
+    return maps;
 }
 
 } // namespace overt

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "experiment/study/study_groups.h"
@@ -16,11 +17,12 @@ namespace overt {
 /// Makes densities on one sculpture's mesh with the kernel that the options name.
 class MapMaker {
   public:
-    /// `surface` must have a geometry and a scale, and outlive this, as `mesh` must. `widest_sigma_mm` > 0.
+    /// `surface` must have a geometry and a scale, and outlive this, as `mesh` must; its hats are used if it
+    /// has them. `widest_sigma_mm` > 0.
     MapMaker(const SculptureSurface& surface, const Mesh& mesh, const StudyOptions& options,
              double widest_sigma_mm);
 
-    /// Density by vertex in weight per mm^2 for each of the maps. Sigmas: up to the widest.
+    /// Density by vertex in weight per mm^2 for each of the maps. Sigmas: those of counted fixations.
     std::vector<std::vector<double>> densities(std::span<const std::vector<SurfaceWeight>> maps) const;
 
   private:
@@ -42,11 +44,16 @@ std::vector<int> sculptures_of(const StudyResults& results, const StudyGroup& gr
 std::vector<const StudyFixation*> fixations_on(const StudyResults& results, std::span<const int> trials,
                                                int sculpture);
 
-/// The widest kernel of the counted fixations on a sculpture; 0 without any.
-double widest_sigma_mm(const StudyResults& results, int sculpture);
+/// The narrowest and the widest kernel of the counted fixations on a sculpture; 0 and 0 without any.
+std::pair<double, double> sigma_range_mm(const StudyResults& results, int sculpture);
 
-/// Adds the maps of all groups on one sculpture, by duration and by count, and its exposure.
-void add_maps(StudyResults& results, int sculpture, const SculptureSurface& surface, const MapMaker* maker,
-              const StudyOptions& options);
+/// The exposure's density by vertex of one sculpture; empty without one.
+std::vector<float> exposure_density(const StudyResults& results, int sculpture,
+                                    const SculptureSurface& surface, const MapMaker& maker,
+                                    const StudyOptions& options);
+
+/// The maps of all groups on one sculpture, by duration and by count. May be called from any thread.
+std::vector<StudyMap> maps_on(const StudyResults& results, int sculpture, const SculptureSurface& surface,
+                              const MapMaker* maker);
 
 } // namespace overt

@@ -14,6 +14,7 @@
 #include "experiment/study/study_groups.h"
 #include "experiment/study/study_options.h"
 #include "experiment/study/surface_fixations.h"
+#include "experiment/surface/hat_smoother.h"
 #include "experiment/surface/surface_geometry.h"
 
 namespace overt {
@@ -35,6 +36,8 @@ struct SculptureSurface {
     /// For statistics over many maps, and ways along the surface; null without a geometry or a scale.
     std::unique_ptr<CoarseSurface> coarse;
     std::unique_ptr<SurfaceGeometry> coarse_geometry;
+    /// Heat on the surface with the kernels of the counted fixations; null where all nodes are as good.
+    std::unique_ptr<HatSmoother> hats;
     std::vector<double> pixel_seconds; ///< see Exposure
 };
 

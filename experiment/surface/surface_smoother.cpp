@@ -4,6 +4,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
+#include "experiment/surface/heat_flow.h"
 
 namespace overt {
 namespace {
@@ -63,22 +64,13 @@ SurfaceSmoother::densities_together(std::span<const std::vector<SurfaceWeight>> 
                 mass[together * source.nodes[corner] + source.map] += source.steps[k] * source.masses[corner];
         }
     };
-    // Clenshaw's recurrence in 2 S - 1, with S = (areas) (factor)^-1 for one step.
-    std::vector<double> mass(together * areas.size(), 0.0), before(mass.size(), 0.0), density;
-    for (std::size_t k = HeatTimes::steps; k-- > 0;) {
-        if (k + 1 < HeatTimes::steps) {
-            const double twice = k > 0 ? 2.0 : 1.0;
-            density = mass;
-            factor_.solve(density);
-            for (std::size_t node = 0; node < areas.size(); ++node) {
-                for (std::size_t i = together * node; i < together * (node + 1); ++i)
-                    before[i] = twice * (2.0 * areas[node] * density[i] - mass[i]) - before[i];
-            }
-            std::swap(mass, before);
+    const auto multiply = [&](std::vector<double>& densities) {
+        for (std::size_t node = 0; node < areas.size(); ++node) {
+            for (std::size_t i = together * node; i < together * (node + 1); ++i)
+                densities[i] *= areas[node];
         }
-        add_sources(mass, k);
-    }
-    factor_.solve(mass);
+    };
+    const std::vector<double> mass = heat_densities(factor_, multiply, add_sources);
     std::vector<std::vector<double>> results;
     std::vector<double> of_nodes(areas.size());
     for (std::size_t map = 0; map < maps.size(); ++map) {
