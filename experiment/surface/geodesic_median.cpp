@@ -79,7 +79,13 @@ GeodesicMedian geodesic_median(GeodesicField& field, std::span<const SurfaceWeig
     double straight_sum = 0.0;
     const auto sum_from = [&](std::size_t candidate) {
         GeodesicMedian median{candidate, 0.0, 0.0};
-        field.spread_from(weights[candidate].place, reach);
+        // Nearly always all places lie nearer than this, and the rest of the surface need not be gone over.
+        field.spread_from(weights[candidate].place, std::min(2.5 * widest + 1e-3, reach));
+        const auto is_reached_from_here = [&](const SurfaceWeight& weight) {
+            return field.to(weight.place) < GeodesicField::unreached;
+        };
+        if (!std::ranges::all_of(weights, is_reached_from_here))
+            field.spread_from(weights[candidate].place, reach);
         straight_sum = 0.0;
         for (std::size_t i = 0; i < weights.size(); ++i) {
             const double way = field.to(weights[i].place);

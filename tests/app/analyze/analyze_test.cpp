@@ -5,38 +5,13 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/small_experiment.h"
+#include "tests/app/analyze/small_study.h"
 #include "tests/support/tsv_file.h"
 
 namespace fs = std::filesystem;
 using namespace overt::test;
 
 namespace {
-
-/// Three observers of the small experiment.
-class SmallStudy {
-  public:
-    explicit SmallStudy(std::string_view protocol = small_protocol) : experiment(protocol) {
-        for (const std::string number : {"1", "2", "3"}) {
-            // Each with eyes and a tracker of its own.
-            REQUIRE(experiment
-                        .overt({"run", experiment.protocol().string(), "--simulate-observer", number,
-                                "--virtual-time", "--sessions", experiment.sessions().string(), "--observer",
-                                "P0" + number, "--context", "osmesa", "--seed", number})
-                        .exit_code == 0);
-            sessions.push_back(experiment.session(1, "P0" + number).string());
-        }
-    }
-    ProgramRun analyze(const fs::path& out, std::vector<std::string> more = {}) const {
-        std::vector<std::string> arguments{"analyze",        "--format", "tsv",   "--resamples", "200",
-                                           "--permutations", "100",      "--out", out.string()};
-        arguments.insert(arguments.end(), sessions.begin(), sessions.end());
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        return experiment.overt(arguments);
-    }
-    SmallExperiment experiment;
-    std::vector<std::string> sessions;
-};
 
 /// Of the row over all tasks, sculptures and materials.
 struct HeadShare {
