@@ -33,7 +33,9 @@ constexpr Benchmark benchmarks[] = {
      bench_bake},
     {"export", "exports and imports, their speed, and their memory as sessions grow", bench_export},
     {"events", "fixations and saccades against those of a tracker, of people, or planted ones; its speed",
-     bench_events}};
+     bench_events},
+    {"analyze", "a study of given sessions, its time and memory; blurring, its speed and exactness",
+     bench_analyze}};
 
 void add_bench(CLI::App& app, ChosenCommand& chosen) {
     const auto given = std::make_shared<BenchOptions>();
@@ -53,7 +55,8 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
     command.add_option(
         "FILE", options.files,
         "events: EyeLink recordings (.asc) with the tracker's own events, tables of samples that "
-        "people labelled (.tsv), or folders of them; without any, gaze with planted events");
+        "people labelled (.tsv), or folders of them; without any, gaze with planted events. analyze: "
+        "sessions");
     command
         .add_option("--mesh", options.mesh,
                     "Measure on this mesh (PLY, OBJ, STL) instead of the shipped sculptures")

@@ -35,5 +35,7 @@ BenchFigures bench_bake(const BenchOptions& options);
 BenchFigures bench_export(const BenchOptions& options);
 /// Fixations and saccades against a tracker's own, people's labels, or planted ones.
 BenchFigures bench_events(const BenchOptions& options);
+/// A study of given sessions, the voxels' Gaussian and maps along the surface: speed, memory, exactness.
+BenchFigures bench_analyze(const BenchOptions& options);
 
 } // namespace overt

@@ -16,7 +16,7 @@ void add_bench_commands(CLI::App& app, ChosenCommand& chosen);
 
 struct BenchOptions {
     std::string what;                         ///< which benchmark
-    std::vector<std::filesystem::path> files; ///< events: recordings with events, or folders of them
+    std::vector<std::filesystem::path> files; ///< events: recordings, or folders of them; analyze: sessions
     std::filesystem::path mesh;               ///< measure on this one instead of the shipped sculptures
     std::string up = "z";                     ///< axis of the mesh file that points up
     int size_px = 1024;                       ///< width and height of the picture

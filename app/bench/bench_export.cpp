@@ -1,5 +1,4 @@
 #include <chrono>
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -24,21 +23,6 @@ constexpr double rate_hz = 2000.0;
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
-
-/// The most memory that this process held since it was last reset, in MB; 0 where the kernel does not say.
-double peak_memory_mb() {
-    std::ifstream status("/proc/self/status");
-    for (std::string word; status >> word;) {
-        if (word != "VmHWM:")
-            continue;
-        double kilobytes = 0.0;
-        status >> kilobytes;
-        return 1.024e-3 * kilobytes;
-    }
-    return 0.0;
-}
-
-void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
 
 /// A session like those of the default experiment, with gaze that wanders; without maps, for it is the
 /// writing of files that is measured.

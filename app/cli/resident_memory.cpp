@@ -1,6 +1,7 @@
 #include "app/cli/resident_memory.h"
 
 #include <fstream>
+#include <string>
 
 #include <malloc.h>
 #include <unistd.h>
@@ -14,5 +15,19 @@ double resident_memory_mb() {
     file >> all_pages >> resident_pages;
     return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)) * 1e-6;
 }
+
+double peak_memory_mb() {
+    std::ifstream status("/proc/self/status");
+    for (std::string word; status >> word;) {
+        if (word != "VmHWM:")
+            continue;
+        double kilobytes = 0.0;
+        status >> kilobytes;
+        return 1.024e-3 * kilobytes;
+    }
+    return 0.0;
+}
+
+void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
 
 } // namespace overt

@@ -137,7 +137,7 @@ TEST_CASE("the error budget is what its parts say, in millimetres", "[unit]") {
         fixation.lut_mm = 0.5;
         fixation.cone_at_edge = fixation.trial == 0 ? 0.0 : 0.25;
     }
-    add_maps(results, 0, study.surfaces[0], nullptr, study.options);
+    results.maps = maps_on(results, 0, study.surfaces[0], nullptr);
     REQUIRE(results.maps.size() == 2);
     add_error_budget(results, 0, study.surfaces[0]);
     const ErrorBudget& error = results.maps[0].error;

@@ -1,0 +1,182 @@
+/// Studies with something missing: it is said, and what can be reckoned is.
+#include <algorithm>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <sched.h>
+
+#include "experiment/scene/ply_writer.h"
+#include "tests/app/analyze/small_study.h"
+#include "tests/support/tsv_file.h"
+
+namespace fs = std::filesystem;
+using namespace overt::test;
+
+namespace {
+
+/// No table has a cell that is no number where one should stand, and all are there.
+void check_tables(const fs::path& analysis) {
+    int tables = 0;
+    for (const fs::directory_entry& file : fs::directory_iterator(analysis)) {
+        if (file.path().extension() != ".tsv" && file.path().extension() != ".json")
+            continue;
+        std::string text = text_of(file.path());
+        std::ranges::transform(text, text.begin(), [](char c) { return c == '\n' || c == ',' ? '\t' : c; });
+        INFO(file.path());
+        for (const char* const word : {"\tnan\t", "\t-nan\t", "\tinf\t", "\t-inf\t", ": nan", ": null"})
+            CHECK(text.find(word) == std::string::npos);
+        ++tables;
+    }
+    CHECK(tables >= 8);
+    CHECK(fs::exists(analysis / "report.html"));
+}
+
+/// `overt analyze` of some sessions, which does not fail.
+ProgramRun analysis_of(const SmallExperiment& experiment, const std::vector<std::string>& sessions,
+                       const fs::path& out, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"analyze",        "--format", "tsv",   "--resamples", "100",
+                                       "--permutations", "100",      "--out", out.string()};
+    arguments.insert(arguments.end(), sessions.begin(), sessions.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    ProgramRun run = experiment.overt(arguments);
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    check_tables(out);
+    return run;
+}
+
+/// All processes begun while it lives run on one processor.
+class OneProcessor {
+  public:
+    OneProcessor() {
+        ::sched_getaffinity(0, sizeof before_, &before_);
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+            if (CPU_ISSET(cpu, &before_)) {
+                CPU_SET(cpu, &one);
+                break;
+            }
+        }
+        ::sched_setaffinity(0, sizeof one, &one);
+    }
+    ~OneProcessor() { ::sched_setaffinity(0, sizeof before_, &before_); }
+
+  private:
+    cpu_set_t before_{};
+};
+
+} // namespace
+
+TEST_CASE("a study says what it lacks and reckons what it can", "[session]") {
+    const SmallStudy study;
+    const fs::path folder = study.experiment.folder().path();
+
+    SECTION("one observer: no intervals") {
+        const ProgramRun run = analysis_of(study.experiment, {study.sessions[0]}, folder / "one");
+        CHECK(run.out.find("only 1 observer") != std::string::npos);
+        const TsvFile fractions(folder / "one/figure4_head_fraction.tsv");
+        bool has_any = false;
+        for (std::size_t row = 0; row < fractions.size(); ++row) {
+            has_any |= fractions.has(row, "by_count");
+            CHECK_FALSE(fractions.has(row, "by_count_low"));
+            CHECK_FALSE(fractions.has(row, "corrected_low"));
+        }
+        CHECK(has_any);
+    }
+    SECTION("no fixation that counts, in any group") {
+        const ProgramRun run =
+            analysis_of(study.experiment, study.sessions, folder / "none", {"--shortest-fixation", "30"});
+        CHECK(run.out.find("No fixation was counted") != std::string::npos);
+        const TsvFile fractions(folder / "none/figure4_head_fraction.tsv");
+        for (std::size_t row = 0; row < fractions.size(); ++row) {
+            CHECK_FALSE(fractions.has(row, "by_count"));
+            CHECK(fractions.has(row, "by_count_absent"));
+        }
+    }
+    SECTION("trials that are all excluded") {
+        const ProgramRun run =
+            analysis_of(study.experiment, study.sessions, folder / "lost", {"--most-accuracy", "0.0001"});
+        CHECK(run.out.find("excluded") != std::string::npos);
+    }
+    SECTION("maps that one session lacks are taken from another that showed the same") {
+        fs::remove_all(fs::path(study.sessions[0]) / "maps");
+        const ProgramRun run = analysis_of(study.experiment, study.sessions, folder / "rest", {"--json"});
+        CHECK(nlohmann::json::parse(run.out).at("counted_fixations") > 50);
+    }
+    SECTION("on one processor everything is the same to the byte") {
+        analysis_of(study.experiment, study.sessions, folder / "all");
+        {
+            const OneProcessor one;
+            analysis_of(study.experiment, study.sessions, folder / "alone");
+        }
+        int compared = 0;
+        for (const fs::directory_entry& file : fs::recursive_directory_iterator(folder / "all")) {
+            if (!file.is_regular_file() || file.path().extension() == ".pdf")
+                continue; // these have the time of their making
+            INFO(file.path());
+            CHECK(text_of(file.path()) ==
+                  text_of(folder / "alone" / fs::relative(file.path(), folder / "all")));
+            ++compared;
+        }
+        CHECK(compared > 10);
+    }
+    SECTION("a folder that is no session, or one that is named twice, is an error") {
+        const auto refused = [&](const std::vector<std::string>& sessions) {
+            std::vector<std::string> arguments{"analyze", "--out", (folder / "x").string()};
+            arguments.insert(arguments.end(), sessions.begin(), sessions.end());
+            const ProgramRun run = study.experiment.overt(arguments);
+            CHECK(run.exit_code == 2);
+            return run.err;
+        };
+        CHECK(refused({folder.string()}).find(folder.filename().string()) != std::string::npos);
+        CHECK(refused({study.sessions[0], study.sessions[0] + "/"}).find("twice") != std::string::npos);
+    }
+}
+
+TEST_CASE("sessions of different protocols are pooled, and another turn makes another sculpture",
+          "[session]") {
+    const SmallExperiment first;
+    const SmallExperiment second(with(with(small_protocol, "A small experiment", "Another experiment"),
+                                      "amplitude_deg = 25", "amplitude_deg = 10"));
+    REQUIRE(first.run({"--observer", "P01"}).exit_code == 0);
+    REQUIRE(second.run({"--observer", "P02"}).exit_code == 0);
+    const fs::path out = first.folder().path() / "both";
+    const ProgramRun run = analysis_of(
+        first, {first.session(1, "P01").string(), second.session(1, "P02").string()}, out, {"--json"});
+    CHECK(run.out.find("2 protocols") != std::string::npos);
+    const auto json = nlohmann::json::parse(run.out);
+    CHECK(json.at("sculptures").size() == 4);
+    // Each finds what it finds alone.
+    const auto alone = nlohmann::json::parse(
+        analysis_of(second, {second.session(1, "P02").string()}, second.folder().path() / "alone", {"--json"})
+            .out);
+    const TsvFile of_both(out / "fixations.tsv"), of_one(second.folder().path() / "alone/fixations.tsv");
+    std::size_t own = 0;
+    for (std::size_t row = 0; row < of_both.size(); ++row) {
+        if (of_both.text(row, "observer") != "P02")
+            continue;
+        REQUIRE(own < of_one.size());
+        for (const char* const column : {"onset_s", "part", "x_mm", "y_mm", "z_mm"})
+            CHECK(of_both.text(row, column) == of_one.text(own, column));
+        ++own;
+    }
+    CHECK(own == of_one.size());
+}
+
+TEST_CASE("sculptures without a head have no head fraction, and all else", "[session]") {
+    const SmallExperiment experiment;
+    overt::Mesh block;
+    add_part(block, box({-45.0, -40.0, 0.0}, {45.0, 40.0, 260.0}), "body");
+    for (const char* const name : {"bust", "tall"})
+        overt::write_ply(experiment.folder().path() / "meshes" / (std::string(name) + ".ply"), block);
+    REQUIRE(experiment.run().exit_code == 0);
+    const fs::path out = experiment.folder().path() / "headless";
+    const ProgramRun run = analysis_of(experiment, {experiment.session().string()}, out);
+    CHECK(run.out.find("has no part \"head\"") != std::string::npos);
+    const TsvFile fractions(out / "figure4_head_fraction.tsv");
+    for (std::size_t row = 0; row < fractions.size(); ++row)
+        CHECK_FALSE(fractions.has(row, "by_count"));
+    CHECK(TsvFile(out / "maps.tsv").size() > 0);
+}
