@@ -117,11 +117,11 @@ void DisplayEncoder::encode(const LinearImage& picture, glm::ivec2 origin_px,
                             std::span<std::byte> into) const {
     const ScreenPatch patch = patch_of(origin_px, picture.size_px);
     OVERT_EXPECTS(into.size() == pixels_in(patch.size_px) * bytes_per_pixel(format()));
-    if (coding_->encode_box_pairs && reach_px_ == 0 && !leaves_last_step_ && patch.origin_px == origin_px &&
+    if (reach_px_ == 0 && !leaves_last_step_ && patch.origin_px == origin_px &&
         patch.size_px == picture.size_px) {
         // Rows follow one another in the picture as in what is made of it.
-        coding_->encode_box_pairs(picture.pixels.data(), static_cast<int>(picture.pixels.size() / 2),
-                                  display_.background, tables_, into.data());
+        coding_->encode({tables_, picture.pixels.data(), display_.background},
+                        static_cast<int>(picture.pixels.size()), into.data());
         return;
     }
     const glm::dvec3 background(display_.background);

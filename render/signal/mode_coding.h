@@ -29,11 +29,6 @@ struct ModeCoding {
 
     /// The linear light that pixel, or pair, (x, y) should have; not clipped.
     std::array<double, 3> (*predict)(const SignalPrediction& prediction, int x, int y);
-
-    /// encode() of whole pairs joined by a box filter, from the picture itself: what takes the time when
-    /// stimuli are loaded. Or null.
-    void (*encode_box_pairs)(const glm::vec4* pixels, int pairs, double background, const LevelTables& tables,
-                             std::byte* into) = nullptr;
 };
 
 /// The coding of a mode: defined once for each, in mode_….cpp. A mode without one does not link.

@@ -28,38 +28,6 @@ void encode(const RowLevels& row, int width, std::byte* into) {
     });
 }
 
-// Four numbers that are reckoned with together; a compiler has them in registers of whatever width there is.
-using Four = double __attribute__((vector_size(32)));
-using FourFloats = float __attribute__((vector_size(16)));
-
-/// The light of pairs joined by a box filter, all channels of a pair at once. Clones for processors that have
-/// wider registers give the same numbers: there is nothing in it that they may round differently.
-OVERT_PROCESSOR_CLONES("avx2")
-void mean_light(const glm::vec4* pixels, int pairs, double background, ColourRun& run) {
-    for (int pair = 0; pair < pairs; ++pair, pixels += 2) {
-        FourFloats left, right;
-        std::memcpy(&left, &pixels[0], sizeof left);
-        std::memcpy(&right, &pixels[1], sizeof right);
-        const Four behind_left = Four{} + (1.0 - double{left[3]}) * background,
-                   behind_right = Four{} + (1.0 - double{right[3]}) * background;
-        const Four mean = 0.5 * ((__builtin_convertvector(left, Four) + behind_left) +
-                                 (__builtin_convertvector(right, Four) + behind_right));
-        run.put(pair, {mean[0], mean[1], mean[2]});
-    }
-}
-
-/// What encode() makes of whole pairs joined by a box filter: half of the time to load a stimulus went into
-/// this.
-void encode_box_pairs(const glm::vec4* pixels, int pairs, double background, const LevelTables& tables,
-                      std::byte* into) {
-    ColourRun run;
-    for_runs(pairs, [&](int begin, int count) {
-        mean_light(pixels + 2 * begin, count, background, run);
-        run.find_levels(tables, count);
-        put_codes(run, count, into + 8 * begin);
-    });
-}
-
 ReceivedLight decode(const ScreenReader& reader) {
     return read_light({reader.width() / 2, reader.height()}, 65535, [&](int x, int y) {
         const Rgb upper = reader.opaque_colour(2 * x, y), lower = reader.opaque_colour(2 * x + 1, y);
@@ -74,12 +42,12 @@ std::array<double, 3> predict(const SignalPrediction& prediction, int x, int y) 
 } // namespace
 
 template <> const ModeCoding& mode_coding<OutputMode::color_plus_plus>() {
-    static constexpr ModeCoding coding{encode, decode, predict, encode_box_pairs};
+    static constexpr ModeCoding coding{encode, decode, predict};
     return coding;
 }
 
 template <> const ModeCoding& mode_coding<OutputMode::vpixx_c48>() {
-    static constexpr ModeCoding coding{encode, decode, predict, encode_box_pairs};
+    static constexpr ModeCoding coding{encode, decode, predict};
     return coding;
 }
 

@@ -52,61 +52,51 @@ template <class Work> void for_runs(int all, const Work& work) {
         work(begin, all - begin < level_run ? all - begin : level_run);
 }
 
+/// The light of a row of pixels, and the levels that make it.
 class RowLevels {
   public:
     /// `light`: of the row's first pixel; with a pair filter, five more must lie before and behind the row.
     /// Both must outlive this.
     RowLevels(const LevelTables& tables, const glm::dvec3* light) : tables_(&tables), light_(light) {}
 
+    /// The pixels of a picture, premultiplied by their alpha, over a grey background; of tables without a
+    /// pair filter. This is what takes the time when stimuli are loaded. Both must outlive this.
+    RowLevels(const LevelTables& tables, const glm::vec4* pixels, double background)
+        : tables_(&tables), pixels_(pixels), background_(background) {}
+
     /// Calls put(begin, count, run) for runs of pixels that make up 0 … width - 1, with the levels of each.
     template <class Put> void for_colours(int width, const Put& put) const {
-        ColourRun run;
-        for_runs(width, [&](int begin, int count) {
-            for (int i = 0; i < count; ++i)
-                run.put(i, light_[begin + i]);
-            run.find_levels(*tables_, count);
-            put(begin, count, run);
-        });
+        for_each_run(width, put, 3, &RowLevels::take_colours);
     }
-
     /// The same of the one colour of each pair, 0 … pairs - 1.
     template <class Put> void for_pairs(int pairs, const Put& put) const {
-        ColourRun run;
-        for_runs(pairs, [&](int begin, int count) {
-            for (int i = 0; i < count; ++i)
-                run.put(i, light_of_pair(light_ + 2 * (begin + i)));
-            run.find_levels(*tables_, count);
-            put(begin, count, run);
-        });
+        for_each_run(pairs, put, 3, &RowLevels::take_pairs);
     }
-
     /// The same of the luminance of pixels 0 … width - 1, in the first channel.
     template <class Put> void for_greys(int width, const Put& put) const {
-        ColourRun run;
-        const glm::dvec3& luminance = tables_->luminance;
-        for_runs(width, [&](int begin, int count) {
-            for (int i = 0; i < count; ++i) {
-                const glm::dvec3& light = light_[begin + i];
-                run.light[0][static_cast<std::size_t>(i)] =
-                    luminance.r * light.r + luminance.g * light.g + luminance.b * light.b;
-            }
-            run.find_levels(*tables_, count, 1);
-            put(begin, count, run);
-        });
+        for_each_run(width, put, 1, &RowLevels::take_greys);
     }
 
   private:
-    glm::dvec3 light_of_pair(const glm::dvec3* left) const {
-        if (!tables_->pair_filter)
-            return 0.5 * (left[0] + left[1]);
-        glm::dvec3 sum(0.0);
-        for (int i = 0; i < 12; ++i)
-            sum += (*tables_->pair_filter)[static_cast<std::size_t>(i)] * left[i - 5];
-        return sum;
+    using Take = void (RowLevels::*)(int begin, int count, ColourRun& run) const;
+
+    template <class Put> void for_each_run(int all, const Put& put, int channels, Take take) const {
+        ColourRun run;
+        for_runs(all, [&](int begin, int count) {
+            (this->*take)(begin, count, run);
+            run.find_levels(*tables_, count, channels);
+            put(begin, count, run);
+        });
     }
+    void take_colours(int begin, int count, ColourRun& run) const;
+    void take_pairs(int begin, int count, ColourRun& run) const;
+    void take_greys(int begin, int count, ColourRun& run) const;
+    glm::dvec3 light_of_pair(const glm::dvec3* left) const;
 
     const LevelTables* tables_;
-    const glm::dvec3* light_;
+    const glm::dvec3* light_ = nullptr;
+    const glm::vec4* pixels_ = nullptr; ///< instead of it
+    double background_ = 0.0;
 };
 
 } // namespace overt

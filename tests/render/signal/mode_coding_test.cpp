@@ -26,6 +26,5 @@ TEST_CASE("what a decoder knows of its mode is what the table says", "[gl]") {
         CHECK(light.is_grey == (row.shows == ShownLight::greys));
         CHECK(bench.messages().tables.size() == (has_table ? 1 : 0));
         CHECK(bench.messages().psync_count.has_value() == (row.top_rows == TopRows::psync));
-        CHECK((coding_of(row.mode).encode_box_pairs == nullptr || row.joins_pixels_in_pairs));
     }
 }
