@@ -64,7 +64,19 @@ LeakOfFixation leaks_on(const StudyResults& results, int sculpture, const Sculpt
     std::vector<double> found(fixations.size());
     parallel_for(static_cast<int>(fixations.size()), [&](int i) {
         const auto at = static_cast<std::size_t>(i);
-        found[at] = kernel.map(surface.coarse->moved(weight_of(*fixations[at], 1.0))).leaked_share;
+        // Two corners, or all, often have the same vertex nearest to them.
+        std::vector<SurfaceWeight> weights;
+        for (const SurfaceWeight& weight : surface.coarse->moved(weight_of(*fixations[at], 1.0))) {
+            const auto same = std::ranges::find_if(weights, [&](const SurfaceWeight& one) {
+                return one.place.triangle == weight.place.triangle &&
+                       one.place.barycentric == weight.place.barycentric;
+            });
+            if (same != weights.end())
+                same->weight += weight.weight;
+            else
+                weights.push_back(weight);
+        }
+        found[at] = kernel.map(weights).leaked_share;
     });
     for (std::size_t i = 0; i < fixations.size(); ++i)
         leaks[fixations[i]] = found[i];
