@@ -220,6 +220,8 @@ RowLayout<DistributionRow> distributions_layout(const StudyResults& results) {
 
 RowLayout<PairRow> pairs_layout(const StudyResults& results) {
     using Row = PairRow;
+    const char* const holm_words =
+        "The same, corrected after Holm for the rows of the table, those over all groups apart";
     const auto similarity = [](const std::string& name, const std::string& what, auto member) {
         return joined_columns<Row>(
             estimate_columns<Row>(
@@ -255,8 +257,23 @@ RowLayout<PairRow> pairs_layout(const StudyResults& results) {
                 [](const Row& row) -> auto& { return row.wss_difference_deg2; }),
             number_column<Row>("wss_p", "Of flipping the signs of observers' differences, two-sided", "",
                                share_decimals, [](const Row& row) { return row.wss_p; }),
-            number_column<Row>("wss_p_holm", "The same, corrected for all rows of the table after Holm", "",
-                               share_decimals, [](const Row& row) { return row.wss_p_holm; }),
+            number_column<Row>("wss_p_holm", holm_words, "", share_decimals,
+                               [](const Row& row) { return row.wss_p_holm; }),
+            estimate_columns<Row>(
+                "head_difference", "Share of fixations on the head, of a less that of b", "", share_decimals,
+                [](const Row& row) -> auto& { return row.head_difference; }),
+            number_column<Row>("head_p", "Of flipping the signs of observers' differences, two-sided", "",
+                               share_decimals, [](const Row& row) { return row.head_p; }),
+            number_column<Row>("head_p_holm", holm_words, "", share_decimals,
+                               [](const Row& row) { return row.head_p_holm; }),
+            number_column<Row>("maps_cc",
+                               "Pearson's correlation of the maps of all observers, mean over sculptures and "
+                               "groups",
+                               "", share_decimals, [](const Row& row) { return row.maps_cc; }),
+            number_column<Row>("maps_p", "How often swapping the levels within observers gives as little", "",
+                               share_decimals, [](const Row& row) { return row.maps_p; }),
+            number_column<Row>("maps_p_holm", holm_words, "", share_decimals,
+                               [](const Row& row) { return row.maps_p_holm; }),
             similarity("cc", "Pearson's correlation", &PairRow::cc),
             similarity("sim_mit", "Similarity, maps scaled from minimum to maximum first", &PairRow::sim_mit),
             similarity("sim_pysaliency", "Similarity, maps divided by their integral only",

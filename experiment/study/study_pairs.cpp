@@ -5,13 +5,12 @@
 #include <map>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "experiment/base/parallel.h"
 #include "experiment/base/random.h"
 #include "experiment/statistics/map_similarity.h"
-#include "experiment/statistics/point_spread.h"
 #include "experiment/statistics/split_half.h"
+#include "experiment/statistics/swap_test.h"
+#include "experiment/study/level_comparisons.h"
 #include "experiment/study/study_maps.h"
 
 namespace overt {
@@ -30,15 +29,12 @@ Similarities similarities(std::span<const double> a, std::span<const double> b,
              similarity(a, b, areas, SimConvention::pysaliency)}};
 }
 
-/// One observer's fixations on one sculpture in both levels.
-struct Comparison {
-    std::size_t observer;
-    int sculpture;
-    Fixations a, b;
-    // What is reckoned of it.
-    std::optional<double> wss_difference_mm2, wss_difference_deg2;
+/// A comparison, and what is reckoned of it.
+struct Comparison : LevelComparison {
+    std::optional<double> wss_difference_mm2, wss_difference_deg2, head_difference;
     Similarities found, ceiling;
     std::vector<Similarities> permuted;
+    std::vector<double> map_a, map_b; ///< empty without maps
 };
 
 Fixations chosen(const Fixations& from, std::span<const std::uint32_t> indices) {
@@ -82,23 +78,17 @@ Similarities ceiling_of(const Comparison& of, const FixationMaps& maps, const St
 
 void reckon(Comparison& of, const FixationMaps* maps, const SurfaceScale& scale, const StudyOptions& options,
             std::uint64_t stream, int permutations) {
-    const auto wss = [](const Fixations& fixations) {
-        std::vector<glm::dvec3> points;
-        for (const StudyFixation* fixation : fixations)
-            points.push_back(fixation->position);
-        return point_spread(points)->wss();
-    };
-    const double mm2 = scale.mm_per_unit * scale.mm_per_unit;
-    of.wss_difference_mm2 = (wss(of.a) - wss(of.b)) * mm2;
+    of.wss_difference_mm2 = wss_difference_mm2(of, scale);
     of.wss_difference_deg2 = *of.wss_difference_mm2 / (scale.mm_per_deg * scale.mm_per_deg);
     if (!maps)
         return;
-    const std::vector<double> all_of_a = maps->sum_of(of.a), all_of_b = maps->sum_of(of.b);
-    of.found = similarities(all_of_a, all_of_b, maps->areas());
+    of.map_a = maps->sum_of(of.a);
+    of.map_b = maps->sum_of(of.b);
+    of.found = similarities(of.map_a, of.map_b, maps->areas());
     of.ceiling = ceiling_of(of, *maps, options, stream);
-    std::vector<double> both(all_of_a.size());
+    std::vector<double> both(of.map_a.size());
     for (std::size_t v = 0; v < both.size(); ++v)
-        both[v] = all_of_a[v] + all_of_b[v];
+        both[v] = of.map_a[v] + of.map_b[v];
     Fixations mixed = of.a;
     mixed.insert(mixed.end(), of.b.begin(), of.b.end());
     for (int permutation = 0; permutation < permutations; ++permutation) {
@@ -113,22 +103,6 @@ void reckon(Comparison& of, const FixationMaps* maps, const SurfaceScale& scale,
             second[v] = std::max(both[v] - first[v], 0.0);
         of.permuted.push_back(similarities(first, second, maps->areas()));
     }
-}
-
-/// The mean of each observer's comparisons, of those that have a value.
-template <class Value>
-std::vector<double> observer_means(std::span<const Comparison> comparisons, const Value& value) {
-    std::map<std::size_t, std::pair<double, int>> sums;
-    for (const Comparison& comparison : comparisons) {
-        if (const std::optional<double> number = value(comparison)) {
-            sums[comparison.observer].first += *number;
-            ++sums[comparison.observer].second;
-        }
-    }
-    std::vector<double> means;
-    for (const auto& [observer, sum] : sums)
-        means.push_back(sum.first / sum.second);
-    return means;
 }
 
 SimilarityEstimate similarity_of(std::span<const Comparison> comparisons, std::size_t which, int permutations,
@@ -171,6 +145,75 @@ SimilarityEstimate similarity_of(std::span<const Comparison> comparisons, std::s
 /// Permutations of maps: each is a sum over vertices, so fewer than of numbers.
 constexpr int most_map_permutations = 200;
 
+/// Numbers of a row from its comparisons, all but the keys.
+PairRow row_of(std::span<const Comparison> comparisons, int permutations, const StudyOptions& options) {
+    PairRow row;
+    row.comparisons = static_cast<int>(comparisons.size());
+    if (comparisons.empty())
+        row.absent = "no observer saw a sculpture in both levels";
+    const auto means = [&](const auto& value) { return observer_means(comparisons, value); };
+    const std::vector<double> mm2 = means([](const Comparison&of) { return of.wss_difference_mm2; }),
+                              head = means([](const Comparison&of) { return of.head_difference; });
+    row.observers = static_cast<int>(mm2.size());
+    row.wss_difference_mm2 = estimated_mean(mm2, options.bootstrap(), row.absent);
+    row.wss_difference_deg2 = estimated_mean(
+        means([](const Comparison& of) { return of.wss_difference_deg2; }), options.bootstrap(), row.absent);
+    row.head_difference = estimated_mean(head, options.bootstrap(),
+                                         row.absent.empty() ? "no sculpture has a head" : row.absent);
+    if (const auto test = sign_flip_test(mm2, options.permutation()))
+        row.wss_p = test->p;
+    if (const auto test = sign_flip_test(head, options.permutation()))
+        row.head_p = test->p;
+    row.cc = similarity_of(comparisons, 0, permutations, options);
+    row.sim_mit = similarity_of(comparisons, 1, permutations, options);
+    row.sim_pysaliency = similarity_of(comparisons, 2, permutations, options);
+    return row;
+}
+
+/// The test of the maps themselves. `cells`: comparisons of one group each.
+void test_maps(PairRow& row, std::span<const std::span<const Comparison>> cells,
+               const SculptureFixationMaps& maps, const StudyOptions& options) {
+    std::vector<PairedMaps> surfaces;
+    std::size_t observers = 0;
+    for (const std::span<const Comparison> cell : cells) {
+        for (std::size_t sculpture = 0; sculpture < maps.size(); ++sculpture) {
+            if (!maps[sculpture])
+                continue;
+            PairedMaps paired(maps[sculpture]->areas());
+            for (const Comparison& one : cell) {
+                if (static_cast<std::size_t>(one.sculpture) == sculpture) {
+                    paired.add(one.observer, one.map_a, one.map_b);
+                    observers = std::max(observers, one.observer + 1);
+                }
+            }
+            if (!paired.observers().empty())
+                surfaces.push_back(std::move(paired));
+        }
+    }
+    if (const auto test = swap_test(surfaces, observers, options.permutation())) {
+        row.maps_cc = test->correlation;
+        row.maps_p = test->test.p;
+    }
+}
+
+/// After Holm, rows of groups among themselves and those over all groups among themselves.
+void correct(std::vector<PairRow>& rows, std::optional<double> PairRow::*p,
+             std::optional<double> PairRow::*corrected) {
+    for (const bool of_groups : {false, true}) {
+        std::vector<double> tested;
+        std::vector<PairRow*> own;
+        for (PairRow& row : rows) {
+            if (row.keys.empty() != of_groups && row.*p) {
+                tested.push_back(*(row.*p));
+                own.push_back(&row);
+            }
+        }
+        const std::vector<double> after = holm(tested);
+        for (std::size_t i = 0; i < own.size(); ++i)
+            own[i]->*corrected = after[i];
+    }
+}
+
 } // namespace
 
 std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<SculptureSurface>& surfaces,
@@ -178,78 +221,55 @@ std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<
                                  const StudyOptions& options) {
     const std::vector<std::string> others = columns_beside_compared(options);
     const std::vector<std::string> compared = levels_of(results, options.compare, levels);
+    const std::vector<StudyGroup> groups = make_groups(results, others, levels);
     const int permutations = std::min(options.permutations, most_map_permutations);
     std::vector<PairRow> rows;
-    std::vector<std::pair<std::size_t, double>> tested;
-    for (const StudyGroup& group : make_groups(results, others, levels)) {
-        const auto observers = by_observer(results, group.trials);
+    std::vector<std::vector<std::vector<Comparison>>> of_pair; ///< by pair of levels and group
+    for (const StudyGroup& group : groups) {
+        std::size_t pair = 0;
         for (std::size_t a = 0; a < compared.size(); ++a) {
-            for (std::size_t b = a + 1; b < compared.size(); ++b) {
-                PairRow row;
-                row.keys = group.keys;
-                row.column = options.compare;
-                row.a = compared[a];
-                row.b = compared[b];
+            for (std::size_t b = a + 1; b < compared.size(); ++b, ++pair) {
                 std::vector<Comparison> comparisons;
-                for (std::size_t o = 0; o < observers.size(); ++o) {
-                    std::vector<int> in_a, in_b;
-                    for (const int trial : observers[o].second) {
-                        const std::string& level =
-                            results.trials[static_cast<std::size_t>(trial)].key(options.compare);
-                        if (level == row.a)
-                            in_a.push_back(trial);
-                        else if (level == row.b)
-                            in_b.push_back(trial);
-                    }
-                    for (int sculpture = 0; sculpture < static_cast<int>(surfaces.size()); ++sculpture) {
-                        Comparison one{o,
-                                       sculpture,
-                                       fixations_on(results, in_a, sculpture),
-                                       fixations_on(results, in_b, sculpture),
-                                       {},
-                                       {},
-                                       {},
-                                       {},
-                                       {}};
-                        if (!one.a.empty() && !one.b.empty() &&
-                            surfaces[static_cast<std::size_t>(sculpture)].scale)
-                            comparisons.push_back(std::move(one));
-                    }
-                }
+                for (LevelComparison& one : level_comparisons(results, group.trials, surfaces,
+                                                              options.compare, compared[a], compared[b]))
+                    comparisons.push_back({std::move(one), {}, {}, {}, {}, {}, {}, {}, {}});
                 const std::uint64_t stream = rows.size() * 10000;
                 parallel_for(static_cast<int>(comparisons.size()), [&](int i) {
                     Comparison& one = comparisons[static_cast<std::size_t>(i)];
                     const auto sculpture = static_cast<std::size_t>(one.sculpture);
+                    one.head_difference = head_difference(one, results);
                     reckon(one, maps[sculpture].get(), *surfaces[sculpture].scale, options,
                            stream + static_cast<std::uint64_t>(i), permutations);
                 });
-                row.comparisons = static_cast<int>(comparisons.size());
-                if (comparisons.empty())
-                    row.absent = "no observer saw a sculpture in both levels";
-                const std::vector<double> mm2 =
-                    observer_means(comparisons, [](const Comparison& of) { return of.wss_difference_mm2; });
-                row.observers = static_cast<int>(mm2.size());
-                row.wss_difference_mm2 = estimated_mean(mm2, options.bootstrap(), row.absent);
-                row.wss_difference_deg2 = estimated_mean(
-                    observer_means(comparisons, [](const Comparison& of) { return of.wss_difference_deg2; }),
-                    options.bootstrap(), row.absent);
-                if (const auto test = sign_flip_test(mm2, options.permutation())) {
-                    row.wss_p = test->p;
-                    tested.emplace_back(rows.size(), test->p);
-                }
-                row.cc = similarity_of(comparisons, 0, permutations, options);
-                row.sim_mit = similarity_of(comparisons, 1, permutations, options);
-                row.sim_pysaliency = similarity_of(comparisons, 2, permutations, options);
+                PairRow row = row_of(comparisons, permutations, options);
+                row.keys = group.keys;
+                row.column = options.compare;
+                row.a = compared[a];
+                row.b = compared[b];
+                test_maps(row, std::array{std::span<const Comparison>(comparisons)}, maps, options);
                 rows.push_back(std::move(row));
+                if (of_pair.size() <= pair)
+                    of_pair.emplace_back();
+                of_pair[pair].push_back(std::move(comparisons));
             }
         }
     }
-    std::vector<double> p;
-    for (const auto& [row, value] : tested)
-        p.push_back(value);
-    const std::vector<double> corrected = holm(p);
-    for (std::size_t i = 0; i < tested.size(); ++i)
-        rows[tested[i].first].wss_p_holm = corrected[i];
+    // Over all groups: compared within each, so that what the groups tell apart cannot pass for a difference.
+    for (std::size_t pair = 0; groups.size() > 1 && pair < of_pair.size(); ++pair) {
+        std::vector<Comparison> all;
+        for (const std::vector<Comparison>& cell : of_pair[pair])
+            all.insert(all.end(), cell.begin(), cell.end());
+        PairRow row = row_of(all, permutations, options);
+        row.column = rows[pair].column;
+        row.a = rows[pair].a;
+        row.b = rows[pair].b;
+        const std::vector<std::span<const Comparison>> cells(of_pair[pair].begin(), of_pair[pair].end());
+        test_maps(row, cells, maps, options);
+        rows.push_back(std::move(row));
+    }
+    correct(rows, &PairRow::wss_p, &PairRow::wss_p_holm);
+    correct(rows, &PairRow::head_p, &PairRow::head_p_holm);
+    correct(rows, &PairRow::maps_p, &PairRow::maps_p_holm);
     return rows;
 }
 

@@ -19,6 +19,12 @@ namespace overt {
 /// - the null: of the same numbers of fixations drawn without regard to the level from both, and p, how often
 ///   that gives as small a mean similarity as was found.
 ///
+/// That null takes fixations as independent. The test that does not compares the levels' maps over all
+/// observers and swaps whole maps (swap_test).
+///
+/// Where there are several groups, rows over all of them follow: the comparisons are those within the groups,
+/// so that what the groups tell apart cannot pass for a difference of levels.
+///
 /// Maps count fixations alike and are made on the coarse surface. Empty if no column of `--by` is compared.
 std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<SculptureSurface>& surfaces,
                                  const SculptureFixationMaps& maps, const LevelLists& levels,

@@ -31,9 +31,6 @@ struct OpenSession {
     const SessionRecord& record() const { return *readers.front(); }
 };
 
-/// Of the surface for statistics over many maps: a quarter of a usual kernel between neighbours.
-constexpr std::size_t coarse_nodes = 4000;
-
 /// Whether two sessions' sculptures are one: the same picture of the same mesh.
 bool is_same_sculpture(const SessionHeader& a, int in_a, const SessionHeader& b, int in_b) {
     const RecordedSculpture &one = a.sculptures[static_cast<std::size_t>(in_a)],
@@ -59,25 +56,6 @@ bool is_same_sculpture(const SessionHeader& a, int in_a, const SessionHeader& b,
            screen.screen_px == other_screen.screen_px && screen.screen_mm == other_screen.screen_mm &&
            screen.viewing_distance_mm == other_screen.viewing_distance_mm &&
            (!one.mesh_file.empty() || maps_of(a, in_a) == maps_of(b, in_b));
-}
-
-std::optional<SurfaceScale> scale_of(const StudySculpture& sculpture) {
-    const Camera& camera = sculpture.camera;
-    const ScreenGeometry& screen = sculpture.screen;
-    const double fov = to_radians(camera.vertical_fov).value;
-    if (!(fov > 0.0) || !(screen.viewing_distance_mm > 0.0) || screen.screen_px.y <= 0 ||
-        !(screen.screen_mm.y > 0.0))
-        return std::nullopt;
-    SurfaceScale scale;
-    const View view{camera, screen.image_px};
-    scale.axis_depth = view.depth_of({sculpture.axis_point.x, sculpture.axis_point.y, camera.target.z});
-    if (!(scale.axis_depth > 0.0))
-        return std::nullopt;
-    // The height of the image is 2 tan(fov / 2) depths, and image_px.y pixels of the screen.
-    const double mm_per_px = screen.screen_mm.y / screen.screen_px.y;
-    scale.mm_per_unit = screen.image_px.y * mm_per_px / (2.0 * std::tan(0.5 * fov) * scale.axis_depth);
-    scale.mm_per_deg = screen.viewing_distance_mm * std::tan(to_radians(Degrees{1.0}).value);
-    return scale;
 }
 
 std::string folder_name(const std::filesystem::path& session) {
@@ -281,7 +259,7 @@ class StudyReader {
     const SurfaceLookup* load_surface(int index) {
         StudySculpture& sculpture = results().sculptures[static_cast<std::size_t>(index)];
         SculptureSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
-        surface.scale = scale_of(sculpture);
+        surface.scale = surface_scale(sculpture.camera, sculpture.axis_point, sculpture.screen);
         const SurfaceLookup* lookup = nullptr;
         std::string fault;
         const SessionHeader* header = nullptr;
@@ -408,6 +386,24 @@ class StudyReader {
 };
 
 } // namespace
+
+std::optional<SurfaceScale> surface_scale(const Camera& camera, const glm::dvec3& axis_point,
+                                          const ScreenGeometry& screen) {
+    const double fov = to_radians(camera.vertical_fov).value;
+    if (!(fov > 0.0) || !(screen.viewing_distance_mm > 0.0) || screen.screen_px.y <= 0 ||
+        !(screen.screen_mm.y > 0.0))
+        return std::nullopt;
+    SurfaceScale scale;
+    const View view{camera, screen.image_px};
+    scale.axis_depth = view.depth_of({axis_point.x, axis_point.y, camera.target.z});
+    if (!(scale.axis_depth > 0.0))
+        return std::nullopt;
+    // The height of the image is 2 tan(fov / 2) depths, and image_px.y pixels of the screen.
+    const double mm_per_px = screen.screen_mm.y / screen.screen_px.y;
+    scale.mm_per_unit = screen.image_px.y * mm_per_px / (2.0 * std::tan(0.5 * fov) * scale.axis_depth);
+    scale.mm_per_deg = screen.viewing_distance_mm * std::tan(to_radians(Degrees{1.0}).value);
+    return scale;
+}
 
 ReadStudy read_study(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
                      const StudyOptions& options, const StudyProgress& progress) {

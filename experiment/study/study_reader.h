@@ -41,6 +41,14 @@ struct SculptureSurface {
     std::vector<double> pixel_seconds; ///< see Exposure
 };
 
+/// Of the surface for statistics over many maps: a quarter of a usual kernel between neighbours.
+inline constexpr std::size_t coarse_nodes = 4000;
+
+/// The scale of a sculpture that turns about the vertical through a point of the mesh's unit; nothing if
+/// camera or screen are not known.
+std::optional<SurfaceScale> surface_scale(const Camera& camera, const glm::dvec3& axis_point,
+                                          const ScreenGeometry& screen);
+
 struct ReadStudy {
     StudyResults results; ///< sessions, sculptures, trials, fixations, quality, traces, remarks
     std::vector<SculptureSurface> surfaces; ///< by sculpture

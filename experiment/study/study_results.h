@@ -262,10 +262,14 @@ struct SimilarityEstimate {
 
 /// Table 1: two levels of a factor compared within observers, then averaged.
 struct PairRow {
-    std::vector<StudyKey> keys; ///< what is the same in both: task; empty: anything
+    std::vector<StudyKey> keys; ///< what is the same in both: task; empty: all groups, compared within each
     std::string column, a, b;   ///< "material", "rough", "smooth"
     Estimate wss_difference_mm2, wss_difference_deg2;
-    std::optional<double> wss_p, wss_p_holm; ///< sign flips over observers; Holm over the rows
+    Estimate head_difference; ///< share of fixations on the head, of a less that of b
+    // Sign flips over observers. Holm's correction is over the rows of groups, or over those of all groups.
+    std::optional<double> wss_p, wss_p_holm, head_p, head_p_holm;
+    std::optional<double> maps_cc; ///< of the maps of all observers, mean over sculptures and groups
+    std::optional<double> maps_p, maps_p_holm; ///< swaps of the levels within observers (swap_test)
     SimilarityEstimate cc, sim_mit, sim_pysaliency;
     int observers = 0, comparisons = 0; ///< of an observer with one sculpture
     std::string absent;                 ///< why there is nothing

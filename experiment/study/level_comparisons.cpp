@@ -1,0 +1,72 @@
+#include "experiment/study/level_comparisons.h"
+
+#include <algorithm>
+
+#include "experiment/statistics/point_spread.h"
+#include "experiment/study/study_maps.h"
+
+namespace overt {
+
+namespace {
+
+double wss_of(std::span<const StudyFixation* const> fixations) {
+    std::vector<glm::dvec3> points;
+    for (const StudyFixation* fixation : fixations)
+        points.push_back(fixation->position);
+    return point_spread(points)->wss();
+}
+
+} // namespace
+
+std::vector<LevelComparison> level_comparisons(const StudyResults& results, const std::vector<int>& trials,
+                                               const std::vector<SculptureSurface>& surfaces,
+                                               const std::string& column, const std::string& a,
+                                               const std::string& b) {
+    std::vector<std::string> observers;
+    for (const StudyTrial& trial : results.trials) {
+        const std::string& label = results.sessions[static_cast<std::size_t>(trial.session)].observer;
+        if (std::find(observers.begin(), observers.end(), label) == observers.end())
+            observers.push_back(label);
+    }
+    std::vector<LevelComparison> comparisons;
+    for (const auto& [observer, own] : by_observer(results, trials)) {
+        const auto number = static_cast<std::size_t>(std::find(observers.begin(), observers.end(), observer) -
+                                                     observers.begin());
+        std::vector<int> in_a, in_b;
+        for (const int trial : own) {
+            const std::string& level = results.trials[static_cast<std::size_t>(trial)].key(column);
+            if (level == a)
+                in_a.push_back(trial);
+            else if (level == b)
+                in_b.push_back(trial);
+        }
+        for (int sculpture = 0; sculpture < static_cast<int>(surfaces.size()); ++sculpture) {
+            if (!surfaces[static_cast<std::size_t>(sculpture)].scale)
+                continue;
+            LevelComparison one{number, sculpture, fixations_on(results, in_a, sculpture),
+                                fixations_on(results, in_b, sculpture)};
+            if (!one.a.empty() && !one.b.empty())
+                comparisons.push_back(std::move(one));
+        }
+    }
+    return comparisons;
+}
+
+double wss_difference_mm2(const LevelComparison& comparison, const SurfaceScale& scale) {
+    return (wss_of(comparison.a) - wss_of(comparison.b)) * scale.mm_per_unit * scale.mm_per_unit;
+}
+
+std::optional<double> head_difference(const LevelComparison& comparison, const StudyResults& results) {
+    const std::optional<PartIndex> head =
+        results.sculptures[static_cast<std::size_t>(comparison.sculpture)].head;
+    if (!head)
+        return std::nullopt;
+    const auto share = [&](const std::vector<const StudyFixation*>& fixations) {
+        const auto on_head = std::count_if(fixations.begin(), fixations.end(),
+                                           [&](const StudyFixation* one) { return one->part == head; });
+        return static_cast<double>(on_head) / static_cast<double>(fixations.size());
+    };
+    return share(comparison.a) - share(comparison.b);
+}
+
+} // namespace overt

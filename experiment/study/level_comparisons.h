@@ -1,0 +1,54 @@
+/// Two levels of a factor within observers: what of a study is compared, and the differences that are tested.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiment/study/study_groups.h"
+#include "experiment/study/study_reader.h"
+
+namespace overt {
+
+/// One observer's counted fixations on one sculpture in both levels; what else the groups tell apart is the
+/// same in both.
+struct LevelComparison {
+    std::size_t observer = 0; ///< by the order of by_observer() of all trials
+    int sculpture = 0;
+    std::vector<const StudyFixation*> a, b; ///< neither empty
+};
+
+/// Those of one group of trials, by observer and sculpture. Sculptures without a scale are left out.
+std::vector<LevelComparison> level_comparisons(const StudyResults& results, const std::vector<int>& trials,
+                                               const std::vector<SculptureSurface>& surfaces,
+                                               const std::string& column, const std::string& a,
+                                               const std::string& b);
+
+/// WSS of a less that of b, in mm^2.
+double wss_difference_mm2(const LevelComparison& comparison, const SurfaceScale& scale);
+
+/// Share of the fixations on the head, of a less that of b; nothing if the sculpture has no head.
+std::optional<double> head_difference(const LevelComparison& comparison, const StudyResults& results);
+
+/// The mean of each observer's comparisons, of those that have a value: what tests over observers take. By
+/// observer, without those who have none.
+template <class Comparison, class Value>
+std::vector<double> observer_means(std::span<const Comparison> comparisons, const Value& value) {
+    std::map<std::size_t, std::pair<double, int>> sums;
+    for (const Comparison& comparison : comparisons) {
+        if (const std::optional<double> number = value(comparison)) {
+            sums[comparison.observer].first += *number;
+            ++sums[comparison.observer].second;
+        }
+    }
+    std::vector<double> means;
+    for (const auto& [observer, sum] : sums)
+        means.push_back(sum.first / sum.second);
+    return means;
+}
+
+} // namespace overt
