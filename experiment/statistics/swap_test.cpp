@@ -1,5 +1,6 @@
 #include "experiment/statistics/swap_test.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -11,6 +12,17 @@ namespace {
 
 /// As much larger as rounding may make it.
 constexpr double swap_rounding = 1e-9;
+
+/// Takes the mean away. What rounding leaves of a constant map is nothing.
+void centre(std::vector<double>& map, double mean) {
+    double most = 0.0;
+    for (double& value : map) {
+        value -= mean;
+        most = std::max(most, std::abs(value));
+    }
+    if (most <= 1e-12 * std::abs(mean))
+        std::fill(map.begin(), map.end(), 0.0);
+}
 
 /// The sums of one surface for one way of swapping. With S the sum and D the difference of both conditions'
 /// maps, these are (S + D) / 2 and (S - D) / 2; swaps change the signs in D alone.
@@ -97,10 +109,8 @@ void PairedMaps::add(std::size_t observer, std::span<const double> a, std::span<
         difference += areas_[i] * one.difference.back();
         area += areas_[i];
     }
-    for (std::size_t i = 0; i < areas_.size(); ++i) {
-        one.sum[i] -= sum / area;
-        one.difference[i] -= difference / area;
-    }
+    centre(one.sum, sum / area);
+    centre(one.difference, difference / area);
     observers_.push_back(std::move(one));
     OfObserver& last = observers_.back();
     for (const OfObserver& other : observers_) {
