@@ -35,7 +35,8 @@ constexpr Benchmark benchmarks[] = {
     {"events", "fixations and saccades against those of a tracker, of people, or planted ones; its speed",
      bench_events},
     {"analyze", "a study of given sessions, its time and memory; blurring, its speed and exactness",
-     bench_analyze}};
+     bench_analyze},
+    {"power", "simulated studies of 12 observers, how many a minute on one core", bench_power}};
 
 void add_bench(CLI::App& app, ChosenCommand& chosen) {
     const auto given = std::make_shared<BenchOptions>();

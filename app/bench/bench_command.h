@@ -37,5 +37,7 @@ BenchFigures bench_export(const BenchOptions& options);
 BenchFigures bench_events(const BenchOptions& options);
 /// A study of given sessions, the voxels' Gaussian and maps along the surface: speed, memory, exactness.
 BenchFigures bench_analyze(const BenchOptions& options);
+/// Simulated studies of 12 observers: how many a minute on one core.
+BenchFigures bench_power(const BenchOptions& options);
 
 } // namespace overt

@@ -14,6 +14,7 @@ GazePlan gaze_plan(const ObservedScene& scene, std::uint64_t seed, int task, Con
         if (!effect.holds_in(task, condition))
             continue;
         odds *= effect.head_odds;
+        plan.spread += effect.spread;
         if (effect.spot_share > 0.0 && plan.spot_count < most_simulated_spots)
             plan.spots[static_cast<std::size_t>(plan.spot_count++)] = {static_cast<int>(i),
                                                                        effect.spot_share};

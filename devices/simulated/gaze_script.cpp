@@ -85,7 +85,8 @@ struct Composer {
 
     bool find_target(const ScriptedFixation& before, ScriptedFixation& next, double duration_s,
                      Region region) {
-        return find_target(before, next, duration_s, [&] { return targets->draw(random, region); });
+        return find_target(before, next, duration_s,
+                           [&] { return targets->draw(random, region, plan.spread); });
     }
 
     /// The effect to whose spot a fixation goes; -1: to none.

@@ -38,6 +38,7 @@ GazeTargets::GazeTargets(const ObservedSculpture& sculpture, const ObservedScene
         WeightedTriangles& region = part == "head" ? head_ : elsewhere_;
         region.add(i, weight);
     }
+    find_middle();
     for (std::size_t effect = 0; effect < scene.effects.size(); ++effect) {
         RandomStream random(effect, "spot of an effect");
         const Region region = random.uniform() < 0.5 ? Region::head : Region::elsewhere;
@@ -69,10 +70,54 @@ GazeTargets::Spot GazeTargets::spot_about(const SurfacePoint& middle) const {
     return spot;
 }
 
-SurfacePoint GazeTargets::draw(RandomStream& random, Region region) const noexcept {
+void GazeTargets::find_middle() {
+    double all = 0.0, squares = 0.0;
+    glm::dvec3 sum(0.0);
+    const auto for_each = [&](const auto& visit) {
+        for (const WeightedTriangles* region : {&head_, &elsewhere_}) {
+            double before = 0.0;
+            for (std::size_t i = 0; i < region->triangles.size(); ++i) {
+                const Corners corners = corners_of(*mesh_, region->triangles[i]);
+                visit((corners.a + corners.b + corners.c) / 3.0, region->cumulative[i] - before);
+                before = region->cumulative[i];
+            }
+        }
+    };
+    for_each([&](const glm::dvec3& centre, double weight) {
+        sum += weight * centre;
+        all += weight;
+    });
+    if (!(all > 0.0))
+        return;
+    middle_ = sum / all;
+    double most = 0.0;
+    for_each([&](const glm::dvec3& centre, double weight) {
+        const glm::dvec3 off = centre - middle_;
+        squares += weight * glm::dot(off, off);
+        most = std::max(most, glm::dot(off, off));
+    });
+    if (!(squares > 0.0))
+        return;
+    usual_square_ = squares / all;
+    most_square_ = most / usual_square_;
+}
+
+SurfacePoint GazeTargets::draw(RandomStream& random, Region region, double spread) const noexcept {
     const bool wants_head = region == Region::head;
     const WeightedTriangles& wanted = wants_head ? head_ : elsewhere_;
-    return draw_from(random, wanted.triangles.empty() ? (wants_head ? elsewhere_ : head_) : wanted);
+    const WeightedTriangles& from = wanted.triangles.empty() ? (wants_head ? elsewhere_ : head_) : wanted;
+    SurfacePoint point = draw_from(random, from);
+    if (spread == 0.0)
+        return point;
+    // Points by area, each taken with the probability that the spread gives it.
+    for (int tries = 0; tries < most_tries; ++tries) {
+        const glm::dvec3 off = point.position - middle_;
+        const double square = glm::dot(off, off) / usual_square_;
+        if (random.uniform() < std::exp(spread * (spread > 0.0 ? square - most_square_ : square)))
+            break;
+        point = draw_from(random, from);
+    }
+    return point;
 }
 
 SurfacePoint GazeTargets::draw_from_spot(RandomStream& random, int effect) const noexcept {

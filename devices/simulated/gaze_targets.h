@@ -25,8 +25,9 @@ class GazeTargets {
     static constexpr double spot_radius = 0.04;
 
     /// A point of the region, all of its area equally probable, save that the part "plinth" is looked at a
-    /// tenth as often. A sculpture without that region gives a point of the other.
-    SurfacePoint draw(RandomStream& random, Region region) const noexcept;
+    /// tenth as often. A sculpture without that region gives a point of the other. `spread`: see GazePlan;
+    /// the usual distance is the root mean square one of both regions.
+    SurfacePoint draw(RandomStream& random, Region region, double spread = 0.0) const noexcept;
 
     /// The part on which an effect's spot lies.
     PartIndex part_of_spot(int effect) const noexcept {
@@ -63,12 +64,16 @@ class GazeTargets {
         WeightedTriangles triangles; ///< that may reach into it
     };
     Spot spot_about(const SurfacePoint& middle) const;
+    void find_middle();
 
     const Mesh* mesh_;
     SceneView scene_;
     RayCaster caster_;
     WeightedTriangles head_, elsewhere_;
-    std::vector<Spot> spots_; ///< by effect
+    std::vector<Spot> spots_;   ///< by effect
+    glm::dvec3 middle_{0.0};    ///< of both regions by weighted area
+    double usual_square_ = 1.0; ///< mean square distance from it
+    double most_square_ = 1.0;  ///< largest, as a multiple of that
 };
 
 } // namespace overt

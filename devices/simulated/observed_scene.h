@@ -30,6 +30,7 @@ struct ObservedTask {
 struct ObservedEffect {
     int task = -1, sculpture = -1, material = -1;
     double head_odds = 1.0, spot_share = 0.0;
+    double spread = 0.0; ///< see GazePlan
 
     bool holds_in(int of_task, Condition condition) const {
         return (task < 0 || task == of_task) && (sculpture < 0 || sculpture == condition.sculpture) &&

@@ -1,0 +1,65 @@
+#include <ctime>
+
+#include <fmt/format.h>
+
+#include "app/bench/bench_command.h"
+#include "app/power/power_simulation.h"
+
+namespace overt {
+
+namespace {
+
+/// Of this program on all its threads, in seconds.
+double processor_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+} // namespace
+
+BenchFigures bench_power(const BenchOptions& options) {
+    BenchScene scene = bench_scene(options);
+    // The shipped experiment's materials and tasks: 30 trials with three sculptures.
+    Protocol& protocol = scene.protocol;
+    for (const char* id : {"smooth", "rough", "coated"}) {
+        MaterialSettings material;
+        material.id = id;
+        protocol.materials.push_back(std::move(material));
+    }
+    for (const double head_share : {0.4, 0.35, 0.61, 0.4, 0.155, 0.2}) {
+        Task task;
+        task.id = fmt::format("task_{}", protocol.tasks.size() + 1);
+        task.stimuli =
+            protocol.tasks.size() < 2 ? TaskCoverage::every_stimulus : TaskCoverage::once_per_sculpture;
+        task.simulated_head_share = head_share;
+        protocol.tasks.push_back(std::move(task));
+    }
+    const Experiment experiment{protocol, std::move(scene.sculptures)};
+    const PowerProgress silent = [](std::string_view, int, int) {};
+    PowerSettings settings;
+    settings.observers = {12};
+    settings.gaze = gaze_study_settings(protocol);
+    BenchFigures figures;
+    const auto measure = [&](const char* what, const std::vector<std::string>& effects) {
+        // The difference of two numbers of studies, so that what is made once does not count.
+        double seconds[2] = {};
+        constexpr int studies[2] = {4, 24};
+        for (int i = 0; i < 2; ++i) {
+            settings.studies = studies[i];
+            const double begin = processor_seconds();
+            simulate_power(experiment, power_effects(effects, protocol), settings, silent);
+            seconds[i] = processor_seconds() - begin;
+        }
+        constexpr double least_per_minute = 20.0;
+        const double rate = 60.0 * (studies[1] - studies[0]) / (seconds[1] - seconds[0]);
+        // Set for the shipped sculptures and their 30 trials.
+        figures.push_back(options.mesh.empty() ? at_least(what, rate, "studies/min", least_per_minute)
+                                               : BenchFigure{what, rate, "studies/min"});
+    };
+    measure("studies of 12 observers per minute and core, head fraction", {"head:material=rough:odds=1.5"});
+    measure("the same, head fraction, WSS and CC", {"none"});
+    return figures;
+}
+
+} // namespace overt

@@ -1,0 +1,229 @@
+#include "app/power/gaze_studies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/design/schedule.h"
+
+namespace overt {
+
+namespace {
+
+/// Of the search for the outline: rings within the reach, and directions of each.
+constexpr int rings = 6, directions = 16;
+
+template <class Entries> int index_of(const Entries& entries, const std::string& id) {
+    const auto found = std::ranges::find(entries, id, [](const auto& entry) { return entry.id; });
+    return found == entries.end() ? -1 : static_cast<int>(found - entries.begin());
+}
+
+ObservedEffect planted(const PowerEffect& effect, const Protocol& protocol) {
+    ObservedEffect planted;
+    const auto hold_in = [&](const std::string& column, const std::string& level) {
+        if (column == "task")
+            planted.task = index_of(protocol.tasks, level);
+        else if (column == "material")
+            planted.material = index_of(protocol.materials, level);
+        else
+            planted.sculpture = index_of(protocol.sculptures, level);
+    };
+    hold_in(effect.column, effect.level);
+    for (const StudyKey& key : effect.within)
+        hold_in(key.column, key.value);
+    if (effect.measure == PowerMeasure::head)
+        planted.head_odds = effect.size;
+    if (effect.measure == PowerMeasure::cc)
+        planted.spot_share = effect.size;
+    return planted;
+}
+
+ObservedScene planned_scene(const Experiment& experiment, std::span<const PowerEffect> effects,
+                            const GazeStudySettings& settings) {
+    const Protocol& protocol = experiment.protocol;
+    for (const Sculpture& sculpture : experiment.sculptures) {
+        if (!sculpture.has_mesh())
+            throw InputError(fmt::format("sculpture \"{}\" has no mesh, and gaze on it cannot be simulated: "
+                                         "give it a mesh, or plan with sculptures that have one.",
+                                         sculpture.id));
+    }
+    ObservedScene scene = make_observed_scene(protocol, experiment.sculptures, screen_geometry_of(protocol));
+    scene.effects.clear();
+    scene.head_share_sd = settings.head_share_sd;
+    for (const PowerEffect& effect : effects) {
+        scene.effects.push_back(planted(effect, protocol));
+        if (effect.column == "task")
+            scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.level))].head_share =
+                scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.against))].head_share;
+    }
+    return scene;
+}
+
+} // namespace
+
+GazeStudySettings gaze_study_settings(const Protocol& protocol) {
+    return {protocol.simulated_observers.head_share_sd, protocol.tracker.simulated_accuracy_deg, {}};
+}
+
+GazeStudies::GazeStudies(const Experiment& experiment, std::vector<PowerEffect> effects,
+                         const GazeStudySettings& settings)
+    : experiment_(experiment), effects_(std::move(effects)), settings_(settings),
+      scene_(planned_scene(experiment, effects_, settings)), turn_(scene_),
+      spread_of_log_(effects_.size(), 0.0) {
+    const Protocol& protocol = experiment.protocol;
+    for (std::size_t i = 0; i < experiment.sculptures.size(); ++i) {
+        const Sculpture& shown = experiment.sculptures[i];
+        targets_.push_back(std::make_unique<GazeTargets>(scene_.sculptures[i], scene_));
+        StudySculpture sculpture;
+        sculpture.id = shown.id;
+        sculpture.part_names = shown.mesh.part_names;
+        for (std::size_t part = 0; part < shown.mesh.part_names.size(); ++part) {
+            if (shown.mesh.part_names[part] == "head")
+                sculpture.head = static_cast<PartIndex>(part);
+        }
+        sculpture.camera = shown.scene.view.camera;
+        sculpture.axis_point = shown.scene.bounds.centre();
+        sculpture.screen = scene_.screen;
+        SculptureSurface surface;
+        surface.scale = surface_scale(sculpture.camera, sculpture.axis_point, sculpture.screen);
+        if (surface.scale) {
+            sculpture.mm_per_unit = surface.scale->mm_per_unit;
+            sculpture.mm_per_deg = surface.scale->mm_per_deg;
+        }
+        frame_.sculptures.push_back(std::move(sculpture));
+        surfaces_.push_back(std::move(surface));
+    }
+    const auto ids_of = [](const auto& entries) {
+        std::vector<std::string> ids;
+        for (const auto& entry : entries)
+            ids.push_back(entry.id);
+        return ids;
+    };
+    levels_ = {{"task", ids_of(protocol.tasks)},
+               {"sculpture", ids_of(protocol.sculptures)},
+               {"material", ids_of(protocol.materials)}};
+}
+
+void GazeStudies::plant_spread(std::size_t effect, double spread, double of_log) {
+    scene_.effects[effect].spread = spread;
+    spread_of_log_[effect] = of_log;
+}
+
+/// The scene with this observer's own effects.
+ObservedScene GazeStudies::scene_of(std::uint64_t observer_seed) const {
+    ObservedScene scene = scene_;
+    for (std::size_t i = 0; i < effects_.size(); ++i) {
+        if (!(effects_[i].sd > 0.0))
+            continue;
+        const double own = effects_[i].sd * RandomStream(observer_seed, "effect on an observer", i).normal();
+        ObservedEffect& effect = scene.effects[i];
+        if (effects_[i].measure == PowerMeasure::head)
+            effect.head_odds *= std::exp(own);
+        else if (effects_[i].measure == PowerMeasure::wss)
+            effect.spread += own * spread_of_log_[i];
+        else
+            effect.spot_share = std::clamp(effect.spot_share + own, 0.0, 1.0);
+    }
+    return scene;
+}
+
+StudyResults GazeStudies::study(std::uint64_t seed, int observers) const {
+    const Protocol& protocol = experiment_.protocol;
+    StudyResults results = frame_;
+    ScheduleMaker schedules(protocol);
+    GazeScript script(scene_, observer_);
+    const int digits = observers > 99 ? 3 : 2;
+    for (int number = 1; number <= observers; ++number) {
+        RandomStream seeds(seed, "seeds of observers", static_cast<std::uint64_t>(number));
+        const std::uint64_t high = seeds.next_bits(), own = high << 32 | seeds.next_bits();
+        StudySession session;
+        session.observer = fmt::format("{:0{}}", number, digits);
+        results.sessions.push_back(std::move(session));
+        const ObservedScene planned = scene_of(own);
+        for (const Trial& trial : schedules.make({results.sessions.back().observer, number}, own).trials)
+            add_trial(trial, own, planned, script, results);
+    }
+    return results;
+}
+
+void GazeStudies::add_trial(const Trial& trial, std::uint64_t seed, const ObservedScene& planned,
+                            GazeScript& script, StudyResults& results) const {
+    const Protocol& protocol = experiment_.protocol;
+    const auto sculpture = static_cast<std::size_t>(trial.condition.sculpture);
+    const GazeTargets& targets = *targets_[sculpture];
+    StudyTrial shown;
+    shown.session = static_cast<int>(results.sessions.size()) - 1;
+    shown.sculpture = trial.condition.sculpture;
+    shown.number = trial.index + 1;
+    shown.presentation_s = protocol.animation.duration_s;
+    shown.keys = {{"observer", results.sessions.back().observer},
+                  {"task", protocol.tasks[static_cast<std::size_t>(trial.task)].id},
+                  {"sculpture", protocol.sculptures[sculpture].id},
+                  {"material", protocol.materials[static_cast<std::size_t>(trial.condition.material)].id}};
+    shown.first_fixation = results.fixations.size();
+
+    RandomStream random(seed, "calibration offset", static_cast<std::uint64_t>(trial.index));
+    const double x = random.normal(), y = random.normal();
+    const glm::dvec2 offset_px =
+        settings_.accuracy_deg * glm::dvec2(x, y) * px_per_deg_at_centre(scene_.screen);
+    script.compose(scene_, &targets, turn_, observer_, seed, trial.index,
+                   gaze_plan(planned, seed, trial.task, trial.condition));
+    const SessionDuration end = from_seconds(shown.presentation_s);
+    for (const ScriptedFixation& fixation : script.fixations()) {
+        // The first was under way at the onset.
+        if (fixation.begin <= SessionDuration{} || fixation.begin >= end)
+            continue;
+        const SessionDuration until = std::min(fixation.end, end), middle = (fixation.begin + until) / 2;
+        StudyFixation found;
+        found.trial = static_cast<int>(results.trials.size());
+        found.onset_s = to_seconds(fixation.begin);
+        found.duration_s = to_seconds(until - fixation.begin);
+        const ScreenPoint meant = place_of(fixation, middle, scene_, &targets, turn_);
+        found.place = {meant.x_px + offset_px.x, meant.y_px + offset_px.y};
+        const std::optional<SurfacePoint> point =
+            surface_near(targets, scene_.screen.image_from_screen(found.place),
+                         turn_.angle_at(middle - fixation.light_delay));
+        if (point) {
+            found.triangle = point->triangle;
+            found.barycentric = point->barycentric;
+            found.position = point->position;
+            found.part = point->part;
+            found.on_surface = 1.0;
+            if (const auto& scale = surfaces_[sculpture].scale)
+                found.sigma_mm = scale->sigma_mm(settings_.sigma, point->depth);
+        } else {
+            found.why = NotCounted::not_on_surface;
+        }
+        results.fixations.push_back(found);
+    }
+    shown.fixations = results.fixations.size() - shown.first_fixation;
+    results.trials.push_back(std::move(shown));
+}
+
+/// What is under the gaze, or nearest to it within the mean error of a validation: of two normal errors, that
+/// is the root of pi / 2 times their standard deviation.
+std::optional<SurfacePoint> GazeStudies::surface_near(const GazeTargets& targets, glm::dvec2 image,
+                                                      Degrees angle) const {
+    const auto at = [&](glm::dvec2 place) {
+        return scene_.screen.is_inside_image(place) ? targets.surface_at(place, angle) : std::nullopt;
+    };
+    if (std::optional<SurfacePoint> point = at(image))
+        return point;
+    const glm::dvec2 reach_px =
+        settings_.accuracy_deg * std::sqrt(0.5 * std::numbers::pi) * px_per_deg_at_centre(scene_.screen);
+    for (int ring = 1; ring <= rings; ++ring) {
+        for (int i = 0; i < directions; ++i) {
+            const double turn = 2.0 * std::numbers::pi * i / directions;
+            const glm::dvec2 off =
+                static_cast<double>(ring) / rings * reach_px * glm::dvec2(std::cos(turn), std::sin(turn));
+            if (std::optional<SurfacePoint> point = at(image + off))
+                return point;
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace overt

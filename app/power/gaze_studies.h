@@ -1,0 +1,79 @@
+/// Studies simulated at gaze level: which places of the surface observers fixate, without pictures and
+/// sessions.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/inputs/protocol_inputs.h"
+#include "devices/simulated/gaze_script.h"
+#include "devices/simulated/gaze_targets.h"
+#include "devices/simulated/observed_scene.h"
+#include "experiment/power/power_effect.h"
+#include "experiment/study/study_options.h"
+#include "experiment/study/study_reader.h"
+
+namespace overt {
+
+/// What besides the effects decides where gaze is found.
+struct GazeStudySettings {
+    double head_share_sd = 0.0; ///< see SimulatedObservers
+    double accuracy_deg = 0.3;  ///< standard deviation along each axis of a trial's constant error
+    KernelWidth sigma;          ///< of maps
+};
+
+/// The settings that the protocol has.
+GazeStudySettings gaze_study_settings(const Protocol& protocol);
+
+/// Observers, schedules, plans and scripts of gaze are those of simulated sessions (ScheduleMaker,
+/// gaze_plan, GazeScript). Each fixation is one measurement, halfway through it: what of the surface lies
+/// under the gaze with the trial's constant error, in the sculpture's angle at that time, or within the mean
+/// error of a validation. The noise of samples and the detection of fixations are left out.
+///
+/// Constant after it was made, and may be used by several threads.
+class GazeStudies {
+  public:
+    /// `experiment` must outlive this. The protocol's own simulated effects are left out: only `effects`
+    /// hold. Where levels of `task` are compared, the head is as attractive in one as in the other but for
+    /// the effect. Effects on WSS need plant_spread() besides. Throws InputError if a sculpture has no mesh.
+    GazeStudies(const Experiment& experiment, std::vector<PowerEffect> effects,
+                const GazeStudySettings& settings);
+
+    /// What a GazePlan::spread has to be for an effect on WSS; `of_log` is how much it has to change with the
+    /// logarithm of the ratio.
+    void plant_spread(std::size_t effect, double spread, double of_log);
+
+    /// Sessions, trials and fixations of observers 1 … `observers`, as read_study() gives them: a function of
+    /// the seed.
+    StudyResults study(std::uint64_t seed, int observers) const;
+
+    /// By sculpture, only the scale.
+    const std::vector<SculptureSurface>& surfaces() const { return surfaces_; }
+    /// Sculptures with their scale, without trials.
+    const StudyResults& frame() const { return frame_; }
+    const LevelLists& levels() const { return levels_; }
+    const std::vector<PowerEffect>& effects() const { return effects_; }
+
+  private:
+    ObservedScene scene_of(std::uint64_t observer_seed) const;
+    void add_trial(const Trial& trial, std::uint64_t seed, const ObservedScene& planned, GazeScript& script,
+                   StudyResults& results) const;
+    std::optional<SurfacePoint> surface_near(const GazeTargets& targets, glm::dvec2 image,
+                                             Degrees angle) const;
+
+    const Experiment& experiment_;
+    std::vector<PowerEffect> effects_;
+    GazeStudySettings settings_;
+    ObserverSettings observer_;
+    ObservedScene scene_;
+    PursuedTurn turn_;
+    std::vector<double> spread_of_log_; ///< by effect
+    std::vector<std::unique_ptr<GazeTargets>> targets_;
+    std::vector<SculptureSurface> surfaces_;
+    StudyResults frame_;
+    LevelLists levels_;
+};
+
+} // namespace overt

@@ -1,0 +1,164 @@
+#include "app/power/power_command.h"
+
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "app/analyze/kernel_width.h"
+#include "app/cli/cache_folder.h"
+#include "app/cli/command_options.h"
+#include "app/cli/interruption.h"
+#include "app/cli/progress_bar.h"
+#include "app/power/power_simulation.h"
+#include "experiment/base/counted.h"
+#include "experiment/base/export_folder.h"
+#include "experiment/power/power_tables.h"
+#include "render/figures/power_figure.h"
+
+namespace overt {
+
+namespace {
+
+struct PowerOptions {
+    std::filesystem::path protocol, out = "power";
+    std::vector<std::string> effects;
+    std::string observers = "6:24", sigma = "1deg", format = "csv";
+    std::optional<double> head_share_sd, accuracy_deg;
+    PowerSettings settings;
+    bool overwrite = false, json = false;
+};
+
+void print_answers(const PowerResults& results, const std::filesystem::path& out) {
+    for (const PowerCurve& curve : results.curves) {
+        fmt::print("{}\n  planted: {}\n  tested as: {}\n", answer_of(curve, results), curve.planted,
+                   curve.analysis);
+        for (const PowerPoint& point : curve.points)
+            fmt::print("  {:>4} observers {:6.1f} %   ({:.1f} … {:.1f} %)\n", point.observers,
+                       100.0 * point.share(), 100.0 * point.interval.low, 100.0 * point.interval.high);
+    }
+    for (const std::string& remark : results.remarks)
+        fmt::print("note: {}\n", remark);
+    fmt::print("assumed of observers:");
+    for (const StudyParameter& parameter : results.parameters) {
+        if (parameter.name == "head-share-sd" || parameter.name == "accuracy" ||
+            parameter.name == "head-shares")
+            fmt::print(" {} {}{};", parameter.name, parameter.value,
+                       parameter.unit.empty() ? "" : fmt::format(" {}", parameter.unit));
+    }
+    fmt::print(" {}, {} each\npower: {}\n", results.protocol, counted(results.trials, "trial"), out.string());
+}
+
+int run_power(PowerOptions options) {
+    const Experiment experiment =
+        read_experiment_or_report(options.protocol, cache_folder(), InputDepth::sculptures);
+    const std::vector<PowerEffect> effects = power_effects(options.effects, experiment.protocol);
+    PowerSettings& settings = options.settings;
+    settings.observers = observer_counts(options.observers);
+    settings.gaze = gaze_study_settings(experiment.protocol);
+    settings.gaze.sigma = kernel_width(options.sigma);
+    if (options.head_share_sd)
+        settings.gaze.head_share_sd = *options.head_share_sd;
+    if (options.accuracy_deg)
+        settings.gaze.accuracy_deg = *options.accuracy_deg;
+    const TableFormat format = options.format == "tsv"     ? TableFormat::tsv
+                               : options.format == "jsonl" ? TableFormat::jsonl
+                                                           : TableFormat::csv;
+    const Interruption interruption;
+    ExportFolder folder(options.out, options.overwrite, [](const std::string& file) {
+        return is_power_table(file) || file == "power_curve.svg" || file == "power_curve.pdf";
+    });
+    ProgressBar bar;
+    const PowerResults results =
+        simulate_power(experiment, effects, settings, [&](std::string_view what, int done, int total) {
+            bar.update(what, done, total);
+            Interruption::check("The simulation");
+        });
+    bar.finish();
+    write_power_tables(results, folder.path(), format);
+    write_power_figure(results, folder.path());
+    folder.publish();
+    if (options.json)
+        fmt::print("{}", power_json(results));
+    else
+        print_answers(results, options.out);
+    return 0;
+}
+
+} // namespace
+
+void add_power_command(CLI::App& app, ChosenCommand& chosen) {
+    const auto given = std::make_shared<PowerOptions>();
+    PowerOptions& options = *given;
+    PowerSettings& settings = options.settings;
+    settings.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    CLI::App& command = add_command(
+        app, "power", "The chance that a planned study finds an effect, by simulated studies",
+        "overt power protocols/overt_2019.toml --effect head:material=rough:odds=1.5 --observers 6:24\n"
+        "  overt power protocols/overt_2019.toml --effect wss:material=rough:ratio=1.2:sd=0.1 "
+        "--head-share-sd 0.4\n"
+        "  overt power protocols/overt_2019.toml --effect cc:material=rough:against=coated:share=0.2\n"
+        "  overt power protocols/overt_2019.toml --effect none --observers 12\n"
+        "An effect is a measure (head, wss, cc), the material or task in which it is, and its size: odds of "
+        "the\n"
+        "head, ratio of WSS, share of fixations that go to one spot. It may name :against=LEVEL, :sd=… over\n"
+        "observers, and :task=ID or :sculpture=ID for trials of these only. none tests everything without "
+        "an\n"
+        "effect. docs/power.md says what is simulated, and what is not.\n"
+        "Exit codes: 0 done, 1 failed, 2 bad input.");
+    command.add_option("PROTOCOL", options.protocol, "Protocol file")->required()->type_name("FILE");
+    command.add_option("--effect", options.effects, "An effect, several times for several, or none")
+        ->required()
+        ->type_name("EFFECT")
+        ->take_all()
+        ->allow_extra_args(false);
+    command.add_option("--observers", options.observers, "Numbers of observers: 12, 6:24, 6:24:3 or 6,12,18")
+        ->type_name("N")
+        ->capture_default_str();
+    command.add_option("--studies", settings.studies, "Studies to simulate")
+        ->check(CLI::Range(10, 100000))
+        ->capture_default_str();
+    command.add_option("--alpha", settings.alpha, "A study has found the effect if p is at most this")
+        ->check(CLI::Range(0.0001, 0.5))
+        ->capture_default_str();
+    command.add_option("--power", settings.target, "Share of studies that is asked for")
+        ->check(CLI::Range(0.05, 0.999))
+        ->capture_default_str();
+    command
+        .add_option("--head-share-sd", options.head_share_sd,
+                    "Standard deviation over observers of the logit of their shares on the head")
+        ->check(CLI::Range(0.0, 5.0))
+        ->default_str("the protocol's");
+    command
+        .add_option("--accuracy", options.accuracy_deg,
+                    "Standard deviation along each axis of the tracker's constant error in a trial")
+        ->check(CLI::Range(0.0, 5.0))
+        ->default_str("the protocol's")
+        ->type_name("DEG");
+    command
+        .add_option("--sigma", options.sigma, "Standard deviation of the maps' kernel, such as 1deg or 30mm")
+        ->type_name("WIDTH")
+        ->capture_default_str();
+    command
+        .add_option("--permutations", settings.permutations, "Random ones, where there are too many for all")
+        ->check(CLI::Range(100, 1000000))
+        ->capture_default_str();
+    command.add_option("--seed", settings.seed, "Of all that is drawn at random")
+        ->check(seed_number())
+        ->type_name("N")
+        ->capture_default_str();
+    command.add_option("--jobs", settings.jobs, "Threads; the result is the same with any number")
+        ->check(above_zero())
+        ->type_name("N")
+        ->capture_default_str();
+    command.add_option("--out", options.out, "Folder to write to")->type_name("DIR")->capture_default_str();
+    command.add_option("--format", options.format, "Of the tables")
+        ->check(CLI::IsMember({"csv", "tsv", "jsonl"}))
+        ->capture_default_str();
+    command.add_flag("--overwrite", options.overwrite, "Replace results that are there");
+    command.add_flag("--json", options.json, "Print the results as JSON");
+    run_when_chosen(command, chosen, [given] { return run_power(*given); });
+}
+
+} // namespace overt

@@ -1,0 +1,218 @@
+#include "app/power/power_simulation.h"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/power/planted_spread.h"
+#include "app/power/power_tests.h"
+#include "experiment/base/counted.h"
+#include "experiment/base/error.h"
+#include "experiment/base/parallel.h"
+#include "experiment/design/observer_groups.h"
+#include "experiment/design/schedule.h"
+
+namespace overt {
+
+namespace {
+
+std::string analysis_of(const PowerEffect& effect) {
+    const bool is_material = effect.column == "material";
+    const char* const column = effect.measure == PowerMeasure::head  ? "head_p"
+                               : effect.measure == PowerMeasure::wss ? "wss_p"
+                                                                     : "maps_p";
+    std::string row = is_material ? "the row over all tasks" : "the row";
+    for (const StudyKey& key : effect.within)
+        row = fmt::format("the row of {} {}", key.column, key.value);
+    return fmt::format("overt analyze SESSION… --by {} --compare {}: {} of {} against {} in table1_pairs, {}",
+                       is_material ? "task,sculpture,material" : "task,sculpture", effect.column, row,
+                       effect.level, effect.against, column);
+}
+
+std::string planted_words(const PowerEffect& effect) {
+    std::string words;
+    if (effect.measure == PowerMeasure::head)
+        words = fmt::format("In {} {} the odds of the head are multiplied by {}.", effect.column,
+                            effect.level, effect.size);
+    else if (effect.measure == PowerMeasure::cc)
+        words = fmt::format("In {} {} a share of {} of the fixations goes to one spot of each sculpture.",
+                            effect.column, effect.level, effect.size);
+    return words;
+}
+
+std::vector<StudyParameter> parameters_of(const Protocol& protocol, const PowerSettings& settings) {
+    const auto text = [](auto number) { return fmt::format("{}", number); };
+    std::vector<std::string> shares;
+    for (const Task& task : protocol.tasks)
+        shares.push_back(fmt::format("{} {}", task.id, task.simulated_head_share));
+    return {
+        {"observers", fmt::format("{}", fmt::join(settings.observers, ",")), "", "Of a study."},
+        {"studies", text(settings.studies), "", "That were simulated."},
+        {"alpha", text(settings.alpha), "", "A study has found the effect if p is at most this."},
+        {"power", text(settings.target), "", "The share of studies that is asked for."},
+        {"head-shares", fmt::format("{}", fmt::join(shares, ", ")), "",
+         "Shares of fixations on the head, of the protocol's tasks (simulated_head_share)."},
+        {"head-share-sd", text(settings.gaze.head_share_sd), "",
+         "Standard deviation over observers of the logit of their shares of fixations on the head."},
+        {"accuracy", text(settings.gaze.accuracy_deg), "deg",
+         "Standard deviation along each axis of the tracker's constant error in a trial."},
+        {"sigma", text(settings.gaze.sigma.value), settings.gaze.sigma.is_mm ? "mm" : "deg",
+         "Standard deviation of the maps' kernel."},
+        {"permutations", text(settings.permutations), "", "Random ones, where there are too many for all."},
+        {"seed", text(settings.seed), "", "Of all that is drawn at random."}};
+}
+
+void check(const Protocol& protocol, const PowerSettings& settings) {
+    if (const auto capacity = group_capacity(protocol); capacity && settings.observers.back() > *capacity)
+        throw InputError(fmt::format("--observers: the protocol's groups take {}, and not {}.",
+                                     counted(*capacity, "observer"), settings.observers.back()));
+    if (settings.alpha * (settings.permutations + 1.0) < 1.0)
+        throw InputError(fmt::format("--alpha {}: {} permutations cannot give a p as small as that.",
+                                     settings.alpha, settings.permutations));
+}
+
+/// Effects that are simulated together: those that are none; each other one alone, so that none acts on
+/// what another one's test finds.
+std::vector<std::vector<std::size_t>> batches_of(const std::vector<PowerEffect>& effects) {
+    std::vector<std::vector<std::size_t>> batches;
+    std::vector<std::size_t> without;
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+        if (effects[i].is_none() && effects[i].sd == 0.0)
+            without.push_back(i);
+        else
+            batches.push_back({i});
+    }
+    if (!without.empty())
+        batches.push_back(std::move(without));
+    return batches;
+}
+
+std::vector<PowerCurve> empty_curves(const std::vector<PowerEffect>& effects, const PowerSettings& settings) {
+    std::vector<PowerCurve> curves;
+    for (const PowerEffect& effect : effects) {
+        PowerCurve curve{effect, analysis_of(effect), planted_words(effect), {}};
+        for (const int count : settings.observers) {
+            curve.points.emplace_back();
+            curve.points.back().observers = count;
+            curve.points.back().studies.resize(static_cast<std::size_t>(settings.studies));
+        }
+        curves.push_back(std::move(curve));
+    }
+    return curves;
+}
+
+using AllMaps = std::vector<std::unique_ptr<VertexMaps>>;
+
+/// For effects on CC alone.
+AllMaps maps_for(const Experiment& experiment, const std::vector<PowerEffect>& effects,
+                 const PowerSettings& settings, const PowerProgress& progress) {
+    AllMaps maps(experiment.sculptures.size());
+    if (std::ranges::none_of(effects, [](auto& effect) { return effect.measure == PowerMeasure::cc; }))
+        return maps;
+    const auto report = [&](std::size_t done) {
+        progress("maps of single fixations", static_cast<int>(done), static_cast<int>(maps.size()));
+    };
+    const GazeStudies studies(experiment, {}, settings.gaze);
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        report(i);
+        if (const auto& scale = studies.surfaces()[i].scale)
+            maps[i] = std::make_unique<VertexMaps>(experiment.sculptures[i].mesh, *scale, settings.gaze.sigma,
+                                                   settings.jobs);
+    }
+    report(maps.size());
+    return maps;
+}
+
+/// Simulates the studies of one batch and tests its effects.
+void simulate(const GazeStudies& studies, std::span<PowerCurve* const> curves, const AllMaps& maps,
+              const PowerSettings& settings, const std::function<void()>& one_done) {
+    std::mutex reporting;
+    parallel_for(
+        settings.studies,
+        [&](int number) {
+            const auto study = static_cast<std::size_t>(number);
+            RandomStream random(settings.seed, "seeds of studies", study);
+            const std::uint64_t high = random.next_bits(), seed = high << 32 | random.next_bits();
+            const StudyResults simulated = studies.study(seed, settings.observers.back());
+            for (PowerCurve* curve : curves) {
+                const std::vector<StudyOutcome> outcomes =
+                    tested(studies, simulated, curve->effect, settings.observers, maps,
+                           {settings.permutations, PermutationSettings{}.most_exact, seed});
+                for (std::size_t i = 0; i < outcomes.size(); ++i)
+                    curve->points[i].studies[study] = outcomes[i];
+            }
+            const std::scoped_lock lock(reporting);
+            one_done();
+        },
+        settings.jobs);
+}
+
+/// What a reader must know.
+void add_remarks(PowerResults& results, const Protocol& protocol, const PowerSettings& settings) {
+    for (const PowerCurve& curve : results.curves) {
+        const PowerPoint& most = curve.points.back();
+        if (most.without_test > 0)
+            results.remarks.push_back(fmt::format(
+                "{} of {} studies with {} have nothing to test for {}: no observer sees a sculpture in both "
+                "levels{}.",
+                most.without_test, settings.studies, counted(most.observers, "observer"), curve.effect.text(),
+                curve.effect.column == "material" ? " under one task" : ""));
+    }
+    if (const int fewest = fewest_testable_observers(settings.alpha); settings.observers.front() < fewest)
+        results.remarks.push_back(fmt::format(
+            "With fewer than {} observers the tests cannot give p at most {}: 2 / 2^n is the least.", fewest,
+            settings.alpha));
+    if (settings.gaze.head_share_sd == 0.0)
+        results.remarks.emplace_back(
+            "Observers differ by chance alone: the protocol has no head_share_sd, and --head-share-sd sets "
+            "none. Real observers differ more, so that real studies find less.");
+    if (std::ranges::any_of(results.curves, [](auto& curve) { return !curve.effect.is_none(); }) &&
+        std::ranges::none_of(results.curves, [](auto& curve) { return curve.effect.sd > 0.0; }))
+        results.remarks.emplace_back("The effect is the same for all observers; :sd=… lets it differ.");
+    if (!protocol.simulated_effects.empty())
+        results.remarks.emplace_back("The protocol's own [[simulated_effect]]s are left out: only what "
+                                     "--effect says is planted.");
+}
+
+} // namespace
+
+PowerResults simulate_power(const Experiment& experiment, const std::vector<PowerEffect>& effects,
+                            const PowerSettings& settings, const PowerProgress& progress) {
+    const Protocol& protocol = experiment.protocol;
+    check(protocol, settings);
+    PowerResults results;
+    results.protocol = protocol.title.empty() ? protocol.name : protocol.title;
+    results.trials = trial_count(protocol, 1);
+    results.studies = settings.studies;
+    results.alpha = settings.alpha;
+    results.target = settings.target;
+    results.parameters = parameters_of(protocol, settings);
+    results.curves = empty_curves(effects, settings);
+    const AllMaps maps = maps_for(experiment, effects, settings, progress);
+    const std::vector<std::vector<std::size_t>> batches = batches_of(effects);
+    const int all = settings.studies * static_cast<int>(batches.size());
+    int done = 0;
+    for (const std::vector<std::size_t>& batch : batches) {
+        std::vector<PowerEffect> own;
+        std::vector<PowerCurve*> curves;
+        for (const std::size_t i : batch) {
+            own.push_back(effects[i]);
+            curves.push_back(&results.curves[i]);
+        }
+        GazeStudies studies(experiment, own, settings.gaze);
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            if (own[i].measure == PowerMeasure::wss)
+                curves[i]->planted = plant_spread(studies, i, settings.seed, settings.jobs);
+        }
+        simulate(studies, curves, maps, settings, [&] { progress("studies", ++done, all); });
+    }
+    for (PowerCurve& curve : results.curves)
+        summarise(curve, settings.alpha);
+    add_remarks(results, protocol, settings);
+    return results;
+}
+
+} // namespace overt

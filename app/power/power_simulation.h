@@ -1,0 +1,33 @@
+/// The power of a planned study: simulated studies, each with the tests of the analysis.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "app/power/gaze_studies.h"
+#include "experiment/power/power_results.h"
+
+namespace overt {
+
+struct PowerSettings {
+    std::vector<int> observers; ///< numbers, rising
+    int studies = 200;
+    double alpha = 0.05, target = 0.8;
+    std::uint64_t seed = 1;
+    int permutations = 5000; ///< where all swaps or flips are too many
+    int jobs = 0;            ///< threads; 0: one for each processor
+    GazeStudySettings gaze;
+};
+
+/// Told what is being done and how much of it, from any thread, one at a time; ends the work by throwing.
+using PowerProgress = std::function<void(std::string_view what, int done, int total)>;
+
+/// Each study is simulated with the most observers; one with fewer has the first of them. The tests are those
+/// of the table of pairs (study_pairs): between materials within each task, between tasks within each
+/// sculpture. Each effect is simulated alone, with the same seeds. A function of its arguments, whatever the
+/// number of threads. Throws InputError for a spread of fixations that the sculptures do not allow, and as
+/// GazeStudies does.
+PowerResults simulate_power(const Experiment& experiment, const std::vector<PowerEffect>& effects,
+                            const PowerSettings& settings, const PowerProgress& progress);
+
+} // namespace overt

@@ -1,0 +1,108 @@
+#include "app/power/power_tests.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "experiment/statistics/swap_test.h"
+
+namespace overt {
+
+namespace {
+
+struct ObserverValue {
+    std::size_t observer = 0;
+    std::optional<double> value;
+};
+
+StudyOutcome flipped(std::span<const ObserverValue> values, int observers,
+                     const PermutationSettings& settings) {
+    std::vector<ObserverValue> own;
+    for (const ObserverValue& one : values) {
+        if (one.observer < static_cast<std::size_t>(observers))
+            own.push_back(one);
+    }
+    const std::vector<double> means =
+        observer_means(std::span<const ObserverValue>(own), [](const ObserverValue& of) { return of.value; });
+    StudyOutcome outcome;
+    if (const auto test = sign_flip_test(means, settings)) {
+        outcome.p = test->p;
+        outcome.estimate =
+            std::accumulate(means.begin(), means.end(), 0.0) / static_cast<double>(means.size());
+    }
+    return outcome;
+}
+
+std::vector<PairedMaps> paired_maps(const std::vector<std::vector<LevelComparison>>& cells,
+                                    std::span<const std::unique_ptr<VertexMaps>> maps) {
+    std::vector<PairedMaps> surfaces;
+    for (const std::vector<LevelComparison>& cell : cells) {
+        for (std::size_t sculpture = 0; sculpture < maps.size(); ++sculpture) {
+            if (!maps[sculpture])
+                continue;
+            PairedMaps paired(maps[sculpture]->areas());
+            for (const LevelComparison& one : cell) {
+                if (static_cast<std::size_t>(one.sculpture) == sculpture)
+                    paired.add(one.observer, maps[sculpture]->sum_of(one.a), maps[sculpture]->sum_of(one.b));
+            }
+            if (!paired.observers().empty())
+                surfaces.push_back(std::move(paired));
+        }
+    }
+    return surfaces;
+}
+
+} // namespace
+
+std::vector<std::vector<LevelComparison>>
+compared_cells(const GazeStudies& studies, const StudyResults& results, const PowerEffect& effect) {
+    std::vector<std::string> within;
+    if (effect.column == "material")
+        within.emplace_back("task");
+    std::vector<std::vector<LevelComparison>> cells;
+    for (const StudyGroup& group : make_groups(results, within, studies.levels())) {
+        std::vector<int> trials;
+        for (const int trial : group.trials) {
+            const StudyTrial& of = results.trials[static_cast<std::size_t>(trial)];
+            if (std::ranges::all_of(effect.within,
+                                    [&](const StudyKey& key) { return of.key(key.column) == key.value; }))
+                trials.push_back(trial);
+        }
+        cells.push_back(level_comparisons(results, trials, studies.surfaces(), effect.column, effect.level,
+                                          effect.against));
+    }
+    return cells;
+}
+
+std::vector<StudyOutcome> tested(const GazeStudies& studies, const StudyResults& results,
+                                 const PowerEffect& effect, std::span<const int> observers,
+                                 std::span<const std::unique_ptr<VertexMaps>> maps,
+                                 const PermutationSettings& settings) {
+    const std::vector<std::vector<LevelComparison>> cells = compared_cells(studies, results, effect);
+    std::vector<StudyOutcome> outcomes;
+    if (effect.measure == PowerMeasure::cc) {
+        const std::vector<PairedMaps> surfaces = paired_maps(cells, maps);
+        for (const int count : observers) {
+            StudyOutcome outcome;
+            if (const auto test = swap_test(surfaces, static_cast<std::size_t>(count), settings)) {
+                outcome.p = test->test.p;
+                outcome.estimate = test->correlation;
+            }
+            outcomes.push_back(outcome);
+        }
+        return outcomes;
+    }
+    std::vector<ObserverValue> values;
+    for (const std::vector<LevelComparison>& cell : cells) {
+        for (const LevelComparison& one : cell) {
+            const auto& scale = studies.surfaces()[static_cast<std::size_t>(one.sculpture)].scale;
+            values.push_back({one.observer, effect.measure == PowerMeasure::head
+                                                ? head_difference(one, results)
+                                                : std::optional(wss_difference_mm2(one, *scale))});
+        }
+    }
+    for (const int count : observers)
+        outcomes.push_back(flipped(values, count, settings));
+    return outcomes;
+}
+
+} // namespace overt

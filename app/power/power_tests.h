@@ -1,0 +1,27 @@
+/// The tests of one simulated study.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "app/power/gaze_studies.h"
+#include "app/power/vertex_maps.h"
+#include "experiment/power/power_results.h"
+#include "experiment/study/level_comparisons.h"
+
+namespace overt {
+
+/// The comparisons of an effect's two levels: within each task where materials are compared, else within
+/// sculptures alone. A cell's comparisons have all that in common but the observer and the sculpture.
+std::vector<std::vector<LevelComparison>>
+compared_cells(const GazeStudies& studies, const StudyResults& results, const PowerEffect& effect);
+
+/// The test of an effect with the first observers of a study, by the numbers of them. `maps` by sculpture,
+/// needed for CC.
+std::vector<StudyOutcome> tested(const GazeStudies& studies, const StudyResults& results,
+                                 const PowerEffect& effect, std::span<const int> observers,
+                                 std::span<const std::unique_ptr<VertexMaps>> maps,
+                                 const PermutationSettings& settings);
+
+} // namespace overt

@@ -1,0 +1,246 @@
+#include "experiment/power/power_effect.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiment/base/error.h"
+
+namespace overt {
+
+namespace {
+
+struct MeasureWords {
+    std::string_view name, size_key, words;
+    double least, most; ///< of the size
+};
+
+constexpr MeasureWords measures[] = {{"head", "odds", "share of fixations on the head", 0.01, 100.0},
+                                     {"wss", "ratio", "spread of fixations (WSS)", 0.05, 20.0},
+                                     {"cc", "share", "maps of all observers (CC)", 0.0, 0.95}};
+
+const MeasureWords& words_of(PowerMeasure measure) { return measures[static_cast<std::size_t>(measure)]; }
+
+constexpr double most_sd = 5.0;
+constexpr int most_observers = 500;
+
+std::vector<std::string> parts_of(const std::string& text, char between) {
+    std::vector<std::string> parts;
+    std::size_t begin = 0;
+    for (;;) {
+        const std::size_t end = text.find(between, begin);
+        parts.push_back(text.substr(begin, end - begin));
+        if (end == std::string::npos)
+            return parts;
+        begin = end + 1;
+    }
+}
+
+template <class Number> std::optional<Number> number_in(const std::string& text) {
+    Number number{};
+    const char* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, number);
+    return read.ec == std::errc() && read.ptr == end ? std::optional(number) : std::nullopt;
+}
+
+std::vector<std::string> levels_of_column(const Protocol& protocol, const std::string& column) {
+    std::vector<std::string> ids;
+    const auto take = [&](const auto& entries) {
+        for (const auto& entry : entries)
+            ids.push_back(entry.id);
+    };
+    if (column == "task")
+        take(protocol.tasks);
+    else if (column == "material")
+        take(protocol.materials);
+    else
+        take(protocol.sculptures);
+    return ids;
+}
+
+class EffectReader {
+  public:
+    EffectReader(const std::string& text, const Protocol& protocol) : text_(text), protocol_(protocol) {}
+
+    PowerEffect read() {
+        const std::vector<std::string> parts = parts_of(text_, ':');
+        const auto found = std::find_if(std::begin(measures), std::end(measures),
+                                        [&](const MeasureWords& one) { return one.name == parts[0]; });
+        if (found == std::end(measures))
+            fail(fmt::format("it begins with a measure, which is head, wss or cc, and not \"{}\"", parts[0]));
+        effect_.measure = static_cast<PowerMeasure>(found - std::begin(measures));
+        for (std::size_t i = 1; i < parts.size(); ++i)
+            take(parts[i]);
+        if (effect_.column.empty())
+            fail("it has to say in which material or task the effect is, such as material=rough");
+        if (!has_size_)
+            fail(fmt::format("it has to say how large the effect is: {}=…", found->size_key));
+        check_levels();
+        return effect_;
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& what) const {
+        throw InputError(fmt::format(
+            "--effect {}: {}. An example: head:material=rough:odds=1.5, wss:material=rough:ratio=1.2 or "
+            "cc:material=rough:share=0.2.",
+            text_, what));
+    }
+
+    void take(const std::string& part) {
+        const std::size_t at = part.find('=');
+        if (at == std::string::npos)
+            fail(fmt::format("\"{}\" is not of the form key=value", part));
+        const std::string key = part.substr(0, at), value = part.substr(at + 1);
+        if (std::find(seen_.begin(), seen_.end(), key) != seen_.end())
+            fail(fmt::format("{} is given twice", key));
+        seen_.push_back(key);
+        const MeasureWords& measure = words_of(effect_.measure);
+        if (key == measure.size_key) {
+            effect_.size = number(key, value, measure.least, measure.most);
+            has_size_ = true;
+        } else if (key == "sd") {
+            effect_.sd = number(key, value, 0.0, most_sd);
+        } else if (key == "against") {
+            effect_.against = value;
+        } else if (key == "task" || key == "material" || key == "sculpture") {
+            check_level(key, value);
+            if (effect_.column.empty() && key != "sculpture") {
+                effect_.column = key;
+                effect_.level = value;
+            } else {
+                effect_.within.push_back({key, value});
+            }
+        } else {
+            fail(fmt::format("\"{}\" is no key of {}, whose keys are task, material, sculpture, {}, against "
+                             "and sd",
+                             key, measure.name, measure.size_key));
+        }
+    }
+
+    double number(const std::string& key, const std::string& value, double least, double most) const {
+        const std::optional<double> read = number_in<double>(value);
+        if (!read || !(*read >= least && *read <= most))
+            fail(fmt::format("{} has to be a number from {} to {}, and not \"{}\"", key, least, most, value));
+        return *read;
+    }
+
+    void check_level(const std::string& column, const std::string& level) const {
+        const std::vector<std::string> known = levels_of_column(protocol_, column);
+        if (std::find(known.begin(), known.end(), level) == known.end())
+            fail(fmt::format("the protocol has no {} \"{}\"; it has {}", column, level,
+                             fmt::join(known, ", ")));
+    }
+
+    void check_levels() {
+        const std::vector<std::string> known = levels_of_column(protocol_, effect_.column);
+        if (known.size() < 2)
+            fail(fmt::format("the protocol has only one {}, and nothing to compare it with", effect_.column));
+        if (effect_.against.empty())
+            effect_.against = known[0] == effect_.level ? known[1] : known[0];
+        check_level(effect_.column, effect_.against);
+        if (effect_.against == effect_.level)
+            fail(fmt::format("{} cannot be compared with itself", effect_.level));
+    }
+
+    const std::string& text_;
+    const Protocol& protocol_;
+    PowerEffect effect_;
+    bool has_size_ = false;
+    std::vector<std::string> seen_;
+};
+
+PowerEffect no_effect(PowerMeasure measure, const std::string& column,
+                      const std::vector<std::string>& levels) {
+    PowerEffect effect;
+    effect.measure = measure;
+    effect.column = column;
+    effect.level = levels[0];
+    effect.against = levels[1];
+    effect.size = measure == PowerMeasure::cc ? 0.0 : 1.0;
+    return effect;
+}
+
+} // namespace
+
+std::string PowerEffect::text() const {
+    const MeasureWords& of = words_of(measure);
+    std::string text =
+        fmt::format("{}:{}={}:{}={}:against={}", of.name, column, level, of.size_key, size, against);
+    for (const StudyKey& key : within)
+        text += fmt::format(":{}={}", key.column, key.value);
+    if (sd > 0.0)
+        text += fmt::format(":sd={}", sd);
+    return text;
+}
+
+std::string PowerEffect::words() const {
+    std::string words = fmt::format("{}, {} {} against {}", words_of(measure).words, column, level, against);
+    for (const StudyKey& key : within)
+        words += fmt::format(", {} {}", key.column, key.value);
+    return words;
+}
+
+std::vector<PowerEffect> power_effects(const std::vector<std::string>& texts, const Protocol& protocol) {
+    std::vector<PowerEffect> effects;
+    for (const std::string& text : texts) {
+        if (text != "none") {
+            effects.push_back(EffectReader(text, protocol).read());
+            continue;
+        }
+        if (texts.size() > 1)
+            throw InputError("--effect none stands alone: another effect would not leave it none.");
+        const std::vector<std::string> materials = levels_of_column(protocol, "material"),
+                                       tasks = levels_of_column(protocol, "task");
+        if (materials.size() > 1) {
+            for (const PowerMeasure measure : {PowerMeasure::head, PowerMeasure::wss, PowerMeasure::cc})
+                effects.push_back(no_effect(measure, "material", materials));
+        }
+        if (tasks.size() > 1)
+            effects.push_back(no_effect(PowerMeasure::head, "task", tasks));
+        if (effects.empty())
+            throw InputError("--effect none: the protocol has one material and one task, and nothing to "
+                             "compare.");
+    }
+    return effects;
+}
+
+std::vector<int> observer_counts(const std::string& text) {
+    const auto fail = [&](const std::string& what) {
+        throw InputError(fmt::format(
+            "--observers {}: {}. Expected is a number, a range with or without a step, or a list: 12, 6:24, "
+            "6:24:3, 6,12,18.",
+            text, what));
+    };
+    const auto number = [&](const std::string& part) {
+        const std::optional<int> read = number_in<int>(part);
+        if (!read || *read < 1 || *read > most_observers)
+            fail(fmt::format("\"{}\" is no whole number from 1 to {}", part, most_observers));
+        return *read;
+    };
+    std::vector<int> counts;
+    if (text.find(':') != std::string::npos) {
+        const std::vector<std::string> parts = parts_of(text, ':');
+        if (parts.size() > 3)
+            fail("a range has a begin, an end and a step");
+        const int begin = number(parts[0]), end = number(parts[1]),
+                  step = parts.size() > 2 ? number(parts[2]) : 1;
+        if (end < begin)
+            fail("the range ends before it begins");
+        for (int count = begin; count <= end; count += step)
+            counts.push_back(count);
+        return counts;
+    }
+    for (const std::string& part : parts_of(text, ','))
+        counts.push_back(number(part));
+    std::sort(counts.begin(), counts.end());
+    counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+    return counts;
+}
+
+} // namespace overt

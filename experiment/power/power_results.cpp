@@ -1,0 +1,91 @@
+#include "experiment/power/power_results.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiment/base/counted.h"
+#include "experiment/statistics/bootstrap.h"
+#include "experiment/statistics/proportion.h"
+
+namespace overt {
+
+namespace {
+
+std::string percent(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
+
+std::string of_studies(const PowerPoint& point) {
+    return fmt::format(
+        "with {}, {} of {} (95 % interval {:.0f} to {:.0f} %)", counted(point.observers, "observer"),
+        percent(point.share()),
+        counted(static_cast<int>(point.studies.size()), "simulated study", "simulated studies"),
+        100.0 * point.interval.low, 100.0 * point.interval.high);
+}
+
+} // namespace
+
+void summarise(PowerCurve& curve, double alpha) {
+    for (PowerPoint& point : curve.points) {
+        point.found = point.without_test = 0;
+        std::vector<double> estimates;
+        for (const StudyOutcome& study : point.studies) {
+            point.found += study.p && *study.p <= alpha;
+            point.without_test += !study.p;
+            if (study.estimate)
+                estimates.push_back(*study.estimate);
+        }
+        std::sort(estimates.begin(), estimates.end());
+        point.median_estimate = estimates.empty() ? 0.0 : quantile_of_sorted(estimates, 0.5);
+        if (const auto interval = wilson_interval(point.found, static_cast<double>(point.studies.size())))
+            point.interval = *interval;
+    }
+}
+
+std::optional<int> observers_needed(const PowerCurve& curve, double target) {
+    std::optional<int> needed;
+    for (const PowerPoint& point : curve.points) {
+        if (point.share() < target)
+            needed.reset();
+        else if (!needed)
+            needed = point.observers;
+    }
+    return needed;
+}
+
+std::string answer_of(const PowerCurve& curve, const PowerResults& results) {
+    // The point nearest to the paper's number of observers, or to what the target asks for.
+    const std::optional<int> needed = observers_needed(curve, results.target);
+    const PowerPoint* shown = &curve.points.back();
+    for (const PowerPoint& point : curve.points) {
+        if (needed && point.observers == *needed)
+            shown = &point;
+    }
+    std::string begin = of_studies(*shown);
+    begin[0] = 'W';
+    if (curve.effect.is_none()) {
+        shown = &curve.points.back();
+        begin = of_studies(*shown);
+        begin[0] = 'W';
+        return fmt::format("{} found a difference that was not planted ({}); {} is the level of the test.",
+                           begin, curve.effect.words(), percent(results.alpha));
+    }
+    std::string text = fmt::format("{} found the effect on the {}.", begin, curve.effect.words());
+    if (needed && *needed == curve.points.front().observers)
+        text += fmt::format(" {} is reached with the fewest observers that were simulated, {}.",
+                            percent(results.target), *needed);
+    else if (needed)
+        text += fmt::format(" {} needs {}.", percent(results.target), counted(*needed, "observer"));
+    else
+        text += fmt::format(" {} was not reached with up to {}.", percent(results.target),
+                            counted(curve.points.back().observers, "observer"));
+    return text;
+}
+
+int fewest_testable_observers(double alpha) {
+    int observers = 1;
+    for (double least = 1.0; least > alpha; least *= 0.5)
+        ++observers;
+    return observers;
+}
+
+} // namespace overt

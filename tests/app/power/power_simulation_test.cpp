@@ -1,0 +1,168 @@
+/// Studies simulated at gaze level: they find what is planted as often as statistics say, and nothing else.
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "app/power/planted_spread.h"
+#include "app/power/power_simulation.h"
+#include "app/power/power_tests.h"
+#include "experiment/base/error.h"
+#include "experiment/statistics/point_spread.h"
+#include "experiment/study/study_maps.h"
+#include "tests/support/figures.h"
+
+using namespace overt;
+
+namespace {
+
+/// One bust in two materials under so many tasks, each of them for every stimulus.
+Experiment busts(int tasks) {
+    Experiment experiment;
+    Protocol& protocol = experiment.protocol;
+    protocol.name = "busts";
+    protocol.sculptures.resize(1);
+    protocol.sculptures[0].id = "bust";
+    protocol.materials.resize(2);
+    protocol.materials[0].id = "smooth";
+    protocol.materials[1].id = "rough";
+    for (int i = 0; i < tasks; ++i) {
+        Task task;
+        task.id = i == 0 ? "free" : "clothes";
+        task.simulated_head_share = i == 0 ? 0.4 : 0.2;
+        protocol.tasks.push_back(task);
+    }
+    protocol.schedule.max_sculpture_run = 0;
+    protocol.view.width_px = protocol.view.height_px = 512;
+    Sculpture bust;
+    bust.id = "bust";
+    bust.mesh = test::bust();
+    const View view{fit_camera(bust.mesh, {11.9}, {512, 512}, {25.0}, 0.06), {512, 512}};
+    bust.scene = {view, bust.mesh.bounds()};
+    experiment.sculptures.push_back(std::move(bust));
+    return experiment;
+}
+
+PowerResults power_of(const Experiment& experiment, const std::vector<std::string>& effects,
+                      std::vector<int> observers, int studies, int jobs = 0) {
+    PowerSettings settings;
+    settings.observers = std::move(observers);
+    settings.studies = studies;
+    settings.jobs = jobs;
+    settings.gaze = gaze_study_settings(experiment.protocol);
+    return simulate_power(experiment, power_effects(effects, experiment.protocol), settings,
+                          [](std::string_view, int, int) {});
+}
+
+} // namespace
+
+TEST_CASE("the power to find a share of fixations is that of a paired t test of binomial shares", "[unit]") {
+    const Experiment experiment = busts(1);
+    const std::string effect = "head:material=rough:odds=1.8";
+    PowerSettings settings;
+    settings.gaze.accuracy_deg = 0.0;
+    const GazeStudies studies(experiment, power_effects({effect}, experiment.protocol), settings.gaze);
+    const StudyResults study = studies.study(5, 60);
+    const double fixations = static_cast<double>(study.fixations.size()) / 120.0;
+    // The number that the power below was reckoned with.
+    CHECK(fixations == Approx(fixations_of_a_trial).epsilon(0.03));
+
+    settings.observers = {8, 14};
+    settings.studies = 400;
+    const PowerResults results =
+        simulate_power(experiment, studies.effects(), settings, [](std::string_view, int, int) {});
+    // See fixations_of_a_trial; four standard errors of a share of 400, and what the tests differ by.
+    CHECK(results.curves[0].points[0].share() == Approx(power_of_8).margin(0.12));
+    CHECK(results.curves[0].points[1].share() == Approx(power_of_14).margin(0.12));
+    CHECK(results.curves[0].points[1].median_estimate == Approx(0.545455 - 0.4).margin(0.01));
+}
+
+TEST_CASE("studies without an effect find one in 5 % of cases, whatever is tested", "[unit]") {
+    const PowerResults results = power_of(busts(2), {"none"}, {8}, 200);
+    REQUIRE(results.curves.size() == 4);
+    for (const PowerCurve& curve : results.curves) {
+        CAPTURE(curve.effect.text());
+        // scipy.stats.binom.ppf(0.9995, 200, 0.05)
+        CHECK(curve.points[0].found <= 21);
+        CHECK(curve.points[0].without_test == 0);
+    }
+}
+
+TEST_CASE("more observers find more", "[unit]") {
+    const PowerResults results = power_of(
+        busts(2),
+        {"head:material=rough:odds=1.6", "wss:material=rough:ratio=0.85", "cc:material=rough:share=0.2"},
+        {4, 7, 14}, 60);
+    for (const PowerCurve& curve : results.curves) {
+        CAPTURE(curve.effect.text());
+        // Fewer than six cannot find anything.
+        CHECK(curve.points[0].found == 0);
+        CHECK(curve.points[1].found > 0);
+        CHECK(curve.points[2].found >= curve.points[1].found);
+        CHECK(curve.points[2].share() > 0.5);
+    }
+}
+
+TEST_CASE("studies are the same on any number of threads, and with observers to follow", "[unit]") {
+    const std::vector<std::string> effects{"head:material=rough:odds=1.6:sd=0.3",
+                                           "wss:material=rough:ratio=0.9:sd=0.1", "cc:task=free:share=0.2"};
+    const PowerResults one = power_of(busts(2), effects, {6, 8}, 12, 1),
+                       two = power_of(busts(2), effects, {6, 8}, 12, 2),
+                       six = power_of(busts(2), effects, {6}, 12, 2);
+    for (std::size_t curve = 0; curve < effects.size(); ++curve) {
+        CHECK(one.curves[curve].planted == two.curves[curve].planted);
+        for (std::size_t study = 0; study < 12; ++study) {
+            for (std::size_t i = 0; i < 2; ++i) {
+                const StudyOutcome &a = one.curves[curve].points[i].studies[study],
+                                   &b = two.curves[curve].points[i].studies[study];
+                CHECK(a.p == b.p);
+                CHECK(a.estimate == b.estimate);
+            }
+            CHECK(six.curves[curve].points[0].studies[study].p ==
+                  one.curves[curve].points[0].studies[study].p);
+        }
+    }
+}
+
+TEST_CASE("a planted ratio of WSS is found in the trials of its level alone", "[unit]") {
+    const Experiment experiment = busts(1);
+    for (const double ratio : {0.8, 1.15}) {
+        const std::vector<PowerEffect> effects =
+            power_effects({fmt::format("wss:material=rough:ratio={}", ratio)}, experiment.protocol);
+        GazeStudies studies(experiment, effects, gaze_study_settings(experiment.protocol));
+        plant_spread(studies, 0, 1, 0);
+        const StudyResults study = studies.study(77, 80);
+        double a = 0.0, b = 0.0;
+        for (const auto& cell : compared_cells(studies, study, effects[0])) {
+            for (const LevelComparison& one : cell) {
+                const auto wss = [](const auto& fixations) {
+                    std::vector<glm::dvec3> points;
+                    for (const StudyFixation* fixation : fixations)
+                        points.push_back(fixation->position);
+                    return point_spread(points)->wss();
+                };
+                a += wss(one.a);
+                b += wss(one.b);
+            }
+        }
+        CHECK(a / b == Approx(ratio).margin(0.05));
+    }
+}
+
+TEST_CASE("plans that cannot be are refused with what can", "[unit]") {
+    using Catch::Contains;
+    Experiment experiment = busts(1);
+    CHECK_THROWS_WITH(power_of(experiment, {"wss:material=rough:ratio=9"}, {8}, 10),
+                      Contains("WSS can be made") && Contains("at most"));
+    CHECK_THROWS_AS(power_of(experiment, {"wss:material=rough:ratio=0.05"}, {8}, 10), InputError);
+    experiment.protocol.groups.resize(1);
+    experiment.protocol.groups[0].cap = 4;
+    CHECK_THROWS_WITH(power_of(experiment, {"none"}, {8}, 10), Contains("groups take 4 observers"));
+    Experiment without_mesh = busts(1);
+    without_mesh.sculptures[0].mesh = {};
+    CHECK_THROWS_WITH(power_of(without_mesh, {"none"}, {8}, 10), Contains("has no mesh"));
+    Experiment once = busts(1);
+    once.protocol.tasks[0].stimuli = TaskCoverage::once_per_sculpture;
+    const PowerResults nothing = power_of(once, {"head:material=rough:odds=2"}, {8}, 10);
+    CHECK(nothing.curves[0].points[0].without_test == 10);
+    CHECK(nothing.curves[0].points[0].found == 0);
+    CHECK_THAT(nothing.remarks.at(0), Contains("nothing to test"));
+}
