@@ -130,7 +130,8 @@ ObservedScene GazeStudies::scene_of(std::uint64_t observer_seed) const {
     return scene;
 }
 
-StudyResults GazeStudies::study(std::uint64_t seed, int observers) const {
+StudyResults GazeStudies::study(std::uint64_t seed, int observers,
+                                const std::function<bool(const Trial&)>& wanted) const {
     const Protocol& protocol = experiment_.protocol;
     StudyResults results = frame_;
     ScheduleMaker schedules(protocol);
@@ -143,8 +144,10 @@ StudyResults GazeStudies::study(std::uint64_t seed, int observers) const {
         session.observer = fmt::format("{:0{}}", number, digits);
         results.sessions.push_back(std::move(session));
         const ObservedScene planned = scene_of(own);
-        for (const Trial& trial : schedules.make({results.sessions.back().observer, number}, own).trials)
-            add_trial(trial, own, planned, script, results);
+        for (const Trial& trial : schedules.make({results.sessions.back().observer, number}, own).trials) {
+            if (!wanted || wanted(trial))
+                add_trial(trial, own, planned, script, results);
+        }
     }
     return results;
 }

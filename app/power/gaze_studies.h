@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -46,8 +47,9 @@ class GazeStudies {
     void plant_spread(std::size_t effect, double spread, double of_log);
 
     /// Sessions, trials and fixations of observers 1 … `observers`, as read_study() gives them: a function of
-    /// the seed.
-    StudyResults study(std::uint64_t seed, int observers) const;
+    /// the seed. `wanted`: only trials for which it is true, each as it would be among all.
+    StudyResults study(std::uint64_t seed, int observers,
+                       const std::function<bool(const Trial&)>& wanted = {}) const;
 
     /// By sculpture, only the scale.
     const std::vector<SculptureSurface>& surfaces() const { return surfaces_; }
@@ -55,6 +57,10 @@ class GazeStudies {
     const StudyResults& frame() const { return frame_; }
     const LevelLists& levels() const { return levels_; }
     const std::vector<PowerEffect>& effects() const { return effects_; }
+    /// Whether an effect is planted in a trial.
+    bool holds_in(std::size_t effect, const Trial& trial) const {
+        return scene_.effects[effect].holds_in(trial.task, trial.condition);
+    }
 
   private:
     ObservedScene scene_of(std::uint64_t observer_seed) const;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -9,48 +11,83 @@
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
 #include "experiment/statistics/point_spread.h"
-#include "experiment/study/study_maps.h"
 
 namespace overt {
 
 namespace {
 
-/// Studies of a few observers each, whose mean WSS is taken.
-constexpr int pilot_studies = 16, pilot_observers = 3;
+/// Pilot studies are of so many observers each, and of as many studies as have so many trials in the level:
+/// their mean WSS has a relative standard error of about 1 %.
+constexpr int pilot_observers = 3, pilot_trials = 1500, most_pilot_studies = 500;
 /// Farther from none, hardly any place is taken at the first draw.
 constexpr double least_spread = -4.0, most_spread = 1.2;
 constexpr double tolerance = 2e-3; ///< of the ratio's logarithm
 
-/// Mean WSS of the effect's level in mm^2, over trials.
-double mean_wss(const GazeStudies& studies, const PowerEffect& effect, std::uint64_t seed, int jobs) {
-    std::vector<double> sums(pilot_studies, 0.0);
-    std::vector<int> counts(pilot_studies, 0);
-    parallel_for(
-        pilot_studies,
-        [&](int pilot) {
-            const auto at = static_cast<std::size_t>(pilot);
-            RandomStream random(seed, "pilot studies", at);
-            const StudyResults results = studies.study(random.next_bits(), pilot_observers);
-            for (const std::vector<LevelComparison>& cell : compared_cells(studies, results, effect)) {
-                for (const LevelComparison& one : cell) {
-                    const auto& scale = studies.surfaces()[static_cast<std::size_t>(one.sculpture)].scale;
-                    std::vector<glm::dvec3> points;
-                    for (const StudyFixation* fixation : one.a)
-                        points.push_back(fixation->position);
-                    sums[at] += point_spread(points)->wss() * scale->mm_per_unit * scale->mm_per_unit;
-                    ++counts[at];
-                }
+/// The mean WSS of an effect's level.
+class Pilot {
+  public:
+    Pilot(const GazeStudies& studies, std::size_t effect, std::uint64_t seed, int jobs)
+        : studies_(studies), effect_(effect), seed_(seed), jobs_(jobs) {
+        // Only trials that are compared are tested, and therefore simulated.
+        const StudyResults first = study(0, {});
+        int compared = 0;
+        for (const auto& cell : compared_cells(studies, first, studies.effects()[effect])) {
+            for (const LevelComparison& one : cell) {
+                tasks_.insert(first.trials[static_cast<std::size_t>(one.a.front()->trial)].key("task"));
+                ++compared;
             }
-        },
-        jobs);
-    double sum = 0.0;
-    int count = 0;
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-        sum += sums[i];
-        count += counts[i];
+        }
+        if (compared > 0)
+            studies_wanted_ = std::min((pilot_trials + compared - 1) / compared, most_pilot_studies);
     }
-    return count > 0 ? sum / count : 0.0;
-}
+
+    int observers() const { return studies_wanted_ * pilot_observers; }
+
+    /// In mm^2, over trials; 0 where none is compared.
+    double mean_wss(std::span<const std::string> ids_of_tasks) const {
+        std::vector<double> sums(static_cast<std::size_t>(studies_wanted_), 0.0);
+        std::vector<int> counts(sums.size(), 0);
+        const auto wanted = [&](const Trial& trial) {
+            return studies_.holds_in(effect_, trial) &&
+                   tasks_.contains(ids_of_tasks[static_cast<std::size_t>(trial.task)]);
+        };
+        parallel_for(
+            studies_wanted_,
+            [&](int number) {
+                const auto at = static_cast<std::size_t>(number);
+                const StudyResults results = study(at, wanted);
+                for (int t = 0; t < static_cast<int>(results.trials.size()); ++t) {
+                    const int sculpture = results.trials[static_cast<std::size_t>(t)].sculpture;
+                    const auto& scale = studies_.surfaces()[static_cast<std::size_t>(sculpture)].scale;
+                    std::vector<glm::dvec3> points;
+                    for_each_counted(results, t, [&](const StudyFixation& fixation) {
+                        points.push_back(fixation.position);
+                    });
+                    if (const auto spread = point_spread(points); spread && scale) {
+                        sums[at] += spread->wss() * scale->mm_per_unit * scale->mm_per_unit;
+                        ++counts[at];
+                    }
+                }
+            },
+            jobs_);
+        const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
+        const int count = std::accumulate(counts.begin(), counts.end(), 0);
+        return count > 0 ? sum / count : 0.0;
+    }
+
+  private:
+    StudyResults study(std::size_t number, const std::function<bool(const Trial&)>& wanted) const {
+        RandomStream random(seed_, "pilot studies", number);
+        return studies_.study(random.next_bits(), pilot_observers, wanted);
+    }
+
+    const GazeStudies& studies_;
+    std::size_t effect_;
+    std::uint64_t seed_;
+    int jobs_;
+    int studies_wanted_ = 0;
+    std::set<std::string> tasks_; ///< in which the levels are compared
+};
 
 } // namespace
 
@@ -59,14 +96,16 @@ std::string plant_spread(GazeStudies& studies, std::size_t index, std::uint64_t 
     // With no effect on average there can be one on each observer.
     const double wanted = effect.size == 1.0 ? std::log(1.1) : std::log(effect.size);
     if (effect.size == 1.0 && effect.sd == 0.0)
-        return "No difference of WSS is planted.";
+        return "No difference is planted, on average.";
     studies.plant_spread(index, 0.0, 0.0);
-    const double without = mean_wss(studies, effect, seed, jobs);
+    const Pilot pilot(studies, index, seed, jobs);
+    const std::vector<std::string>& tasks = studies.levels().at("task");
+    const double without = pilot.mean_wss(tasks);
     if (!(without > 0.0))
         return "No observer sees a sculpture in both levels, so that nothing is planted.";
     const auto log_ratio = [&](double spread) {
         studies.plant_spread(index, spread, 0.0);
-        return std::log(mean_wss(studies, effect, seed, jobs) / without);
+        return std::log(pilot.mean_wss(tasks) / without);
     };
     // Between a spread that does too little and one that does too much.
     double near = 0.0, of_near = 0.0, far = wanted > 0.0 ? most_spread : least_spread,
@@ -90,7 +129,7 @@ std::string plant_spread(GazeStudies& studies, std::size_t index, std::uint64_t 
     return fmt::format(
         "Gaze in {} {} prefers places {} the middle of the sculpture, such that the mean WSS of "
         "{} observers is {:.3f} times that without the preference.",
-        effect.column, effect.level, wanted > 0.0 ? "far from" : "near", pilot_studies * pilot_observers,
+        effect.column, effect.level, wanted > 0.0 ? "far from" : "near", pilot.observers(),
         effect.size == 1.0 ? 1.0 : std::exp(of_spread));
 }
 

@@ -34,7 +34,9 @@ std::string analysis_of(const PowerEffect& effect) {
 
 std::string planted_words(const PowerEffect& effect) {
     std::string words;
-    if (effect.measure == PowerMeasure::head)
+    if (effect.is_none())
+        words = "No difference is planted, on average.";
+    else if (effect.measure == PowerMeasure::head)
         words = fmt::format("In {} {} the odds of the head are multiplied by {}.", effect.column,
                             effect.level, effect.size);
     else if (effect.measure == PowerMeasure::cc)
