@@ -188,6 +188,7 @@ PowerResults simulate_power(const Experiment& experiment, const std::vector<Powe
     PowerResults results;
     results.protocol = protocol.title.empty() ? protocol.name : protocol.title;
     results.trials = trial_count(protocol, 1);
+    results.planned = protocol.schedule.observers;
     results.studies = settings.studies;
     results.alpha = settings.alpha;
     results.target = settings.target;

@@ -53,22 +53,20 @@ std::optional<int> observers_needed(const PowerCurve& curve, double target) {
 }
 
 std::string answer_of(const PowerCurve& curve, const PowerResults& results) {
-    // The point nearest to the paper's number of observers, or to what the target asks for.
+    // What is said is of the number that the protocol plans, or of the number that is needed, or of the most.
     const std::optional<int> needed = observers_needed(curve, results.target);
     const PowerPoint* shown = &curve.points.back();
-    for (const PowerPoint& point : curve.points) {
-        if (needed && point.observers == *needed)
-            shown = &point;
+    for (const std::optional<int> wanted : {needed, std::optional(results.planned)}) {
+        for (const PowerPoint& point : curve.points) {
+            if (point.observers == wanted)
+                shown = &point;
+        }
     }
     std::string begin = of_studies(*shown);
     begin[0] = 'W';
-    if (curve.effect.is_none()) {
-        shown = &curve.points.back();
-        begin = of_studies(*shown);
-        begin[0] = 'W';
+    if (curve.effect.is_none())
         return fmt::format("{} found a difference that was not planted ({}); {} is the level of the test.",
                            begin, curve.effect.words(), percent(results.alpha));
-    }
     std::string text = fmt::format("{} found the effect on the {}.", begin, curve.effect.words());
     if (needed && *needed == curve.points.front().observers)
         text += fmt::format(" {} is reached with the fewest observers that were simulated, {}.",

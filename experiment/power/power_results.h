@@ -40,6 +40,7 @@ struct PowerCurve {
 struct PowerResults {
     std::string protocol; ///< title
     int trials = 0;       ///< of the first observer
+    int planned = 0;      ///< observers that the protocol plans
     int studies = 0;
     double alpha = 0.05, target = 0.8;
     std::vector<StudyParameter> parameters;

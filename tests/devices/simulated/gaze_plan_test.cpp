@@ -20,6 +20,29 @@ ObservedScene scene_with(std::vector<ObservedEffect> effects, double sd = 0.0) {
     return scene;
 }
 
+/// The middle of a mesh by area, a plinth's counting a tenth, and the mean square distance from it.
+std::pair<glm::dvec3, double> middle_and_square(const Mesh& mesh) {
+    glm::dvec3 middle(0.0);
+    double square = 0.0, all = 0.0;
+    const auto visit = [&](const auto& take) {
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+            const glm::uvec3 t = mesh.triangles[i];
+            const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+            const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
+            take((a + b + c) / 3.0, mesh.part_names[mesh.triangle_parts[i]] == "plinth" ? 0.1 * area : area);
+        }
+    };
+    visit([&](const glm::dvec3& centre, double weight) {
+        middle += weight * centre;
+        all += weight;
+    });
+    middle /= all;
+    visit([&](const glm::dvec3& centre, double weight) {
+        square += weight * glm::dot(centre - middle, centre - middle) / all;
+    });
+    return {middle, square};
+}
+
 double logit(double share) { return std::log(share / (1.0 - share)); }
 
 } // namespace
@@ -99,4 +122,39 @@ TEST_CASE("an effect's spot gets its share of the fixations, the same spot of ev
               Approx(expected).margin(4.0 * std::sqrt(0.25 / all) + 0.01));
     }
     CHECK(glm::distance(middles[1], middles[2]) < 1e-2 * glm::length(middles[1]) + 1e-6);
+}
+
+TEST_CASE("a spread of gaze prefers places far from the middle or near it, in head and body alike",
+          "[unit]") {
+    const Sitting sitting(1);
+    const ObservedScene scene = sitting.observer.scene();
+    const GazeTargets targets(scene.sculptures[0], scene);
+    const std::vector<std::string>& parts = sitting.mesh.part_names;
+    for (const Region region : {Region::head, Region::elsewhere}) {
+        constexpr int draws = 20000;
+        RandomStream random(3, "by area");
+        std::vector<SurfacePoint> everywhere;
+        for (int i = 0; i < draws; ++i) {
+            everywhere.push_back(targets.draw(random, region));
+            CHECK((parts[everywhere.back().part] == "head") == (region == Region::head));
+        }
+        const auto [centre, square] = middle_and_square(sitting.mesh);
+        for (const double spread : {-1.0, 0.5}) {
+            // Draws by area alone, weighed as the plan says.
+            double expected = 0.0, weights = 0.0, found = 0.0;
+            for (const SurfacePoint& point : everywhere) {
+                const glm::dvec3 off = point.position - centre;
+                const double r2 = glm::dot(off, off) / square, weight = std::exp(spread * r2);
+                expected += weight * r2;
+                weights += weight;
+            }
+            for (int i = 0; i < draws; ++i) {
+                const SurfacePoint point = targets.draw(random, region, spread);
+                CHECK((parts[point.part] == "head") == (region == Region::head));
+                const glm::dvec3 off = point.position - centre;
+                found += glm::dot(off, off) / square / draws;
+            }
+            CHECK(found == Approx(expected / weights).epsilon(0.02));
+        }
+    }
 }

@@ -124,6 +124,9 @@ TEST_CASE("the fewest observers are those from whom on the share stays above the
     CHECK_THAT(answer_of(curve, results), Contains("With 12 observers, 85 % of 100 simulated studies (95 % "
                                                    "interval 77 to 91 %) found the effect"));
     CHECK_THAT(answer_of(curve, results), Contains("80 % needs 12 observers."));
+    results.planned = 8;
+    CHECK_THAT(answer_of(curve, results), Contains("With 8 observers, 82 % of 100 simulated studies"));
+    CHECK_THAT(answer_of(curve, results), Contains("80 % needs 12 observers."));
     results.target = 0.99;
     CHECK_THAT(answer_of(curve, results), Contains("99 % was not reached with up to 14 observers."));
 
