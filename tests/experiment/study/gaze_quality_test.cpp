@@ -86,8 +86,18 @@ TEST_CASE("lost samples are counted within blinks and apart from them", "[unit]"
     CHECK(quality.lost == 15);
     CHECK(quality.lost_share() == Approx(0.015));
     CHECK(quality.blink_share() == Approx(0.06));
-    // A lost sample between two others is no step.
-    CHECK_FALSE(quality.rms_s2s_deg);
+    CHECK_FALSE(quality.rms_s2s_deg); // there is no fixation
+}
+
+TEST_CASE("what gaze does while samples are lost is no step from one sample to the next", "[unit]") {
+    std::vector<PlacedSample> samples = samples_at(1000.0, 30);
+    for (int i = 0; i < 30; ++i) {
+        PlacedSample& sample = samples[static_cast<std::size_t>(i)];
+        sample.has_gaze = i < 12 || i >= 15;
+        sample.gaze.x_px += i < 15 ? 0.0 : 2.0 * screen.px_per_deg_at_centre();
+    }
+    const std::array events{event_of(GazeEvent::Kind::fixation, samples, 0, 29)};
+    CHECK(*gaze_quality(samples, events, screen).rms_s2s_deg == Approx(0.0).margin(1e-9));
 }
 
 TEST_CASE("without a known distance there are no degrees, and without samples nothing", "[unit]") {
