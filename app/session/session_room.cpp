@@ -1,6 +1,8 @@
 #include "app/session/session_room.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -15,13 +17,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The files that are going to be copied, instead of what is assumed of them.
+/// The files that are going to be copied, instead of what is assumed of them. Sculptures that are frames only
+/// have none.
 double bytes_of_maps(const StimulusLibrary& library, std::size_t sculptures) {
     double bytes = 0.0;
     for (std::size_t i = 0; i < sculptures; ++i) {
-        for (std::size_t pose = 0; pose < library.cache().poses().angles.size(); ++pose)
-            bytes += static_cast<double>(fs::file_size(
-                library.cache().map_file(static_cast<int>(i), PoseIndex{static_cast<int>(pose)})));
+        for (std::size_t pose = 0; pose < library.cache().poses().angles.size(); ++pose) {
+            std::error_code missing;
+            const std::uintmax_t size = fs::file_size(
+                library.cache().map_file(static_cast<int>(i), PoseIndex{static_cast<int>(pose)}), missing);
+            bytes += missing ? 0.0 : static_cast<double>(size);
+        }
     }
     return bytes;
 }

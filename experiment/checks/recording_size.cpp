@@ -33,12 +33,17 @@ RecordingSize recording_size(const Protocol& protocol, std::span<const Sculpture
     const double trial_bytes =
         recorded_s * sample_rate_hz * bytes_per_sample + cycle.total_refreshes * bytes_per_flip;
     const auto sculpture_count = static_cast<double>(sculptures.size());
+    // Sculptures that are frames only have no maps.
+    double mapped = 0.0;
+    for (std::size_t i = 0; i < sculptures.size(); ++i)
+        mapped += sculptures[i].has_mesh() ||
+                  (i < protocol.sculptures.size() && !protocol.sculptures[i].lut.empty());
     const double picture_bytes = bytes_per_px * protocol.view.width_px * protocol.view.height_px;
     RecordingSize size;
     // SQLite's log holds a trial's rows until they are in the file.
     size.rows = bytes_at_first + (trials + 1) * trial_bytes;
-    size.maps = picture_bytes * sculpture_count *
-                static_cast<double>(distinct_poses(protocol.animation).angles.size());
+    size.maps =
+        picture_bytes * mapped * static_cast<double>(distinct_poses(protocol.animation).angles.size());
     size.pictures = picture_bytes * sculpture_count * static_cast<double>(protocol.materials.size());
     for (const Sculpture& sculpture : sculptures)
         size.meshes += bytes_per_vertex * static_cast<double>(sculpture.mesh.positions.size()) +

@@ -54,6 +54,18 @@ TEST_CASE("without a tracker there are flips alone, and spoken answers take thei
     CHECK(recording_size(protocol, one_sculpture(), 9, 500.0).answers == Approx(9 * 20 * 44100 * 3.0));
 }
 
+TEST_CASE("a sculpture that is frames only has pictures, and maps where the protocol gives them", "[unit]") {
+    Protocol protocol = paper_protocol();
+    const std::vector<Sculpture> without_mesh(1);
+    const RecordingSize frames = recording_size(protocol, without_mesh, 10, 5.0);
+    CHECK(frames.maps == 0.0);
+    CHECK(frames.meshes == 0.0);
+    CHECK(frames.pictures > 0.0);
+    protocol.sculptures[0].lut = "maps/##.exr";
+    CHECK(recording_size(protocol, without_mesh, 10, 5.0).maps ==
+          recording_size(protocol, one_sculpture(), 10, 5.0).maps);
+}
+
 TEST_CASE("a record's size is told in words and in JSON", "[unit]") {
     RecordingSize size;
     size.rows = 22e6;
