@@ -18,7 +18,7 @@ constexpr std::size_t kept_noise = 256;
 BitsLink::BitsLink(std::unique_ptr<ByteTransport> transport, Clock& clock, BitsTimeouts timeouts)
     : transport_(std::move(transport)), clock_(clock), timeouts_(timeouts), incoming_(4096),
       ring_(ring_size) {
-    reply_.reserve(BitsLineSplitter::longest_line);
+    reply_.reserve(longest_bits_line);
     noise_.reserve(2 * kept_noise);
 }
 

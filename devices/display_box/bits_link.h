@@ -14,6 +14,7 @@
 #include "devices/display_box/bits_protocol.h"
 #include "devices/display_box/bits_status.h"
 #include "devices/link/byte_transport.h"
+#include "devices/link/text_line.h"
 #include "experiment/ports/clock.h"
 
 namespace overt {
@@ -86,7 +87,7 @@ class BitsLink {
     std::unique_ptr<ByteTransport> transport_;
     Clock& clock_;
     BitsTimeouts timeouts_;
-    BitsLineSplitter splitter_;
+    LineSplitter splitter_{longest_bits_line};
     std::vector<char> incoming_;
 
     std::string expected_; ///< name of the reply waited for; empty: none

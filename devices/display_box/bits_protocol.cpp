@@ -1,7 +1,6 @@
 #include "devices/display_box/bits_protocol.h"
 
 #include <charconv>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -51,15 +50,6 @@ std::vector<std::string_view> bits_fields(std::string_view text) {
         text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
     }
     return fields;
-}
-
-std::optional<double> decimal_number(std::string_view text) {
-    double value = 0.0;
-    const char* const end = text.data() + text.size();
-    const auto parsed = std::from_chars(text.data(), end, value, std::chars_format::fixed);
-    if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value))
-        return std::nullopt;
-    return value;
 }
 
 VideoLine parse_video_line(std::string_view text, int pixels) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "devices/display_box/bits_protocol.h"
+#include "devices/link/text_line.h"
 
 namespace overt {
 namespace {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "devices/display_box/switch_record.h"
+#include "devices/link/text_line.h"
 #include "experiment/base/error.h"
 
 namespace overt {
@@ -231,7 +232,7 @@ std::vector<BoxClockPair> DisplayPlusPlus::relate_clocks(const std::function<Sho
         // As long after the reset as the box says, give or take what the two clocks may differ in rate (200
         // ppm) and a tick.
         const double box_s = to_seconds(first.other);
-        const double slack_s = 1e-6 * (1.0 + ClockMap::largest_drift_ppm * box_s);
+        const double slack_s = 1e-6 * (1.0 + BoxClockMap::largest_drift_ppm * box_s);
         const double least_s = count(first.before - shown.latest),
                      most_s = count(first.after - shown.earliest);
         if (box_s >= least_s - slack_s && box_s <= most_s + slack_s) {

@@ -12,13 +12,12 @@ class NoEyeTracker final : public EyeTracker {
 
     TrackerDescription description() const override { return {"none", 0.0, eye_}; }
     bool measures_gaze() const noexcept override { return false; }
-    ValidationResult calibrate() override { return {}; }
-    std::optional<Degrees> drift_check(ScreenPoint) override { return std::nullopt; }
-    ClockPair read_clocks() noexcept override { return {}; }
+    SetupOutcome set_up(SetupStage&) override { return {}; }
+    DriftOutcome drift_check(ScreenPoint) override { return {}; }
+    std::optional<ClockPair> read_clocks() noexcept override { return std::nullopt; }
     void start_recording() override {}
     void stop_recording() override {}
-    std::size_t poll(std::span<GazeSample>) noexcept override { return 0; }
-    bool lost() const noexcept override { return false; }
+    std::size_t poll(std::span<TrackerItem>) noexcept override { return 0; }
 
   private:
     Eye eye_; ///< for the session's header, which always names one

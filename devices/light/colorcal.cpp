@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "devices/display_box/bits_protocol.h"
+#include "devices/link/text_line.h"
 #include "experiment/base/error.h"
 
 namespace overt {

@@ -12,7 +12,6 @@ namespace overt {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::string_view prefix = "ttyACM";
 
 std::string first_line(const fs::path& file) {
     std::ifstream stream(file);
@@ -29,8 +28,8 @@ std::optional<std::uint16_t> hexadecimal(const std::string& text) {
     return value;
 }
 
-/// The number after ttyACM, nothing for other names.
-std::optional<int> port_number(const std::string& name) {
+/// The number after the prefix, nothing for other names.
+std::optional<int> port_number(const std::string& name, std::string_view prefix) {
     if (!name.starts_with(prefix))
         return std::nullopt;
     int number = 0;
@@ -41,11 +40,11 @@ std::optional<int> port_number(const std::string& name) {
     return number;
 }
 
-void collect_names(const fs::path& folder, std::map<int, std::string>& names) {
+void collect_names(const fs::path& folder, std::string_view prefix, std::map<int, std::string>& names) {
     std::error_code error;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
         const std::string name = entry->path().filename().string();
-        if (const auto number = port_number(name))
+        if (const auto number = port_number(name, prefix))
             names.emplace(*number, name);
     }
 }
@@ -79,10 +78,11 @@ std::string describe(const SerialPortInfo& port) {
     return identity.empty() ? port.path : fmt::format("{} ({})", port.path, identity);
 }
 
-std::vector<SerialPortInfo> serial_ports(const fs::path& devices, const fs::path& sysfs) {
+std::vector<SerialPortInfo> serial_ports(const fs::path& devices, const fs::path& sysfs,
+                                         std::string_view prefix) {
     std::map<int, std::string> names;
-    collect_names(sysfs / "class/tty", names);
-    collect_names(devices, names); // a container may have the node and no sysfs
+    collect_names(sysfs / "class/tty", prefix, names);
+    collect_names(devices, prefix, names); // a container may have the node and no sysfs
     std::vector<SerialPortInfo> ports;
     for (const auto& [number, name] : names) {
         std::error_code absent;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace overt {
@@ -22,9 +23,14 @@ inline constexpr std::uint16_t crs_vendor_id = 0x0861;
 /// "/dev/ttyACM0 (0861:1001 ColorCAL)".
 std::string describe(const SerialPortInfo& port);
 
-/// All USB serial ports of the CDC class (ttyACM*), by number. Reads sysfs; opens no port. Never throws: what
+/// Whose serial chips Cedrus and many makers of trigger cables use: Future Technology Devices International.
+inline constexpr std::uint16_t ftdi_vendor_id = 0x0403;
+
+/// Ports that the system names so, by number: of the CDC class ("ttyACM"), or behind a chip that makes a
+/// serial line of USB ("ttyUSB"). Reads sysfs; opens no port. Never throws: what
 /// cannot be read is left out. The folders are the system's unless a caller keeps them elsewhere.
 std::vector<SerialPortInfo> serial_ports(const std::filesystem::path& devices = "/dev",
-                                         const std::filesystem::path& sysfs = "/sys");
+                                         const std::filesystem::path& sysfs = "/sys",
+                                         std::string_view prefix = "ttyACM");
 
 } // namespace overt

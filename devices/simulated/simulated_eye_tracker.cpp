@@ -13,6 +13,7 @@ namespace overt {
 namespace {
 
 constexpr int validation_targets = 9;
+constexpr double second_eye_deg = -0.2;
 constexpr SessionDuration drift_window = std::chrono::milliseconds(100);
 constexpr SessionDuration drift_patience = std::chrono::seconds(2);
 
@@ -22,8 +23,9 @@ struct SampleNoise {
     double x, y, pupil;
 };
 
-SampleNoise noise_of(std::uint64_t seed, std::int64_t tick) {
-    constexpr std::uint32_t purpose = 0x6761'7a65u, pad = 0x6e6f'6973u; // keep away from other streams
+SampleNoise noise_of(std::uint64_t seed, std::int64_t tick, bool is_second_eye) {
+    constexpr std::uint32_t purpose = 0x6761'7a65u; // keep away from other streams
+    const std::uint32_t pad = 0x6e6f'6973u + (is_second_eye ? 1u : 0u);
     const auto count = static_cast<std::uint64_t>(tick);
     const std::array<std::uint32_t, 4> bits = philox_4x32_10(
         {static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(count >> 32), purpose, pad},
@@ -41,7 +43,8 @@ double rounded(double value, double steps) { return steps > 0.0 ? std::round(val
 SimulatedTrackerSettings simulated_tracker_settings(const TrackerSettings& settings) {
     SimulatedTrackerSettings simulated;
     simulated.rate_hz = settings.rate_hz;
-    simulated.eye = settings.eye == "left" ? Eye::left : Eye::right;
+    simulated.eye = settings.analysed_eye();
+    simulated.both_eyes = settings.measures_both_eyes();
     simulated.noise_deg = settings.simulated_noise_deg;
     simulated.accuracy_deg = settings.simulated_accuracy_deg;
     simulated.clock_drift_ppm = settings.simulated_clock_drift_ppm;
@@ -69,22 +72,34 @@ void SimulatedEyeTracker::draw_offset() {
 }
 
 TrackerDescription SimulatedEyeTracker::description() const {
-    return {"simulated", settings_.rate_hz, settings_.eye};
+    return {"simulated", settings_.rate_hz, settings_.eye, settings_.both_eyes};
 }
 
-ValidationResult SimulatedEyeTracker::calibrate() {
+SetupOutcome SimulatedEyeTracker::set_up(SetupStage&) {
     RandomStream random(seed_, "validation", calibrations_++);
     draw_offset();
-    double sum = 0.0, largest = 0.0;
-    for (int target = 0; target < validation_targets; ++target) {
-        const double error = settings_.accuracy_deg * std::hypot(random.normal(), random.normal());
+    const glm::dvec2 screen_px = observer_->scene().screen.screen_px;
+    ValidationResult result;
+    double sum = 0.0;
+    for (int i = 0; i < validation_targets; ++i) {
+        const ScreenPoint target{screen_px.x * (0.1 + 0.4 * (i % 3)), screen_px.y * (0.1 + 0.4 * (i / 3))};
+        const double right = random.normal(), down = random.normal();
+        const double error = settings_.accuracy_deg * std::hypot(right, down);
+        const glm::dvec2 away_px = settings_.accuracy_deg * glm::dvec2(right, down) * px_per_deg_;
+        result.targets.push_back({settings_.eye,
+                                  target,
+                                  ScreenPoint{target.x_px + away_px.x, target.y_px + away_px.y},
+                                  Degrees{error},
+                                  {},
+                                  {}});
         sum += error;
-        largest = std::max(largest, error);
+        result.max_error.value = std::max(result.max_error.value, error);
     }
-    return {{sum / validation_targets}, {largest}};
+    result.mean_error = {sum / validation_targets};
+    return {SetupOutcome::Kind::done, std::move(result), "tracker", {}};
 }
 
-std::optional<Degrees> SimulatedEyeTracker::drift_check(ScreenPoint target) {
+DriftOutcome SimulatedEyeTracker::drift_check(ScreenPoint target) {
     const SessionTime patience_ends = clock_->now() + drift_patience;
     while (clock_->now() < patience_ends) {
         const SessionTime begin = clock_->now(), end = begin + drift_window;
@@ -93,20 +108,21 @@ std::optional<Degrees> SimulatedEyeTracker::drift_check(ScreenPoint target) {
         int seen = 0;
         const std::int64_t first = first_tick_from(begin), last = first_tick_from(end);
         for (std::int64_t tick = first; tick < last; ++tick) {
-            if (const std::optional<ScreenPoint> gaze = sample_at(tick, offset_deg_).gaze) {
+            if (const std::optional<ScreenPoint> gaze = sample_at(tick, offset_deg_, settings_.eye).gaze) {
                 sum += glm::dvec2(gaze->x_px, gaze->y_px);
                 ++seen;
             }
         }
         if (2 * seen > last - first) {
             const glm::dvec2 mean = sum / static_cast<double>(seen);
-            return observer_->scene().screen.angle_between({mean.x, mean.y}, target);
+            return {DriftOutcome::Kind::measured,
+                    observer_->scene().screen.angle_between({mean.x, mean.y}, target)};
         }
     }
-    return std::nullopt;
+    return {};
 }
 
-ClockPair SimulatedEyeTracker::read_clocks() noexcept {
+std::optional<ClockPair> SimulatedEyeTracker::read_clocks() noexcept {
     const double trip_s = 1e-4 + link_random_.exponential(1e-4);
     const double outward_s = trip_s * link_random_.uniform();
     ClockPair pair;
@@ -121,6 +137,7 @@ ClockPair SimulatedEyeTracker::read_clocks() noexcept {
 void SimulatedEyeTracker::start_recording() {
     next_tick_ = std::max(next_tick_, first_tick_from(clock_->now()));
     end_tick_ = next_tick_;
+    left_is_taken_ = false;
     recorded_offset_deg_ = offset_deg_;
     recording_ = true;
 }
@@ -133,17 +150,26 @@ void SimulatedEyeTracker::stop_recording() {
     draw_offset();
 }
 
-std::size_t SimulatedEyeTracker::poll(std::span<GazeSample> into) noexcept {
+std::size_t SimulatedEyeTracker::poll(std::span<TrackerItem> into) noexcept {
     const std::int64_t arrived =
         recording_ ? first_tick_from(clock_->now() - settings_.delivery_latency) : end_tick_;
     const std::int64_t kept = arrived - static_cast<std::int64_t>(settings_.queue_capacity);
     if (next_tick_ < kept) {
         overflowed_ += kept - next_tick_;
         next_tick_ = kept;
+        left_is_taken_ = false;
     }
     std::size_t taken = 0;
-    while (taken < into.size() && next_tick_ < arrived)
-        into[taken++] = sample_at(next_tick_++, recorded_offset_deg_);
+    while (taken < into.size() && next_tick_ < arrived) {
+        if (settings_.both_eyes && !left_is_taken_) {
+            into[taken++] = sample_at(next_tick_, recorded_offset_deg_, Eye::left);
+            left_is_taken_ = true;
+            continue;
+        }
+        into[taken++] =
+            sample_at(next_tick_++, recorded_offset_deg_, settings_.both_eyes ? Eye::right : settings_.eye);
+        left_is_taken_ = false;
+    }
     return taken;
 }
 
@@ -183,20 +209,34 @@ std::int64_t SimulatedEyeTracker::first_tick_from(SessionTime time) const noexce
     return tick;
 }
 
-GazeSample SimulatedEyeTracker::sample_at(std::int64_t tick, glm::dvec2 offset_deg) const noexcept {
+/// A tilt of three degrees, gains of 1.1 and 0.85, a shift, and the bend of a sphere seen from below.
+ScreenPoint SimulatedEyeTracker::as_measured(ScreenPoint place) const noexcept {
+    const ScreenPoint centre = observer_->scene().screen.centre();
+    const double half = centre.x_px, x = (place.x_px - centre.x_px) / half,
+                 y = (place.y_px - centre.y_px) / half;
+    return {centre.x_px + half * (0.06 + 1.1 * x + 0.05 * y + 0.04 * x * y),
+            centre.y_px + half * (-0.03 - 0.05 * x + 0.85 * y + 0.05 * x * x - 0.03 * y * y)};
+}
+
+GazeSample SimulatedEyeTracker::sample_at(std::int64_t tick, glm::dvec2 offset_deg, Eye eye) const noexcept {
     const std::int64_t ns = ns_of_tick(tick);
     const SessionTime time = session_time_of_ns(ns);
     const TrueGaze gaze = observer_->gaze_at(time);
     GazeSample sample;
     sample.sampled_at = tracker_time((ns + 500) / 1000);
-    sample.eye = settings_.eye;
+    sample.eye = eye;
     if (gaze.state == EyeState::blink)
         return sample;
-    const SampleNoise noise = noise_of(seed_, tick);
+    const bool is_second_eye = settings_.both_eyes && eye == Eye::left;
+    const SampleNoise noise = noise_of(seed_, tick, is_second_eye);
+    const glm::dvec2 beside_deg(is_second_eye ? second_eye_deg : 0.0, 0.0);
     const glm::dvec2 error_px =
-        (offset_deg + settings_.noise_deg * glm::dvec2(noise.x, noise.y)) * px_per_deg_;
-    sample.gaze = ScreenPoint{rounded(gaze.place.x_px + error_px.x, settings_.steps_per_px),
-                              rounded(gaze.place.y_px + error_px.y, settings_.steps_per_px)};
+        (offset_deg + beside_deg + settings_.noise_deg * glm::dvec2(noise.x, noise.y)) * px_per_deg_;
+    ScreenPoint place{gaze.place.x_px + error_px.x, gaze.place.y_px + error_px.y};
+    if (settings_.uncalibrated)
+        place = as_measured(place);
+    sample.gaze =
+        ScreenPoint{rounded(place.x_px, settings_.steps_per_px), rounded(place.y_px, settings_.steps_per_px)};
     sample.pupil_area = pupil_area_at(time, noise.pupil);
     return sample;
 }

@@ -18,7 +18,12 @@ namespace overt {
 
 struct SimulatedTrackerSettings {
     double rate_hz = 2000.0; ///< of its own clock
-    Eye eye = Eye::right;
+    Eye eye = Eye::right;    ///< of one eye; of both, the one that is analysed
+    bool both_eyes =
+        false; ///< the left eye points 0.2 degrees beside the right one, and has noise of its own
+    /// What it measures is not gaze on the screen yet: turned, scaled, shifted and bent, as a camera beside
+    /// the screen sees a pupil.
+    bool uncalibrated = false;
     double noise_deg = 0.05;       ///< standard deviation of each sample along each axis
     double accuracy_deg = 0.3;     ///< standard deviation, along each axis, of a recording's constant offset
     double clock_drift_ppm = 40.0; ///< its clock runs faster than the session's by this
@@ -40,27 +45,26 @@ class SimulatedEyeTracker final : public EyeTracker {
                         const SimulatedTrackerSettings& settings = {});
 
     TrackerDescription description() const override;
+    bool calibrates_itself() const noexcept override { return !settings_.uncalibrated; }
 
     /// Nine targets, each missed by a draw from the same distribution as the recordings' offsets. Takes no
     /// time.
-    ValidationResult calibrate() override;
+    SetupOutcome set_up(SetupStage& stage) override;
 
     /// Averages the gaze of 100 ms, with the offset of the recording to come; waits up to 2 s for an open
     /// eye.
-    std::optional<Degrees> drift_check(ScreenPoint target) override;
+    DriftOutcome drift_check(ScreenPoint target) override;
 
     /// Waits as long as a request over the network takes: 0.1 ms and an exponential excess of 0.1 ms on
     /// average, the tracker's answer anywhere in between.
-    ClockPair read_clocks() noexcept override;
+    std::optional<ClockPair> read_clocks() noexcept override;
 
     void start_recording() override;
 
     /// Samples up to this moment can be polled at once; the next recording gets a new offset.
     void stop_recording() override;
 
-    std::size_t poll(std::span<GazeSample> into) noexcept override;
-
-    bool lost() const noexcept override { return false; }
+    std::size_t poll(std::span<TrackerItem> into) noexcept override;
 
     /// The truth about its clock: its time at an instant, rounded down to the microsecond.
     TrackerTime tracker_time_at(SessionTime time) const noexcept;
@@ -77,7 +81,8 @@ class SimulatedEyeTracker final : public EyeTracker {
     SessionTime session_time_of_ns(std::int64_t tracker_ns) const noexcept;
     std::int64_t ns_of_tick(std::int64_t tick) const noexcept;
     std::int64_t first_tick_from(SessionTime time) const noexcept;
-    GazeSample sample_at(std::int64_t tick, glm::dvec2 offset_deg) const noexcept;
+    GazeSample sample_at(std::int64_t tick, glm::dvec2 offset_deg, Eye eye) const noexcept;
+    ScreenPoint as_measured(ScreenPoint place) const noexcept;
     float pupil_area_at(SessionTime time, double noise) const noexcept;
     void draw_offset();
 
@@ -93,6 +98,7 @@ class SimulatedEyeTracker final : public EyeTracker {
     glm::dvec2 recorded_offset_deg_{0.0}; ///< of the samples that can be polled
     bool recording_ = false;
     std::int64_t next_tick_ = 0; ///< to be polled next
+    bool left_is_taken_ = false; ///< of that tick, where both eyes are measured
     std::int64_t end_tick_ = 0;  ///< after the last of a recording that was stopped
     std::int64_t overflowed_ = 0;
 };

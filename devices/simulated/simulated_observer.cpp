@@ -9,6 +9,7 @@ namespace overt {
 
 namespace {
 
+constexpr SessionDuration latency_to_target = std::chrono::milliseconds(200);
 constexpr SessionDuration lingering = std::chrono::milliseconds(150);
 constexpr SessionDuration rest_after_saccade = std::chrono::milliseconds(20);
 
@@ -63,7 +64,10 @@ void SimulatedObserver::flipped(const FlipRecord& flip) noexcept {
         flips.push_back({flip.report.vertical_blank, flip.shown});
 }
 
-void SimulatedObserver::screen_shown(const Screen&, SessionTime onset) noexcept {
+void SimulatedObserver::screen_shown(const Screen& screen, SessionTime onset) noexcept {
+    look_at(screen.kind == Screen::Kind::target ? screen.target_place.value_or(scene_.screen.centre())
+                                                : scene_.screen.centre(),
+            onset);
     if (begun_ > 0) {
         Presentation& presentation = *presentations_[begun_ - 1];
         if (!presentation.end) {
@@ -86,6 +90,28 @@ void SimulatedObserver::plan_return(Presentation& presentation) const noexcept {
     presentation.back =
         presentation.leaves +
         saccade_duration(scene_.screen.angle_between(presentation.left_place, scene_.screen.centre()));
+}
+
+void SimulatedObserver::look_at(ScreenPoint place, SessionTime onset) {
+    const ScreenPoint now = places_.empty() ? scene_.screen.centre() : places_.back().to;
+    if (place == now)
+        return; // the same target, perhaps in another size
+    places_.push_back({onset + latency_to_target, now, place});
+}
+
+SimulatedObserver::Looking SimulatedObserver::resting(SessionTime time) const noexcept {
+    const auto after =
+        std::upper_bound(places_.begin(), places_.end(), time,
+                         [](SessionTime value, const Place& place) { return value < place.since; });
+    if (after == places_.begin())
+        return {places_.empty() ? scene_.screen.centre() : places_.front().from};
+    const Place& place = *std::prev(after);
+    const SessionTime arrives =
+        place.since + saccade_duration(scene_.screen.angle_between(place.from, place.to));
+    if (time >= arrives)
+        return {place.to};
+    return {between(place.from, place.to, saccade_progress(share_of(time, place.since, arrives))),
+            EyeState::saccade, nullptr};
 }
 
 const SimulatedObserver::Presentation* SimulatedObserver::presentation_at(SessionTime time) const noexcept {
@@ -124,7 +150,7 @@ SimulatedObserver::Looking SimulatedObserver::looking_at(const Presentation& pre
 
 TrueGaze SimulatedObserver::gaze_at(SessionTime time) const noexcept {
     const Presentation* presentation = presentation_at(time);
-    const Looking looking = presentation ? looking_at(*presentation, time) : Looking{scene_.screen.centre()};
+    const Looking looking = presentation ? looking_at(*presentation, time) : resting(time);
     const glm::dvec2 away_px = wandering_.displacement_deg(time) * px_per_deg_;
     return {{looking.place.x_px + away_px.x, looking.place.y_px + away_px.y},
             blinks_.eye_closed_at(time) ? EyeState::blink : looking.state};

@@ -61,7 +61,8 @@ class SimulatedObserver final : public PresentationListener {
     /// about a millisecond.
     void presentation_begins(const Trial& trial) noexcept override;
     void flipped(const FlipRecord& flip) noexcept override;
-    /// Ends a presentation: 150 ms later the eye returns to the middle of the screen.
+    /// Ends a presentation: 150 ms later the eye returns to the middle of the screen. Of a target, it goes
+    /// there 200 ms after its onset, and stays until another screen is shown.
     void screen_shown(const Screen& screen, SessionTime onset) noexcept override;
 
     /// Where the eye points. A moment that the display has not yet come to is taken as if nothing changed.
@@ -101,6 +102,13 @@ class SimulatedObserver final : public PresentationListener {
         const ScriptedFixation* fixation = nullptr;
     };
 
+    /// Where an eye without a presentation goes.
+    struct Place {
+        SessionTime since; ///< begin of the way there
+        ScreenPoint from, to;
+    };
+    void look_at(ScreenPoint place, SessionTime onset);
+    Looking resting(SessionTime time) const noexcept;
     void prepare_next();
     const Presentation* presentation_at(SessionTime time) const noexcept;
     Looking looking_at(const Presentation& presentation, SessionTime time) const noexcept;
@@ -120,6 +128,7 @@ class SimulatedObserver final : public PresentationListener {
     std::vector<std::unique_ptr<GazeTargets>> targets_;        ///< by sculpture; nullptr without a mesh
     std::vector<std::unique_ptr<Presentation>> presentations_; ///< in order; the last ones still empty
     std::size_t begun_ = 0;                                    ///< presentations that have begun
+    std::vector<Place> places_; ///< in order of their times; none: always in the middle
 };
 
 } // namespace overt

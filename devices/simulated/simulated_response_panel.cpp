@@ -1,5 +1,7 @@
 #include "devices/simulated/simulated_response_panel.h"
 
+#include <utility>
+
 namespace overt {
 
 namespace {
@@ -9,6 +11,7 @@ using Key = ResponsePress::Key;
 constexpr SessionDuration pressed_again_after = std::chrono::seconds(1);
 constexpr SessionDuration operators_decision = std::chrono::seconds(1);
 constexpr SessionDuration operators_pause = std::chrono::seconds(5);
+constexpr int most_own_decisions = 5;
 
 } // namespace
 
@@ -39,13 +42,17 @@ void SimulatedResponsePanel::await_decision(bool is_consent, SessionTime since) 
         return;
     }
     next_press_ = since + operators_decision;
-    pressed_with_.key = operators_answer_ == U'y'   ? Key::yes
-                        : operators_answer_ == U'n' ? Key::no
-                                                    : Key::character;
-    pressed_with_.character = operators_answer_;
+    // To what is asked without a key, such as whether a calibration is good enough, yes; but not for ever.
+    if (!operators_answer_)
+        operators_answer_ = ++own_decisions_ <= most_own_decisions ? U'y' : U'n';
+    pressed_with_.character = *std::exchange(operators_answer_, std::nullopt);
+    pressed_with_.key = pressed_with_.character == U'y'   ? Key::yes
+                        : pressed_with_.character == U'n' ? Key::no
+                                                          : Key::character;
 }
 
 void SimulatedResponsePanel::entered(SessionPhase phase, int trial) noexcept {
+    own_decisions_ = 0;
     if (phase == SessionPhase::pause && !resumes_at_)
         resumes_at_ = clock_->now() + operators_pause;
     for (Operator& one : operators_) {

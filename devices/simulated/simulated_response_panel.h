@@ -48,7 +48,8 @@ class SimulatedResponsePanel final : public ResponsePanel {
     std::optional<SessionTime> next_press_;
     ResponsePress pressed_with_;            ///< what next_press_ is
     std::optional<SessionTime> resumes_at_; ///< the operator's pause
-    char32_t operators_answer_ = U'n';
+    std::optional<char32_t> operators_answer_; ///< to the question that a scripted key leads to
+    int own_decisions_ = 0; ///< of this phase, to questions that no scripted key led to
     std::string answer_;
 };
 

@@ -1,78 +1,36 @@
 #include "devices/sound/port_audio_input.h"
 
 #include <algorithm>
-#include <cstdio>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <portaudio.h>
-#include <unistd.h>
 
+#include "devices/sound/sound_system.h"
 #include "experiment/base/error.h"
 
 namespace overt {
 
 namespace {
 
-/// Standard error goes nowhere while this lives: ALSA and JACK name there each device that they did not
-/// find.
-class QuietErrors {
-  public:
-    QuietErrors() : kept_(::dup(STDERR_FILENO)) {
-        std::fflush(stderr);
-        const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-        ::dup2(nowhere, STDERR_FILENO);
-        ::close(nowhere);
-    }
-    ~QuietErrors() {
-        std::fflush(stderr);
-        ::dup2(kept_, STDERR_FILENO);
-        ::close(kept_);
-    }
-    QuietErrors(const QuietErrors&) = delete;
-    QuietErrors& operator=(const QuietErrors&) = delete;
-
-  private:
-    int kept_;
+struct SoundInput {
+    PaDeviceIndex index;
+    SoundInputInfo info;
 };
 
-} // namespace
-
-/// Not in an unnamed namespace, for State, which the header names, has one.
-class SoundSystem {
-  public:
-    SoundSystem() {
-        const QuietErrors quiet;
-        if (const PaError error = Pa_Initialize(); error != paNoError)
-            throw DeviceError(fmt::format("PortAudio: {}", Pa_GetErrorText(error)));
+std::vector<SoundInput> inputs_of(const SoundSystem&) {
+    std::vector<SoundInput> devices;
+    for (PaDeviceIndex i = 0; i < Pa_GetDeviceCount(); ++i) {
+        const PaDeviceInfo* const info = Pa_GetDeviceInfo(i);
+        if (info->maxInputChannels > 0)
+            devices.push_back(
+                {i,
+                 {fmt::format("{}: {}", Pa_GetHostApiInfo(info->hostApi)->name, info->name),
+                  i == Pa_GetDefaultInputDevice(), info->defaultSampleRate, info->defaultLowInputLatency}});
     }
-    ~SoundSystem() { Pa_Terminate(); }
-    SoundSystem(const SoundSystem&) = delete;
-    SoundSystem& operator=(const SoundSystem&) = delete;
+    return devices;
+}
 
-    struct Device {
-        PaDeviceIndex index;
-        SoundInputInfo info;
-    };
-    std::vector<Device> inputs() const {
-        std::vector<Device> devices;
-        for (PaDeviceIndex i = 0; i < Pa_GetDeviceCount(); ++i) {
-            const PaDeviceInfo* const info = Pa_GetDeviceInfo(i);
-            if (info->maxInputChannels > 0)
-                devices.push_back({i,
-                                   {fmt::format("{}: {}", Pa_GetHostApiInfo(info->hostApi)->name, info->name),
-                                    i == Pa_GetDefaultInputDevice(), info->defaultSampleRate,
-                                    info->defaultLowInputLatency}});
-        }
-        return devices;
-    }
-};
-
-namespace {
-
-std::optional<SoundSystem::Device> choose(const std::vector<SoundSystem::Device>& devices,
-                                          const std::string& name) {
-    const auto found = std::find_if(devices.begin(), devices.end(), [&](const SoundSystem::Device& device) {
+std::optional<SoundInput> choose(const std::vector<SoundInput>& devices, const std::string& name) {
+    const auto found = std::find_if(devices.begin(), devices.end(), [&](const SoundInput& device) {
         return name.empty() ? device.info.is_default : device.info.name.find(name) != std::string::npos;
     });
     return found == devices.end() ? std::nullopt : std::optional(*found);
@@ -82,13 +40,13 @@ std::optional<SoundSystem::Device> choose(const std::vector<SoundSystem::Device>
 
 std::vector<SoundInputInfo> sound_inputs() {
     std::vector<SoundInputInfo> inputs;
-    for (const SoundSystem::Device& device : SoundSystem().inputs())
+    for (const SoundInput& device : inputs_of(SoundSystem()))
         inputs.push_back(device.info);
     return inputs;
 }
 
 std::optional<SoundInputInfo> sound_input_called(const std::string& name) {
-    const auto device = choose(SoundSystem().inputs(), name);
+    const auto device = choose(inputs_of(SoundSystem()), name);
     return device ? std::optional(device->info) : std::nullopt;
 }
 
@@ -140,7 +98,7 @@ PortAudioInput::PortAudioInput(const std::string& name, int sample_rate_hz, cons
     state.clock = &clock;
     state.ring = &ring;
     state.rate_hz = sample_rate_hz;
-    const auto devices = state.system.inputs();
+    const auto devices = inputs_of(state.system);
     const auto device = choose(devices, name);
     if (!device) {
         std::string list;

@@ -23,7 +23,7 @@ std::string whole_conversation(const std::function<std::size_t()>& piece) {
     for (const RgbBytes& bytes : display.read_video_line(3, 300))
         said += fmt::format(" {},{},{}", bytes[0], bytes[1], bytes[2]);
     said += fmt::format(" {}", display.set_mode(BoxMode::mono_plus_plus).rate_hz);
-    BitsLineSplitter splitter;
+    LineSplitter splitter(longest_bits_line);
     std::string stream;
     for (const double time_s : {1.5, 1.6, 1.7})
         stream += bench.box.model.status_line(time_s) + "\n";

@@ -3,7 +3,6 @@
 #include <array>
 
 #include <catch2/catch.hpp>
-#include <umockdev.h>
 
 #include "devices/display_box/display_plus_plus_search.h"
 #include "devices/host/clocks.h"
@@ -11,6 +10,7 @@
 #include "experiment/base/error.h"
 #include "tests/devices/display_box/bits_box_model.h"
 #include "tests/devices/link/terminal_device.h"
+#include "tests/support/umockdev_bed.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -30,25 +30,6 @@ std::string usb_serial_device(int number, const char* vendor, const char* produc
         usb, vendor, product_id, product, number);
 }
 
-class TestBed {
-  public:
-    TestBed() : bed_(umockdev_testbed_new()) {}
-    ~TestBed() { g_object_unref(bed_); }
-    TestBed(const TestBed&) = delete;
-    TestBed& operator=(const TestBed&) = delete;
-
-    void add(const std::string& devices) {
-        GError* error = nullptr;
-        if (!umockdev_testbed_add_from_string(bed_, devices.c_str(), &error))
-            throw std::runtime_error(error->message);
-    }
-    /// The device's end of a tty.
-    int far_end(const char* node) { return umockdev_testbed_get_dev_fd(bed_, node); }
-
-  private:
-    UMockdevTestbed* bed_;
-};
-
 DisplayPlusPlusSettings patient() {
     DisplayPlusPlusSettings settings;
     settings.timeouts.reply = settings.timeouts.whole_reply =
@@ -60,7 +41,7 @@ DisplayPlusPlusSettings patient() {
 } // namespace
 
 TEST_CASE("a display box is found among USB serial devices, switched, read and switched back", "[unit]") {
-    TestBed bed;
+    UmockdevBed bed;
     REQUIRE(umockdev_in_mock_environment()); // that is, under umockdev-wrapper
     bed.add(usb_serial_device(0, "0861", "1001", "ColorCAL"));
     bed.add(usb_serial_device(1, "1209", "b175", "a box of unknown number"));
@@ -97,7 +78,7 @@ TEST_CASE("a display box is found among USB serial devices, switched, read and s
 }
 
 TEST_CASE("a display box that is pulled out of a running stream is lost", "[unit]") {
-    TestBed bed;
+    UmockdevBed bed;
     bed.add(usb_serial_device(1, "1209", "b175", "a box"));
     SteadyClock clock;
     const int far_end = bed.far_end("/dev/ttyACM1");

@@ -3,6 +3,8 @@
 #include <array>
 
 #include <catch2/catch.hpp>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "devices/display_box/display_plus_plus.h"
 #include "devices/host/clocks.h"
@@ -88,6 +90,38 @@ TEST_CASE("a port that is not there or is no tty is refused with its name and a 
                       Contains(file.string()) && Contains("not a serial port"));
     CHECK_THROWS_WITH(SerialPort((folder.path() / "ttyACM9").string(), clock),
                       Contains("ttyACM9 cannot be opened") && Contains("switched on"));
+}
+
+TEST_CASE("a port without rights names the rule that gives them", "[unit]") {
+    Terminal terminal;
+    SteadyClock clock;
+    REQUIRE(chmod(terminal.path().c_str(), 0) == 0);
+    // Root may open everything: as nobody.
+    const bool is_root = geteuid() == 0;
+    if (is_root)
+        REQUIRE(seteuid(65534) == 0);
+    std::string said;
+    try {
+        SerialPort port(terminal.path(), clock);
+    } catch (const DeviceError& error) {
+        said = error.what();
+    }
+    if (is_root)
+        REQUIRE(seteuid(0) == 0);
+    CHECK_THAT(said,
+               Contains(terminal.path()) && Contains("assets/udev/70-overt.rules") && Contains("dialout"));
+}
+
+TEST_CASE("the search lists ports behind chips for serial lines when asked for them", "[unit]") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path() / "dev");
+    for (const char* name : {"ttyUSB1", "ttyUSB0", "ttyACM0", "ttyUSBx"})
+        folder.file(std::string("dev/") + name, "");
+    const auto ports = serial_ports(folder.path() / "dev", folder.path() / "sys", "ttyUSB");
+    REQUIRE(ports.size() == 2);
+    CHECK(ports[0].path.ends_with("ttyUSB0"));
+    CHECK(ports[1].path.ends_with("ttyUSB1"));
+    CHECK(serial_ports(folder.path() / "dev", folder.path() / "sys").size() == 1);
 }
 
 TEST_CASE("a port whose device hangs up is lost after its last bytes", "[unit]") {

@@ -75,7 +75,8 @@ class TerminalDevice {
 /// A pseudo-terminal: path() is the tty that is opened, master() the device.
 class Terminal {
   public:
-    Terminal() : master_(posix_openpt(O_RDWR | O_NOCTTY)) {
+    /// Not inherited: a program that is started would keep the line up.
+    Terminal() : master_(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
         char name[128];
         if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0 ||
             ptsname_r(master_, name, sizeof name) != 0)

@@ -6,6 +6,7 @@
 #include "experiment/base/error.h"
 #include "experiment/clock_map.h"
 #include "tests/devices/simulated/sitting.h"
+#include "tests/support/still_stage.h"
 
 using namespace overt;
 using namespace std::chrono_literals;
@@ -21,10 +22,12 @@ SimulatedTrackerSettings perfect() {
 }
 
 std::vector<GazeSample> take_all(EyeTracker& tracker, std::size_t at_a_time = 64) {
-    std::vector<GazeSample> all, some(at_a_time);
+    std::vector<GazeSample> all;
+    std::vector<TrackerItem> some(at_a_time);
     for (std::size_t taken = at_a_time; taken == at_a_time;) {
         taken = tracker.poll(some);
-        all.insert(all.end(), some.begin(), some.begin() + static_cast<std::ptrdiff_t>(taken));
+        for (std::size_t i = 0; i < taken; ++i)
+            all.push_back(std::get<GazeSample>(some[i]));
     }
     return all;
 }
@@ -239,7 +242,7 @@ TEST_CASE("the drift of the tracker's clock comes out of the clock readings", "[
         std::vector<double> x, y;
         for (int i = 0; i < 400; ++i) {
             sitting.clock.wait_until(sitting.clock.now() + 1s);
-            const ClockPair pair = tracker.read_clocks();
+            const ClockPair pair = *tracker.read_clocks();
             REQUIRE(pair.after - pair.before >= 100us);
             REQUIRE(tracker.session_time_at(pair.other) >= pair.before - 2us);
             REQUIRE(tracker.session_time_at(pair.other) <= pair.after);
@@ -262,10 +265,10 @@ TEST_CASE("a sample's instant on the session clock comes back through the clock 
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 9);
     std::vector<ClockPair> pairs;
     for (int i = 0; i < 8; ++i)
-        pairs.push_back(tracker.read_clocks());
+        pairs.push_back(*tracker.read_clocks());
     const std::vector<GazeSample> samples = record(sitting, tracker, {0, 0, {}});
     for (int i = 0; i < 8; ++i)
-        pairs.push_back(tracker.read_clocks());
+        pairs.push_back(*tracker.read_clocks());
     const ClockMap map(pairs);
     for (std::size_t i = 0; i < samples.size(); i += 100) {
         const MappedTime mapped = map.to_session(samples[i].sampled_at);
@@ -281,7 +284,7 @@ TEST_CASE("on a steady clock a recording is as whole as in virtual time", "[unit
     SteadyClock clock;
     const SimulatedObserver observer(test::scene_with(mesh), 10);
     SimulatedEyeTracker tracker(clock, observer, 10);
-    const ClockPair pair = tracker.read_clocks();
+    const ClockPair pair = *tracker.read_clocks();
     CHECK(pair.after > pair.before);
     CHECK(tracker.session_time_at(pair.other) >= pair.before - 2us);
     CHECK(tracker.session_time_at(pair.other) <= pair.after);
@@ -305,9 +308,9 @@ TEST_CASE("a drift check measures the offset of the recording to come", "[unit]"
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 11);
     const ScreenPoint centre = sitting.observer.scene().screen.centre();
     for (int i = 0; i < 20; ++i) {
-        const std::optional<Degrees> drift = tracker.drift_check(centre);
-        REQUIRE(drift.has_value());
-        CHECK(drift->value == Approx(glm::length(tracker.offset_deg())).margin(0.02));
+        const DriftOutcome drift = tracker.drift_check(centre);
+        REQUIRE(drift.kind == DriftOutcome::Kind::measured);
+        CHECK(drift.error.value == Approx(glm::length(tracker.offset_deg())).margin(0.02));
         tracker.start_recording();
         sitting.clock.wait_until(sitting.clock.now() + 500ms);
         tracker.stop_recording();
@@ -319,8 +322,8 @@ TEST_CASE("a drift check of an eye that stays closed finds nothing", "[unit]") {
     asleep.blinks_per_minute = 1e3; // one after the other
     Sitting sitting(12, asleep);
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 12);
-    const std::optional<Degrees> drift = tracker.drift_check(sitting.observer.scene().screen.centre());
-    CHECK_FALSE(drift.has_value());
+    const DriftOutcome drift = tracker.drift_check(sitting.observer.scene().screen.centre());
+    CHECK(drift.kind == DriftOutcome::Kind::no_eye);
     CHECK(sitting.clock.now() >= SessionTime(2s));
 }
 
@@ -331,7 +334,8 @@ TEST_CASE("a validation reports errors as large as the set accuracy makes them",
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 13, settings);
     double sum = 0.0;
     for (int i = 0; i < 200; ++i) {
-        const ValidationResult result = tracker.calibrate();
+        test::StillStage stage;
+        const ValidationResult result = *tracker.set_up(stage).validation;
         REQUIRE(result.max_error > result.mean_error);
         sum += result.mean_error.value / 200.0;
     }

@@ -1,0 +1,277 @@
+#include "devices/buttons/button_box_panel.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiment/base/counted.h"
+#include "experiment/base/error.h"
+#include "experiment/ports/event_kinds.h"
+#include "experiment/ports/session_log.h"
+
+namespace overt {
+namespace {
+
+using Key = ResponsePress::Key;
+
+/// Keys of keyboards have the highest: 256 and a byte.
+constexpr int most_buttons = 512;
+constexpr std::size_t most_changes = 4096;
+
+constexpr bool decides(Key key) { return key == Key::yes || key == Key::no || key == Key::character; }
+
+std::string_view word_of(bool is_operators) { return is_operators ? "operator" : "observer"; }
+
+} // namespace
+
+ButtonBoxPanel::ButtonBoxPanel(std::vector<BoxInHand> boxes, const Clock& clock, ResponsePanel* answering,
+                               std::function<void(const std::string&)> tell)
+    : clock_(&clock), answering_(answering), tell_(std::move(tell)) {
+    goes_on_.words = "next";
+    changes_.reserve(most_changes);
+    recorded_.reserve(most_changes);
+    for (BoxInHand& box : boxes) {
+        Hand hand{std::move(box), std::vector<int>(most_buttons, -1)};
+        const std::vector<ButtonMeaning>& meanings = hand.in_hand.meanings;
+        for (std::size_t i = 0; i < meanings.size(); ++i) {
+            // A digit is the name of a button and of a key: whichever the box has.
+            bool is_there = false;
+            for (int number = 0; number < most_buttons; ++number) {
+                if (hand.in_hand.box->button_name(number) != meanings[i].button)
+                    continue;
+                hand.meaning_of[static_cast<std::size_t>(number)] = static_cast<int>(i);
+                is_there = true;
+            }
+            if (!is_there)
+                throw InputError(fmt::format("[[button_box]] \"{}\": {} boxes have no button \"{}\"; "
+                                             "docs/devices.md has their names",
+                                             hand.in_hand.id, hand.in_hand.box->description().name,
+                                             meanings[i].button));
+        }
+        hands_.push_back(std::move(hand));
+    }
+}
+
+const ButtonMeaning* ButtonBoxPanel::meaning(const Hand& hand, int button) const noexcept {
+    if (hand.in_hand.meanings.empty())
+        return hand.in_hand.is_operators ? nullptr : &goes_on_;
+    if (button < 0 || button >= most_buttons)
+        return nullptr;
+    const int index = hand.meaning_of[static_cast<std::size_t>(button)];
+    return index < 0 ? nullptr : &hand.in_hand.meanings[static_cast<std::size_t>(index)];
+}
+
+/// What a change says where the session is now.
+std::optional<ResponsePress> ButtonBoxPanel::press_of(const Hand& hand, const ButtonChange& change) noexcept {
+    const ButtonMeaning* const means = change.is_down ? meaning(hand, change.button) : nullptr;
+    if (!means)
+        return std::nullopt;
+    const ResponsePress press{means->key, change.at, means->character};
+    if (hand.in_hand.is_operators) {
+        if (decides(means->key))
+            return mode_ == Mode::confirmation ? std::optional(press) : std::nullopt;
+        return press;
+    }
+    // What was pressed before the text or the question stood there does not answer it.
+    if (change.at < since_)
+        return std::nullopt;
+    switch (mode_) {
+    case Mode::reading:
+        return decides(means->key) ? std::nullopt : std::optional(press);
+    case Mode::response:
+        if (means->key != Key::next)
+            return std::nullopt;
+        answered_ = means;
+        box_answered_ = true;
+        return press;
+    case Mode::consent:
+        return means->key == Key::yes || means->key == Key::no ? std::optional(press) : std::nullopt;
+    case Mode::confirmation: // the operator's
+    case Mode::entry:        // letters are typed
+    case Mode::setup:
+        break;
+    }
+    return std::nullopt;
+}
+
+/// What the boxes did and is not recorded yet.
+bool ButtonBoxPanel::next_change(Change& into) noexcept {
+    for (std::size_t i = 0; i < hands_.size(); ++i) {
+        into.hand = i;
+        into.trial = trial_;
+        if (hands_[i].in_hand.box->poll(into.change))
+            return true;
+    }
+    return false;
+}
+
+void ButtonBoxPanel::keep(const Change& change) noexcept {
+    if (changes_.size() < changes_.capacity())
+        changes_.push_back(change);
+    else
+        ++unrecorded_;
+}
+
+std::optional<ResponsePress> ButtonBoxPanel::next_press() noexcept {
+    // What was recorded before anybody asked comes first.
+    std::size_t told = 0;
+    std::optional<ResponsePress> press;
+    while (!press && told < recorded_.size()) {
+        const Change& change = recorded_[told++];
+        press = press_of(hands_[change.hand], change.change);
+    }
+    recorded_.erase(recorded_.begin(), recorded_.begin() + static_cast<std::ptrdiff_t>(told));
+    for (Change change; !press && next_change(change);) {
+        keep(change);
+        press = press_of(hands_[change.hand], change.change);
+    }
+    return press;
+}
+
+/// The operator's presses stay, and all are recorded.
+void ButtonBoxPanel::begin(Mode mode, SessionTime since) noexcept {
+    while (const std::optional<ResponsePress> press = next_press())
+        if (is_operators(press->key) && kept_count_ < kept_.size())
+            kept_[kept_count_++] = *press;
+    mode_ = mode;
+    since_ = since;
+    box_answered_ = false;
+    answered_ = nullptr;
+}
+
+void ButtonBoxPanel::await_key(SessionTime since) {
+    begin(Mode::reading, since);
+    if (answering_)
+        answering_->await_key(since);
+}
+
+void ButtonBoxPanel::await_response(const Trial& trial, SessionTime since) {
+    begin(Mode::response, since);
+    if (answering_)
+        answering_->await_response(trial, since);
+}
+
+void ButtonBoxPanel::await_decision(bool is_consent, SessionTime since) {
+    begin(is_consent ? Mode::consent : Mode::confirmation, since);
+    if (answering_)
+        answering_->await_decision(is_consent, since);
+}
+
+void ButtonBoxPanel::await_entry(SessionTime since) {
+    begin(Mode::entry, since);
+    if (answering_)
+        answering_->await_entry(since);
+}
+
+void ButtonBoxPanel::await_setup(SessionTime since) {
+    begin(Mode::setup, since);
+    if (answering_)
+        answering_->await_setup(since);
+}
+
+std::optional<ResponsePress> ButtonBoxPanel::poll() noexcept {
+    if (kept_count_ > 0) {
+        const ResponsePress press = kept_[0];
+        std::copy(kept_.begin() + 1, kept_.begin() + static_cast<std::ptrdiff_t>(kept_count_), kept_.begin());
+        --kept_count_;
+        return press;
+    }
+    if (const std::optional<ResponsePress> press = next_press())
+        return press;
+    const std::optional<ResponsePress> press = answering_ ? answering_->poll() : std::nullopt;
+    if (press && !is_operators(press->key))
+        box_answered_ = false;
+    return press;
+}
+
+std::string ButtonBoxPanel::answer() {
+    if (box_answered_)
+        return answered_ ? answered_->answer : std::string();
+    return answering_ ? answering_->answer() : std::string();
+}
+
+void ButtonBoxPanel::entered(SessionPhase phase, int trial) noexcept {
+    trial_ = trial;
+    // Between trials there is time to read the boxes' clocks.
+    if (phase == SessionPhase::trial || !is_in_trial(phase))
+        for (const Hand& hand : hands_)
+            hand.in_hand.box->begin();
+    if (answering_)
+        answering_->entered(phase, trial);
+}
+
+void ButtonBoxPanel::write_news(SessionLog& log, Hand& hand) {
+    const std::string& id = hand.in_hand.id;
+    for (const BoxNews& news : hand.in_hand.box->take_news()) {
+        hand.losses += news.is_lost ? 1 : 0;
+        log.event({news.at, trial_, news.is_lost ? response_box_lost_event : response_box_regained_event,
+                   fmt::format("{}: {}", id, news.words)});
+        tell_(news.is_lost
+                  ? fmt::format(
+                        "the response box \"{}\" does not answer any more: see to its cable; it is looked "
+                        "for, and the keyboard goes on working",
+                        id)
+                  : fmt::format("the response box \"{}\" is there again", id));
+    }
+}
+
+void ButtonBoxPanel::write_down(SessionLog& log) {
+    for (Hand& hand : hands_) {
+        if (!hand.is_noted) {
+            const ButtonBoxDescription& box = hand.in_hand.box->description();
+            log.event({clock_->now(), -1, response_box_event,
+                       fmt::format("{}: {}, of the {}, {}", hand.in_hand.id, box.model,
+                                   word_of(hand.in_hand.is_operators),
+                                   box.has_clock ? "with a clock of its own"
+                                                 : "without a clock: times are those of arrival")});
+            hand.is_noted = true;
+        }
+        if (hand.in_hand.box->has_news())
+            write_news(log, hand);
+    }
+    for (Change change; next_change(change);) {
+        keep(change);
+        if (recorded_.size() < recorded_.capacity())
+            recorded_.push_back(change);
+    }
+    if (!changes_.empty()) {
+        std::vector<RecordedButton> buttons;
+        for (const Change& one : changes_) {
+            const Hand& hand = hands_[one.hand];
+            const ButtonMeaning* const means = meaning(hand, one.change.button);
+            buttons.push_back({.at = one.change.at,
+                               .uncertainty = one.change.uncertainty,
+                               .trial = one.trial,
+                               .box = hand.in_hand.id,
+                               .is_operators = hand.in_hand.is_operators,
+                               .button = one.change.button,
+                               .name = hand.in_hand.box->button_name(one.change.button),
+                               .is_down = one.change.is_down,
+                               .device_time = one.change.device_time,
+                               .meaning = means ? means->words : std::string()});
+        }
+        changes_.clear();
+        log.buttons(buttons);
+    }
+    if (answering_)
+        answering_->write_down(log);
+}
+
+std::vector<std::string> ButtonBoxPanel::closing_warnings() const {
+    std::vector<std::string> said;
+    for (const Hand& hand : hands_) {
+        if (hand.losses > 0)
+            said.push_back(
+                fmt::format("response box \"{}\": it was gone {}: what was pressed then is not known",
+                            hand.in_hand.id, counted(hand.losses, "time")));
+        if (const std::int64_t forgotten = hand.in_hand.box->forgotten(); forgotten > 0)
+            said.push_back(fmt::format("response box \"{}\": {} went lost: too many at once", hand.in_hand.id,
+                                       counted(forgotten, "change")));
+    }
+    if (unrecorded_ > 0)
+        said.push_back(fmt::format("response boxes: {} could not be recorded: too many in one presentation",
+                                   counted(unrecorded_, "change")));
+    return said;
+}
+
+} // namespace overt

@@ -1,0 +1,202 @@
+#include "devices/buttons/xid_box.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+
+namespace overt {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr SessionDuration xid_patience = 200ms, xid_exchange = 30ms, between_bytes = 1ms;
+constexpr int xid_exchanges = 3;
+
+std::uint32_t little_endian(const unsigned char* bytes) noexcept {
+    return std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
+           std::uint32_t{bytes[3]} << 24;
+}
+
+} // namespace
+
+void XidParser::drop(std::size_t count) noexcept {
+    std::memmove(bytes_.data(), bytes_.data() + count, size_ - count);
+    size_ -= count;
+}
+
+std::size_t XidParser::feed(std::span<const char> bytes) noexcept {
+    const std::size_t taken = std::min(bytes.size(), bytes_.size() - size_);
+    std::memcpy(bytes_.data() + size_, bytes.data(), taken);
+    size_ += taken;
+    return taken;
+}
+
+std::optional<XidKey> XidParser::next() noexcept {
+    while (size_ > 0) {
+        // Bits 2 and 3 of a port are never set.
+        if (bytes_[0] == 'k') {
+            if (size_ < 2)
+                return std::nullopt;
+            const unsigned info = bytes_[1];
+            if ((info & 0x0C) == 0) {
+                if (size_ < 6)
+                    return std::nullopt;
+                const unsigned number = info >> 5;
+                const XidKey key{number == 0 ? 8 : static_cast<int>(number), static_cast<int>(info & 0x0F),
+                                 (info & 0x10) != 0, little_endian(bytes_.data() + 2)};
+                drop(6);
+                return key;
+            }
+        } else if (bytes_[0] == 'o') {
+            if (size_ < 4)
+                return std::nullopt;
+            if (bytes_[3] == '0' || bytes_[3] == '1') {
+                if (size_ < 9)
+                    return std::nullopt;
+                const XidKey key{bytes_[2], bytes_[1], bytes_[3] == '1', little_endian(bytes_.data() + 4)};
+                drop(9);
+                return key;
+            }
+        }
+        drop(1);
+    }
+    return std::nullopt;
+}
+
+int xid_button(const XidIdentity& identity, int key) noexcept {
+    constexpr std::array<int, 9> rb_530{0, 1, 0, 2, 3, 4, 5, 0, 0}, rb_830{0, 4, 5, 2, 3, 6, 7, 1, 8};
+    if (key < 1 || key > 8 || identity.product != '2')
+        return key;
+    const int place = identity.model == '1'   ? rb_530[static_cast<std::size_t>(key)]
+                      : identity.model == '3' ? rb_830[static_cast<std::size_t>(key)]
+                                              : key;
+    return place == 0 ? key : place;
+}
+
+XidBox::XidBox(const std::string& port, const Opener& open, Clock& clock) : clock_(&clock) {
+    if (!find(port, open))
+        throw DeviceError(
+            fmt::format("No response box that speaks XID answers at {}. Is it switched on, and set to XID "
+                        "(on RB boxes by the switches at the back)?",
+                        port));
+    const auto told = [&](std::string_view command) {
+        const std::string answer = ask(command, 1, xid_patience);
+        return answer.empty() ? '?' : answer[0];
+    };
+    identity_ = {told("_d2"), told("_d3"), told("_d4")};
+    send("e5"); // its clock at zero
+    read_clocks();
+    flush();
+}
+
+bool XidBox::find(const std::string& port, const Opener& open) {
+    for (const int baud : {115200, 19200, 9600, 57600, 38400}) {
+        line_.reset(); // one at a time
+        line_ = open(port, baud);
+        baud_ = baud;
+        flush();
+        const std::string answer = ask("_c1", 5, xid_patience);
+        if (!answer.starts_with("_xid"))
+            continue;
+        if (answer != "_xid0") {
+            send("c10"); // into the mode in which keys come as packets
+            clock_->wait_until(clock_->now() + between_bytes);
+            flush();
+        }
+        return true;
+    }
+    return false;
+}
+
+void XidBox::send(std::string_view bytes) {
+    // Boxes with the first firmware lose bytes that follow each other closely.
+    for (const char& byte : bytes) {
+        if (!line_->write({&byte, 1}, clock_->now() + xid_patience))
+            throw DeviceError(fmt::format("The response box at {} takes no commands: {}.", line_->name(),
+                                          line_->lost() ? line_->loss() : "time-out"));
+        if (identity_.firmware == '1' || identity_.firmware == '?')
+            clock_->wait_until(clock_->now() + between_bytes);
+    }
+}
+
+std::string XidBox::ask(std::string_view command, std::size_t bytes, SessionDuration patience) {
+    send(command);
+    const SessionTime deadline = clock_->now() + patience;
+    std::string answer;
+    std::array<char, 64> piece;
+    while (answer.size() < bytes && clock_->now() < deadline && !line_->lost()) {
+        const std::size_t count =
+            line_->read(std::span(piece).first(std::min(piece.size(), bytes - answer.size())), deadline);
+        answer.append(piece.data(), count);
+    }
+    return answer;
+}
+
+void XidBox::flush() noexcept {
+    std::array<char, 256> stale;
+    for (int i = 0; i < 1000 && line_->read(stale, clock_->now()) > 0; ++i) {
+    }
+    parser_.clear();
+}
+
+void XidBox::read_clocks() {
+    for (int i = 0; i < xid_exchanges; ++i) {
+        flush(); // a key that comes now would stand before the answer
+        const SessionTime before = clock_->now();
+        const std::string answer = ask("_e5", 7, xid_exchange);
+        if (answer.size() != 7 || !answer.starts_with("_e5"))
+            continue;
+        times_.add_exchange(before, little_endian(reinterpret_cast<const unsigned char*>(answer.data()) + 3),
+                            clock_->now());
+        has_clock_ = true;
+    }
+    if (line_->lost())
+        throw DeviceError(fmt::format("The response box at {} is gone: {}.", line_->name(), line_->loss()));
+}
+
+ButtonBoxDescription XidBox::description() const {
+    return {"xid",
+            fmt::format("{}, product {}, model {}, firmware {}, {} baud", line_->name(), identity_.product,
+                        identity_.model, identity_.firmware, baud_),
+            has_clock_};
+}
+
+std::string XidBox::button_name(int button) const { return fmt::format("{}", button); }
+
+void XidBox::begin() {
+    // Firmware of the first generation does not tell its clock; then changes are timed by when they were
+    // fetched.
+    if (has_clock_)
+        read_clocks();
+    flush();
+    looked_ = clock_->now();
+}
+
+std::size_t XidBox::poll(std::span<ButtonChange> into) noexcept {
+    const SessionTime now = clock_->now();
+    std::size_t taken = 0;
+    std::array<char, 64> piece;
+    for (;;) {
+        while (taken < into.size()) {
+            const auto key = parser_.next();
+            if (!key)
+                break;
+            if (key->port == 0)
+                into[taken++] =
+                    times_.of(xid_button(identity_, key->key), key->is_down, key->ms, looked_, now);
+        }
+        if (taken == into.size())
+            return taken;
+        const std::size_t count = line_->read(piece, now);
+        if (count == 0)
+            break;
+        parser_.feed(std::span(piece).first(count));
+    }
+    looked_ = now;
+    return taken;
+}
+
+} // namespace overt

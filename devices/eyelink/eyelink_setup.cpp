@@ -1,0 +1,322 @@
+#include "devices/eyelink/eyelink_setup.h"
+
+#include <array>
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/base/utf8_text.h"
+
+namespace overt {
+namespace {
+
+constexpr int largest_image_px = 4096;
+
+/// Codes of keys that are no characters.
+constexpr std::uint16_t escape_key = 0x1B, terminate_key = 0x7FFF;
+
+/// Hooks of the first form are told nothing of whom they work for.
+EyelinkSetup* active_setup = nullptr;
+
+EyelinkSetup& setup_of(void* user) { return *static_cast<EyelinkSetup*>(user); }
+
+std::string utf8_of(const char* text) {
+    const std::string_view bytes = text ? text : "";
+    return is_utf8(bytes) ? std::string(bytes) : utf8_of_latin1(bytes);
+}
+
+extern "C" {
+std::int16_t overt_el1_set_up() { return active_setup ? active_setup->set_up() : std::int16_t{0}; }
+void overt_el1_clear() {
+    if (active_setup)
+        active_setup->clear();
+}
+void overt_el1_nothing() {}
+std::int16_t overt_el1_set_up_image(std::int16_t, std::int16_t) { return 0; }
+void overt_el1_image_title(std::int16_t threshold, char* name) {
+    if (active_setup)
+        active_setup->image_title(threshold < 0 ? utf8_of(name)
+                                                : fmt::format("{}, threshold {}", utf8_of(name), threshold));
+}
+void overt_el1_image_line(std::int16_t width, std::int16_t line, std::int16_t lines, std::uint8_t* indices) {
+    if (active_setup)
+        active_setup->image_line(width, line, lines, indices);
+}
+void overt_el1_palette(std::int16_t colours, std::uint8_t* red, std::uint8_t* green, std::uint8_t* blue) {
+    if (!active_setup || colours <= 0)
+        return;
+    const auto count = static_cast<std::size_t>(colours);
+    active_setup->image_palette({red, count}, {green, count}, {blue, count});
+}
+void overt_el1_draw_target(std::int16_t x, std::int16_t y) {
+    if (active_setup)
+        active_setup->draw_target(x, y);
+}
+void overt_el1_target_beep() {
+    if (active_setup)
+        active_setup->beep(1);
+}
+void overt_el1_calibration_beep(std::int16_t error) {
+    if (active_setup)
+        active_setup->beep(error ? -1 : 0);
+}
+void overt_el1_drift_beep(std::int16_t error) {
+    if (active_setup)
+        active_setup->beep(error ? -2 : 2);
+}
+void overt_el1_drift_target_beep() {
+    if (active_setup)
+        active_setup->beep(3);
+}
+std::int16_t overt_el1_input_key(void* event) {
+    return active_setup ? active_setup->input_key(event) : std::int16_t{0};
+}
+void overt_el1_alert(const char* format, ...) {
+    char text[1024];
+    va_list values;
+    va_start(values, format);
+    std::vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+    if (active_setup)
+        active_setup->alert(utf8_of(text));
+}
+
+std::int16_t overt_el2_set_up(void* user) { return setup_of(user).set_up(); }
+std::int16_t overt_el2_clear(void* user) { return setup_of(user).clear(); }
+std::int16_t overt_el2_set_up_image(void*, std::int16_t, std::int16_t) { return 0; }
+std::int16_t overt_el2_image_title(void* user, char* title) {
+    return setup_of(user).image_title(utf8_of(title));
+}
+std::int16_t overt_el2_image(void* user, std::int16_t width, std::int16_t height, std::uint8_t* rgba) {
+    return setup_of(user).image(width, height, rgba);
+}
+std::int16_t overt_el2_draw_target(void* user, float x, float y) { return setup_of(user).draw_target(x, y); }
+std::int16_t overt_el2_beep(void* user, std::int32_t which) { return setup_of(user).beep(which); }
+std::int16_t overt_el2_input_key(void* user, void* event) { return setup_of(user).input_key(event); }
+std::int16_t overt_el2_alert(void* user, const char* text) { return setup_of(user).alert(utf8_of(text)); }
+}
+
+} // namespace
+
+std::uint16_t eyelink_key(const SetupKey& key) noexcept {
+    switch (key.kind) {
+    case SetupKey::Kind::character:
+        return key.character < 0x80 ? static_cast<std::uint16_t>(key.character) : std::uint16_t{0};
+    case SetupKey::Kind::enter:
+        return 0x0D;
+    case SetupKey::Kind::escape:
+        return escape_key;
+    case SetupKey::Kind::space:
+        return 0x20;
+    case SetupKey::Kind::backspace:
+        return 0x08;
+    case SetupKey::Kind::tab:
+        return 0x09;
+    case SetupKey::Kind::up:
+        return 0x4800;
+    case SetupKey::Kind::down:
+        return 0x5000;
+    case SetupKey::Kind::left:
+        return 0x4B00;
+    case SetupKey::Kind::right:
+        return 0x4D00;
+    case SetupKey::Kind::page_up:
+        return 0x4900;
+    case SetupKey::Kind::page_down:
+        return 0x5100;
+    case SetupKey::Kind::function:
+        return key.character >= 1 && key.character <= 10
+                   ? static_cast<std::uint16_t>(0x3B00 + ((key.character - 1) << 8))
+                   : std::uint16_t{0};
+    }
+    return 0;
+}
+
+EyelinkSetup::EyelinkSetup(const EyelinkLibrary& library, SetupStage* stage, Degrees target,
+                           const Clock& clock, SessionTime until)
+    : library_(&library), stage_(stage), target_(target), clock_(&clock), until_(until) {
+    OVERT_EXPECTS(!active_setup);
+    active_setup = this;
+    hooks2_ = {.major = 1,
+               .minor = 0,
+               .user = this,
+               .set_up = overt_el2_set_up,
+               .leave = overt_el2_clear,
+               .set_up_image = overt_el2_set_up_image,
+               .image_title = overt_el2_image_title,
+               .image = overt_el2_image,
+               .leave_image = overt_el2_clear,
+               .clear = overt_el2_clear,
+               .erase_target = overt_el2_clear,
+               .draw_target = overt_el2_draw_target,
+               .beep = overt_el2_beep,
+               .input_key = overt_el2_input_key,
+               .alert = overt_el2_alert,
+               .reserved = {}};
+    hooks_ = {.set_up = overt_el1_set_up,
+              .leave = overt_el1_clear,
+              .recording_broken_off = overt_el1_nothing,
+              .set_up_image = overt_el1_set_up_image,
+              .image_title = overt_el1_image_title,
+              .image_line = overt_el1_image_line,
+              .image_palette = overt_el1_palette,
+              .leave_image = overt_el1_clear,
+              .clear = overt_el1_clear,
+              .erase_target = overt_el1_clear,
+              .draw_target = overt_el1_draw_target,
+              .target_beep = overt_el1_target_beep,
+              .calibration_beep = overt_el1_calibration_beep,
+              .drift_beep = overt_el1_drift_beep,
+              .drift_target_beep = overt_el1_drift_target_beep,
+              .input_key = overt_el1_input_key,
+              .alert = overt_el1_alert};
+    const EyelinkFunctions& of = *library;
+    if (!of.setup_graphic_hook_functions_V2 || of.setup_graphic_hook_functions_V2(&hooks2_) != 0)
+        of.setup_graphic_hook_functions(&hooks_);
+}
+
+EyelinkSetup::~EyelinkSetup() { active_setup = nullptr; }
+
+void EyelinkSetup::check() const {
+    if (thrown_)
+        std::rethrow_exception(thrown_);
+    if (is_connection_lost_)
+        throw DeviceError(
+            "The connection to the EyeLink was lost during its set-up. Look at the network cable and "
+            "at the host.");
+}
+
+template <class Work> std::int16_t EyelinkSetup::guarded(const Work& work) noexcept {
+    if (thrown_)
+        return -1;
+    try {
+        if (stage_)
+            work();
+        return 0;
+    } catch (...) {
+        thrown_ = std::current_exception();
+        return -1;
+    }
+}
+
+void EyelinkSetup::end_dialogue() noexcept { (*library_)->exit_calibration(); }
+
+std::int16_t EyelinkSetup::set_up() noexcept {
+    return guarded([&] {
+        stage_->show_text("Set-up of the EyeLink. Enter: camera image. C: calibrate. V: validate. "
+                          "Esc: back, and at last to the experiment.");
+    });
+}
+
+std::int16_t EyelinkSetup::clear() noexcept {
+    return guarded([&] { stage_->clear(); });
+}
+
+std::int16_t EyelinkSetup::draw_target(double x_px, double y_px) noexcept {
+    return guarded([&] { stage_->show_target({x_px, y_px}, target_); });
+}
+
+std::int16_t EyelinkSetup::beep(int which) noexcept {
+    return guarded([&] {
+        switch (which) {
+        case -2:
+            return stage_->beep(SetupBeep::drift_bad);
+        case -1:
+            return stage_->beep(SetupBeep::calibration_bad);
+        case 0:
+            return stage_->beep(SetupBeep::calibration_good);
+        case 2:
+            return stage_->beep(SetupBeep::drift_good);
+        default:
+            return stage_->beep(SetupBeep::target_appears);
+        }
+    });
+}
+
+std::int16_t EyelinkSetup::image_title(std::string title) noexcept {
+    return guarded([&] { camera_.title = std::move(title); });
+}
+
+std::int16_t EyelinkSetup::image_palette(std::span<const std::uint8_t> red,
+                                         std::span<const std::uint8_t> green,
+                                         std::span<const std::uint8_t> blue) noexcept {
+    return guarded([&] {
+        palette_.clear();
+        for (std::size_t i = 0; i < red.size(); ++i)
+            for (const std::uint8_t value : {red[i], green[i], blue[i], std::uint8_t{255}})
+                palette_.push_back(std::byte{value});
+    });
+}
+
+std::int16_t EyelinkSetup::image_line(int width, int line, int lines, const std::uint8_t* indices) noexcept {
+    return guarded([&] {
+        if (!indices || width < 1 || lines < 1 || width > largest_image_px || lines > largest_image_px ||
+            line < 1 || line > lines)
+            return;
+        if (camera_.width_px != width || camera_.height_px != lines) {
+            camera_.width_px = width;
+            camera_.height_px = lines;
+            camera_.rgba.assign(4u * static_cast<std::size_t>(width) * static_cast<std::size_t>(lines),
+                                std::byte{0});
+        }
+        std::byte* to =
+            camera_.rgba.data() + 4u * static_cast<std::size_t>(width) * static_cast<std::size_t>(line - 1);
+        for (int x = 0; x < width; ++x, to += 4)
+            if (const std::size_t colour = 4u * indices[x]; colour + 4 <= palette_.size())
+                std::memcpy(to, palette_.data() + colour, 4);
+        if (line == lines)
+            stage_->show_camera(camera_);
+    });
+}
+
+std::int16_t EyelinkSetup::image(int width, int height, const std::uint8_t* rgba) noexcept {
+    return guarded([&] {
+        if (!rgba || width < 1 || height < 1 || width > largest_image_px || height > largest_image_px)
+            return;
+        camera_.width_px = width;
+        camera_.height_px = height;
+        const auto* bytes = reinterpret_cast<const std::byte*>(rgba);
+        camera_.rgba.assign(bytes, bytes + 4 * std::ptrdiff_t{width} * height);
+        stage_->show_camera(camera_);
+    });
+}
+
+std::int16_t EyelinkSetup::alert(std::string text) noexcept {
+    return guarded([&] { stage_->show_text(text); });
+}
+
+std::int16_t EyelinkSetup::input_key(void* event) noexcept {
+    std::optional<SetupKey> key;
+    guarded([&] {
+        key = stage_->next_key();
+        if (!key)
+            stage_->wait(std::chrono::milliseconds(2)); // the library asks again and again
+    });
+    is_out_of_time_ = is_out_of_time_ || clock_->now() >= until_;
+    is_connection_lost_ = is_connection_lost_ || (*library_)->eyelink_is_connected() == 0;
+    const bool ends = thrown_ || is_out_of_time_ || is_connection_lost_ || (stage_ && stage_->is_cancelled());
+    const std::uint16_t code = ends  ? (stage_ ? terminate_key : escape_key)
+                               : key ? eyelink_key(*key)
+                                     : std::uint16_t{0};
+    if (ends)
+        end_dialogue();
+    if (code == 0 || !event)
+        return 0;
+    // The key form of the library's event: type 1, then state (10: pressed), code, modifiers, character.
+    std::array<std::byte, 12> bytes{std::byte{1}, std::byte{10}};
+    std::uint16_t modifiers = 0;
+    if (key)
+        modifiers = static_cast<std::uint16_t>((key->shift ? 0x1 : 0) | (key->control ? 0x40 : 0) |
+                                               (key->alt ? 0x100 : 0));
+    const std::uint16_t character = code < 0x80 ? code : std::uint16_t{0};
+    std::memcpy(bytes.data() + 2, &code, 2);
+    std::memcpy(bytes.data() + 4, &modifiers, 2);
+    std::memcpy(bytes.data() + 6, &character, 2);
+    std::memcpy(event, bytes.data(), bytes.size());
+    return 1;
+}
+
+} // namespace overt

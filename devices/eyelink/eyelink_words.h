@@ -1,0 +1,79 @@
+/// What is said to an EyeLink in words, and what it answers: commands, modes, messages, names of files. Pure
+/// functions.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "devices/tracker/tracker_driver.h"
+
+namespace overt {
+
+/// How an EyeLink is reached and set.
+struct EyelinkSettings {
+    std::string library;               ///< file; empty: see EyelinkLibrary
+    std::string address = "100.1.1.1"; ///< of the host computer, as it is delivered
+    bool is_dummy = false;             ///< the library without a tracker: to try an experiment out
+    int calibration_points = 9;        ///< 3, 5, 9 or 13
+    double target_deg = 0.6;           ///< diameter of the targets
+    SessionDuration drift_patience = std::chrono::seconds(30); ///< for one check
+};
+
+/// A rate that the tracker offers as it is mounted now.
+struct EyelinkMode {
+    int rate_hz = 0;
+    bool can_both_eyes = false;
+};
+
+/// Of the tracker's variable read_mode_list, such as "250B 500B 1000B 2000": rates with letters, of which B
+/// says that both eyes can be recorded. What is no rate is passed over.
+std::vector<EyelinkMode> eyelink_modes(std::string_view list);
+
+/// The mode nearest to what is wished: the highest rate that is not above it, with both eyes if they are
+/// wished and any mode has them; if all are above, the lowest. With an empty list (a host that tells none)
+/// the rate as wished, but of both eyes 1000 Hz at most.
+struct EyelinkGrant {
+    int rate_hz = 0;
+    bool both_eyes = false;
+};
+EyelinkGrant eyelink_grant(std::span<const EyelinkMode> modes, const TrackerWish& wish);
+
+struct EyelinkCommand {
+    std::string text;
+    bool is_needed = false; ///< without it what is recorded means something else
+};
+
+/// What sets a tracker up for a session, in the order in which it is sent.
+std::vector<EyelinkCommand> eyelink_commands(const TrackerWish& wish, const EyelinkSettings& settings,
+                                             const EyelinkGrant& grant);
+
+/// "DISPLAY_COORDS 0 0 1919 1079", for those who read the file.
+std::string eyelink_display_coords(const ScreenGeometry& screen);
+
+/// The name of a session's data file on the host, without ".edf": `wished` in capitals, and from the second
+/// part on (after a connection was lost) with its number in the last place, so that no part replaces another.
+/// Throws InputError unless `wished` is 1 to 8 letters, digits and underscores.
+std::string eyelink_file_name(std::string_view wished, int part = 0);
+
+/// A message as it goes into the data file: a leading number says how many milliseconds ago it happened. Not
+/// before the messages that viewers look for at the beginning (TRIALID, TRIAL_RESULT, !V …), whose time has
+/// no meaning. Writes into `into` and gives what was written, cut where it does not fit. Allocates nothing.
+std::string_view eyelink_message(std::string_view text, SessionDuration age, std::span<char> into) noexcept;
+
+/// From the tracker's sentence on a validation, such as "… ERROR 0.45 avg. 0.76 max OFFSET 0.02 deg. …".
+std::optional<ValidationResult> eyelink_validation(std::string_view sentence);
+
+/// Degrees from the tracker's sentence on a check of drift, "… OFFSET 0.35 deg. 11.4,-4.5 pix.".
+std::optional<Degrees> eyelink_drift(std::string_view sentence);
+
+/// A sentence for what opening the connection gave; nothing for 0.
+std::optional<std::string> eyelink_connection_problem(std::int16_t result, const std::string& address);
+
+/// A sentence for what fetching the file gave; nothing for a number of bytes.
+std::optional<std::string> eyelink_transfer_problem(std::int32_t result);
+
+} // namespace overt

@@ -1,0 +1,71 @@
+/// Markers and gaze for those who record along by the Lab Streaming Layer.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "devices/lsl/lsl_library.h"
+#include "devices/tracker/tracker_driver.h"
+#include "devices/triggers/marker_output.h"
+#include "experiment/ports/clock.h"
+
+namespace overt {
+
+/// A stream of markers: name "overt", type "Markers", one channel of text, no rate. Time stamps are when what
+/// a marker marks happened, on liblsl's clock.
+class LslMarkerOutlet final : public MarkerOutput {
+  public:
+    /// `session`: tells streams of several sessions apart. `clock` must outlive it. Throws DeviceError if the
+    /// stream cannot be opened.
+    LslMarkerOutlet(std::shared_ptr<const LslLibrary> library, const std::string& session,
+                    const Clock& clock);
+
+    const std::string& name() const noexcept override { return name_; }
+    bool needs_code() const noexcept override { return false; }
+    /// The text, or the code in figures where there is none.
+    bool send(const Marker& marker) noexcept override;
+    std::string fault() const override { return "liblsl does not take them"; }
+
+  private:
+    std::shared_ptr<const LslLibrary> library_;
+    LslOwned<LslStreamOutlet> outlet_;
+    const Clock& clock_;
+    std::string name_;
+};
+
+/// A tracker whose samples are sent on, whatever it is: name "overt gaze", type "Gaze", of each eye place on
+/// the screen in px, pupil and confidence, and the tracker's own time in seconds. Time stamps are arrivals at
+/// this program: the tracker's own time is exact, but on another clock.
+class LslGazeRelay final : public TrackerDriver {
+  public:
+    LslGazeRelay(std::unique_ptr<TrackerDriver> tracker, std::shared_ptr<const LslLibrary> library,
+                 std::string session);
+    ~LslGazeRelay() override;
+
+    TrackerDescription connect(const TrackerWish& wish) override;
+    bool tells_events() const noexcept override { return tracker_->tells_events(); }
+    bool calibrates_itself() const noexcept override { return tracker_->calibrates_itself(); }
+    SetupOutcome set_up(SetupStage& stage) override { return tracker_->set_up(stage); }
+    std::optional<DriftOutcome> drift_check(ScreenPoint target) override {
+        return tracker_->drift_check(target);
+    }
+    void start() override { tracker_->start(); }
+    void stop() noexcept override { tracker_->stop(); }
+    RecordingState read(TrackerItemSink& sink, SessionTime deadline) noexcept override;
+    void send(const TrackerMark& mark) noexcept override { tracker_->send(mark); }
+    std::optional<ClockPair> read_clocks() noexcept override { return tracker_->read_clocks(); }
+    std::vector<std::string> finish(const std::string& folder,
+                                    const EyeTracker::FileProgress& progress) override {
+        return tracker_->finish(folder, progress);
+    }
+
+  private:
+    class Tap;
+    std::unique_ptr<TrackerDriver> tracker_;
+    std::shared_ptr<const LslLibrary> library_;
+    std::string session_;
+    LslOwned<LslStreamOutlet> outlet_;
+    std::unique_ptr<Tap> tap_;
+};
+
+} // namespace overt

@@ -1,0 +1,54 @@
+/// From what Pupil Capture publishes to samples.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "devices/pupil/pupil_message.h"
+#include "devices/tracker/tracker_driver.h"
+
+namespace overt {
+
+/// Where a surface lies on the screen.
+struct SurfacePlace {
+    ScreenPoint top_left;
+    double width_px = 0.0, height_px = 0.0;
+    /// `place`: share of the surface with y upward.
+    ScreenPoint on_screen(const glm::dvec2& place) const noexcept {
+        return {top_left.x_px + place.x * width_px, top_left.y_px + (1.0 - place.y) * height_px};
+    }
+};
+
+/// Nothing allocates or throws.
+class PupilSamples {
+  public:
+    /// Gaze of less confidence is lost.
+    PupilSamples(const TrackerWish& wish, const SurfacePlace& surface, double least_confidence) noexcept;
+
+    void begin() noexcept { *this = PupilSamples(eye_, both_eyes_, surface_, least_confidence_); }
+
+    /// Remembers the eye's pupil for the samples to come.
+    void take(const PupilDatum& pupil) noexcept;
+
+    /// Puts a sample of the wished eye, or one of each, the left first. Gaze that was reckoned from the other
+    /// eye alone is none of this one's. Gaze that is not later than the last is dropped: Pupil Capture pairs
+    /// eyes, and tells some pairs late.
+    void take(const SurfaceGaze& gaze, TrackerItemSink& sink) noexcept;
+
+    void take_noise(TrackerItemSink& sink) const noexcept;
+    TrackerTime last_time() const noexcept { return last_time_; }
+
+  private:
+    PupilSamples(Eye eye, bool both_eyes, const SurfacePlace& surface, double least_confidence) noexcept;
+    void put_eye(Eye eye, const SurfaceGaze& gaze, bool is_its_own, TrackerItemSink& sink) const noexcept;
+
+    Eye eye_;
+    bool both_eyes_;
+    SurfacePlace surface_;
+    double least_confidence_;
+    std::array<std::optional<PupilDatum>, 2> pupils_; ///< left, right
+    TrackerTime last_time_{};
+    bool has_time_ = false;
+};
+
+} // namespace overt

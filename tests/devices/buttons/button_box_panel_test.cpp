@@ -1,0 +1,307 @@
+#include "devices/buttons/button_box_panel.h"
+
+#include <deque>
+#include <thread>
+
+#include <catch2/catch.hpp>
+
+#include "devices/host/clocks.h"
+#include "experiment/base/error.h"
+#include "experiment/ports/session_log.h"
+
+using namespace overt;
+using namespace std::chrono_literals;
+using Key = ResponsePress::Key;
+
+namespace {
+
+/// What a box in memory is told, from the test's thread.
+struct Board {
+    std::mutex mutex;
+    std::deque<ButtonChange> waiting;
+    bool is_there = true, is_lost = false, has_clock = true;
+    int opened = 0, begun = 0;
+};
+
+class BoardBox final : public ButtonBox {
+  public:
+    explicit BoardBox(Board& board) : board_(board) {
+        const std::scoped_lock lock(board_.mutex);
+        if (!board_.is_there)
+            throw DeviceError("there is no such box");
+        ++board_.opened;
+        board_.is_lost = false;
+    }
+    ButtonBoxDescription description() const override { return {"board", "a board", board_.has_clock}; }
+    std::string button_name(int button) const override {
+        return std::string(1, static_cast<char>('A' + button));
+    }
+    void begin() override {
+        const std::scoped_lock lock(board_.mutex);
+        ++board_.begun;
+    }
+    std::size_t poll(std::span<ButtonChange> into) noexcept override {
+        const std::scoped_lock lock(board_.mutex);
+        std::size_t taken = 0;
+        for (; taken < into.size() && !board_.waiting.empty(); ++taken) {
+            into[taken] = board_.waiting.front();
+            board_.waiting.pop_front();
+        }
+        return taken;
+    }
+    bool lost() const noexcept override {
+        const std::scoped_lock lock(board_.mutex);
+        return board_.is_lost;
+    }
+
+  private:
+    Board& board_;
+};
+
+class ButtonLog final : public SessionLog {
+  public:
+    void flip(const FlipRecord&) noexcept override {}
+    void missed(const MissedRefresh&) noexcept override {}
+    void sample(int, const GazeSample&) noexcept override {}
+    void clock_pair(const ClockPair&) noexcept override {}
+    void event(const SessionEvent& event) override {
+        events.push_back(std::string(event.kind) + ": " + event.detail);
+    }
+    void buttons(const std::vector<RecordedButton>& more) override {
+        all.insert(all.end(), more.begin(), more.end());
+    }
+    void trial_started(const Trial&, SessionTime) override {}
+    void trial_finished(const Trial&, const TrialOutcome&) override {}
+    std::vector<RecordedButton> all;
+    std::vector<std::string> events;
+};
+
+/// A keyboard at which a key was pressed.
+class KeyPanel final : public ResponsePanel {
+  public:
+    void await_key(SessionTime) override {}
+    void await_response(const Trial&, SessionTime) override {}
+    void await_decision(bool, SessionTime) override {}
+    void await_entry(SessionTime) override {}
+    std::optional<ResponsePress> poll() noexcept override { return std::exchange(next, std::nullopt); }
+    std::string answer() override { return "typed"; }
+    std::optional<ResponsePress> next;
+};
+
+struct Desk {
+    SteadyClock clock;
+    Board observers, operators;
+    KeyPanel keyboard;
+    ButtonLog log;
+    std::vector<std::string> told;
+    ButtonBoxPanel panel;
+
+    BoxInHand box(Board& board, const char* id, bool is_operators, std::vector<const char*> meanings) {
+        BoxInHand made{id, is_operators, {}, nullptr};
+        for (const char* meaning : meanings)
+            made.meanings.push_back(parse_button_meaning(meaning, is_operators));
+        made.box = std::make_unique<ThreadedButtonBox>([&board] { return std::make_unique<BoardBox>(board); },
+                                                       clock, ThreadedButtonBox::ReadOn::own_thread, 20ms);
+        return made;
+    }
+    std::vector<BoxInHand> boxes(std::vector<const char*> observers_buttons) {
+        std::vector<BoxInHand> all;
+        all.push_back(box(observers, "pad", false, std::move(observers_buttons)));
+        all.push_back(box(operators, "desk", true, {"A pause", "B yes", "C no", "D 2"}));
+        return all;
+    }
+    explicit Desk(std::vector<const char*> observers_buttons = {"A answer gold", "B answer silver", "C back",
+                                                                "D yes", "E no"})
+        : panel(boxes(std::move(observers_buttons)), clock, &keyboard,
+                [this](const std::string& sentence) { told.push_back(sentence); }) {}
+
+    void press(Board& board, int button, bool down = true) {
+        const std::scoped_lock lock(board.mutex);
+        board.waiting.push_back({button, down, BoxTime(1234us), clock.now(), 700us});
+    }
+    /// What the panel says of it, within a second.
+    std::optional<ResponsePress> said() {
+        for (const SessionTime until = clock.now() + 1s; clock.now() < until;) {
+            if (const auto press = panel.poll())
+                return press;
+            std::this_thread::sleep_for(1ms);
+        }
+        return std::nullopt;
+    }
+    /// The boxes' threads have taken all that was pressed, and the panel said nothing to it.
+    bool says_nothing() {
+        for (Board* board : {&observers, &operators})
+            for (bool is_empty = false; !is_empty;) {
+                std::this_thread::sleep_for(2ms);
+                const std::scoped_lock lock(board->mutex);
+                is_empty = board->waiting.empty();
+            }
+        std::this_thread::sleep_for(5ms);
+        return !panel.poll();
+    }
+    template <class Condition> void wait_for(Condition condition) {
+        for (int i = 0; i < 2000 && !condition(); ++i) {
+            panel.write_down(log);
+            std::this_thread::sleep_for(1ms);
+        }
+        CHECK(condition());
+    }
+};
+
+} // namespace
+
+TEST_CASE("a press at a box answers with its own time and words, and is recorded with both edges", "[unit]") {
+    Desk desk;
+    desk.panel.entered(SessionPhase::response_screen, 4);
+    desk.panel.await_response({}, desk.clock.now());
+    desk.press(desk.observers, 1);
+    desk.press(desk.observers, 1, false);
+    desk.press(desk.observers, 6); // that means nothing
+    const auto press = desk.said();
+    REQUIRE(press);
+    CHECK(press->key == Key::next);
+    CHECK(desk.panel.answer() == "silver");
+    CHECK(desk.says_nothing());
+    desk.panel.write_down(desk.log);
+    REQUIRE(desk.log.all.size() == 3);
+    const RecordedButton& down = desk.log.all[0];
+    CHECK(down.at == press->pressed_at);
+    CHECK(down.uncertainty == 700us);
+    CHECK(down.device_time == BoxTime(1234us));
+    CHECK(down.trial == 4);
+    CHECK(down.box == "pad");
+    CHECK(down.name == "B");
+    CHECK(down.meaning == "answer silver");
+    CHECK(down.is_down);
+    CHECK_FALSE(desk.log.all[1].is_down);
+    CHECK(desk.log.all[2].meaning.empty());
+
+    // A key that answers after all is the keyboard's answer.
+    desk.panel.await_response({}, desk.clock.now());
+    desk.keyboard.next = ResponsePress{Key::next, desk.clock.now(), 0};
+    CHECK(desk.said());
+    CHECK(desk.panel.answer() == "typed");
+}
+
+TEST_CASE("neither answers for the other", "[unit]") {
+    Desk desk;
+    // The operator's question: the observer's yes is none, nor is any other of their buttons.
+    desk.panel.await_decision(false, desk.clock.now());
+    for (int button = 0; button < 5; ++button)
+        desk.press(desk.observers, button);
+    CHECK(desk.says_nothing());
+    desk.press(desk.operators, 1);
+    CHECK(desk.said()->key == Key::yes);
+    desk.press(desk.operators, 3);
+    const auto reason = desk.said();
+    REQUIRE(reason);
+    CHECK(reason->character == U'2');
+
+    // The observer's consent, a text and a question: the operator's yes is none, and pauses stay pauses.
+    desk.panel.await_decision(true, desk.clock.now());
+    desk.press(desk.operators, 1);
+    desk.press(desk.operators, 2);
+    CHECK(desk.says_nothing());
+    desk.press(desk.observers, 4);
+    CHECK(desk.said()->key == Key::no);
+    desk.panel.await_key(desk.clock.now());
+    desk.press(desk.operators, 1);
+    desk.press(desk.observers, 3); // yes, where nothing is decided
+    CHECK(desk.says_nothing());
+    desk.press(desk.operators, 0);
+    CHECK(desk.said()->key == Key::pause);
+    desk.press(desk.observers, 2);
+    CHECK(desk.said()->key == Key::back);
+    desk.panel.await_response({}, desk.clock.now());
+    desk.press(desk.operators, 2);
+    CHECK(desk.says_nothing());
+    // While a form is filled in, the observer types.
+    desk.panel.await_entry(desk.clock.now());
+    desk.press(desk.observers, 0);
+    CHECK(desk.says_nothing());
+}
+
+TEST_CASE("what was pressed before a question stood there does not answer it; the operator's stays",
+          "[unit]") {
+    Desk desk(std::vector<const char*>{});
+    desk.panel.await_key(desk.clock.now());
+    desk.press(desk.observers, 0);
+    desk.press(desk.operators, 0);
+    std::this_thread::sleep_for(20ms); // the threads have them
+    desk.panel.await_response({}, desk.clock.now());
+    const auto press = desk.said();
+    REQUIRE(press);
+    CHECK(press->key == Key::pause);
+    CHECK(desk.says_nothing());
+    // A change that arrives late was before it, too.
+    desk.panel.await_response({}, desk.clock.now() + 10s);
+    desk.press(desk.observers, 0);
+    CHECK(desk.says_nothing());
+    // Without a mapping any button goes on, and answers nothing.
+    desk.panel.await_response({}, desk.clock.now());
+    desk.press(desk.observers, 3);
+    CHECK(desk.said()->key == Key::next);
+    CHECK(desk.panel.answer().empty());
+    desk.panel.write_down(desk.log);
+    CHECK(desk.log.all.size() == 4);
+}
+
+TEST_CASE("what is recorded before anybody asks is told afterwards, and recorded once", "[unit]") {
+    Desk desk;
+    desk.panel.await_response({}, desk.clock.now());
+    desk.press(desk.observers, 0);
+    desk.wait_for([&] { return desk.log.all.size() == 1; });
+    const auto press = desk.said();
+    REQUIRE(press);
+    CHECK(press->pressed_at == desk.log.all[0].at);
+    CHECK(desk.panel.answer() == "gold");
+    CHECK(desk.says_nothing());
+    desk.press(desk.observers, 0, false);
+    desk.wait_for([&] { return desk.log.all.size() == 2; });
+    CHECK(desk.says_nothing());
+}
+
+TEST_CASE("a box that is gone is data, is said, and is found again; the keyboard goes on", "[unit]") {
+    Desk desk;
+    {
+        const std::scoped_lock lock(desk.observers.mutex);
+        desk.observers.is_there = false;
+        desk.observers.is_lost = true;
+    }
+    desk.wait_for([&] { return desk.told.size() == 1; });
+    CHECK_THAT(desk.told[0], Catch::Contains("\"pad\" does not answer any more"));
+    desk.panel.await_response({}, desk.clock.now());
+    desk.keyboard.next = ResponsePress{Key::next, desk.clock.now(), 0};
+    CHECK(desk.said());
+    {
+        const std::scoped_lock lock(desk.observers.mutex);
+        desk.observers.is_there = true;
+    }
+    desk.wait_for([&] { return desk.told.size() == 2; });
+    CHECK_THAT(desk.told[1], Catch::Contains("\"pad\" is there again"));
+    CHECK(std::ranges::count(desk.log.events, "response box lost: pad: a board") == 1);
+    CHECK(std::ranges::count(desk.log.events, "response box regained: pad: a board") == 1);
+    CHECK(std::ranges::count(desk.log.events,
+                             "response box: pad: a board, of the observer, with a clock of its own") == 1);
+    desk.panel.await_response({}, desk.clock.now());
+    desk.press(desk.observers, 0);
+    CHECK(desk.said());
+    CHECK(desk.panel.answer() == "gold");
+    REQUIRE(desk.panel.closing_warnings().size() == 1);
+    CHECK_THAT(desk.panel.closing_warnings()[0], Catch::Contains("it was gone 1 time"));
+}
+
+TEST_CASE("a box reads its clock before each trial, and a button that it lacks is refused", "[unit]") {
+    Desk desk;
+    desk.panel.entered(SessionPhase::trial, 0);
+    desk.wait_for([&] {
+        const std::scoped_lock lock(desk.observers.mutex);
+        return desk.observers.begun == 1;
+    });
+    std::vector<BoxInHand> boxes;
+    boxes.push_back(desk.box(desk.operators, "desk", false, {"seventh next"}));
+    CHECK_THROWS_WITH(ButtonBoxPanel(std::move(boxes), desk.clock, nullptr, [](const std::string&) {}),
+                      Catch::Contains("board boxes have no button \"seventh\""));
+    desk.observers.is_there = false;
+    CHECK_THROWS_AS(desk.box(desk.observers, "pad", false, {}), DeviceError);
+}

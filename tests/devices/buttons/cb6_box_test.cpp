@@ -1,0 +1,61 @@
+#include "devices/buttons/cb6_box.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/devices/display_box/box_bench.h"
+
+using namespace overt;
+using namespace overt::test;
+
+TEST_CASE("buttons of a CB6 come through the status stream, timed by the box's clock", "[unit]") {
+    Bench bench;
+    bench.box.clock_zero = SessionTime(-5s);
+    bench.box.drift_ppm = 60.0;
+    DisplayPlusPlus display = bench.open();
+    {
+        Cb6Box box(display, bench.clock);
+        CHECK(box.description().has_clock);
+        CHECK(box.button_name(2) == "B");
+        CHECK(box.button_name(7) == "Din0");
+        box.begin();
+        std::array<ButtonChange, 8> changes;
+        const auto after = [&](SessionDuration time) {
+            bench.clock.wait_until(bench.clock.now() + time);
+            return box.poll(changes);
+        };
+        CHECK(after(50ms) == 0);
+        // B of the CB6 and the first digital input at once; 0 is pressed.
+        const SessionTime pressed = bench.clock.now();
+        bench.box.model.inputs = "0111111111101111";
+        CHECK(box.poll(changes) == 0);
+        REQUIRE(after(10ms) == 2);
+        std::ranges::sort(std::span(changes).first(2), {}, &ButtonChange::button);
+        CHECK(changes[0].button == 2);
+        CHECK(changes[1].button == 7);
+        for (int i = 0; i < 2; ++i) {
+            const ButtonChange& change = changes[static_cast<std::size_t>(i)];
+            CHECK(change.is_down);
+            CHECK(change.at - change.uncertainty <= pressed + 1ms); // a sample's period later at most
+            CHECK(change.at + change.uncertainty >= pressed);
+            CHECK(change.uncertainty < 5ms);
+        }
+        bench.box.model.inputs = "1111111111111111";
+        CHECK(after(10ms) == 2);
+        CHECK_FALSE(changes[0].is_down);
+        CHECK(bench.box.model.streaming);
+        // What is down when a trial begins is no press.
+        bench.box.model.inputs = "1111111111011111";
+        box.begin();
+        CHECK(after(10ms) == 0);
+        bench.box.far.unplugged = true;
+        CHECK(after(10ms) == 0);
+        CHECK(box.lost());
+    }
+}
+
+TEST_CASE("a CB6's stream ends with the box", "[unit]") {
+    Bench bench;
+    DisplayPlusPlus display = bench.open();
+    { Cb6Box box(display, bench.clock); }
+    CHECK_FALSE(bench.box.model.streaming);
+}

@@ -1,0 +1,82 @@
+#include "devices/buttons/hid_button_box.h"
+
+#include <catch2/catch.hpp>
+
+#include "experiment/base/error.h"
+#include "tests/devices/hid/hid_bytes.h"
+
+using namespace overt;
+using namespace overt::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// What a report changes, such as "+3 -1".
+std::string changes_of(HidButtons& buttons, std::initializer_list<int> report) {
+    std::string changes;
+    buttons.take(bytes_of(report), [&](int number, bool is_down) {
+        changes +=
+            fmt::format("{}{}{}", changes.empty() ? "" : " ", is_down ? "+" : "-", hid_button_name(number));
+    });
+    return changes;
+}
+
+} // namespace
+
+TEST_CASE("buttons of a game pad are told when they change, whatever its axes do", "[unit]") {
+    HidButtons pad(parse_report_descriptor(game_pad_descriptor()));
+    CHECK(changes_of(pad, {128, 128, 0, 0}) == "");
+    CHECK(changes_of(pad, {0, 255, 0b0000'0101, 0b10}) == "+1 +3 +10");
+    CHECK(changes_of(pad, {0, 255, 0b0000'0101, 0b10}) == "");
+    CHECK(changes_of(pad, {0, 255, 0b0000'0110, 0xFC}) == "-1 +2 -10"); // the rest fills up the byte
+    CHECK(changes_of(pad, {0, 255, 0}) == "");                          // cut off
+}
+
+TEST_CASE("keys of a keyboard are told when they change, and not when too many are down", "[unit]") {
+    HidButtons keys(parse_report_descriptor(keyboard_descriptor()));
+    CHECK(changes_of(keys, {0, 0, 0x1E, 0, 0, 0, 0, 0}) == "+1");
+    CHECK(changes_of(keys, {0x02, 0, 0x2C, 0x1E, 0, 0, 0, 0}) ==
+          "+space +key 225"); // left shift, in another place
+    CHECK(changes_of(keys, {0x02, 0, 1, 1, 1, 1, 1, 1}) == "");
+    CHECK(changes_of(keys, {0, 0, 0x2C, 0, 0, 0, 0, 0}) == "-1 -key 225");
+    CHECK(changes_of(keys, {0, 0, 0, 0, 0, 0, 0, 200}) == "-space"); // 200 is outside of its range
+    CHECK(hid_button_name(first_key_number + 0x04) == "a");
+    CHECK(hid_button_name(first_key_number + 0x27) == "0");
+    CHECK(hid_button_name(5) == "5");
+}
+
+TEST_CASE("presses of a HID box are timed by when they were fetched", "[unit]") {
+    VirtualClock clock(SessionTime(1s));
+    HidFarEnd far(clock);
+    const HidDescriptor descriptor = parse_report_descriptor(game_pad_descriptor());
+    far.arriving.push_back({SessionTime(1s), bytes_of({0, 0, 1, 0})}); // down before the trial
+    HidButtonBox box(std::make_unique<InMemoryHidLine>(far), descriptor, "pad", clock);
+    CHECK_FALSE(box.description().has_clock);
+    std::array<ButtonChange, 2> changes;
+    CHECK(box.poll(changes) == 0);
+    const SessionTime looked = clock.now();
+    far.arriving.push_back({looked + 3ms, bytes_of({0, 0, 0b1110, 0})});
+    clock.wait_until(looked + 8ms);
+    REQUIRE(box.poll(changes) == 2); // button 1 up, 2 down, and no room for more
+    CHECK(changes[0].button == 1);
+    CHECK_FALSE(changes[0].is_down);
+    CHECK(changes[1].button == 2);
+    CHECK_FALSE(changes[1].device_time);
+    CHECK(changes[1].at - changes[1].uncertainty <= looked);
+    CHECK(changes[1].at + changes[1].uncertainty >= looked + 8ms);
+    REQUIRE(box.poll(changes) == 2);
+    CHECK(changes[1].button == 4);
+    CHECK(box.poll(changes) == 0);
+    far.unplugged = true;
+    CHECK(box.poll(changes) == 0);
+    CHECK(box.lost());
+    CHECK_THROWS_AS(box.begin(), DeviceError);
+}
+
+TEST_CASE("a HID device without buttons is no response box", "[unit]") {
+    VirtualClock clock;
+    HidFarEnd far(clock);
+    const HidDescriptor descriptor = parse_report_descriptor(eye_tracker_descriptor());
+    CHECK_THROWS_WITH(HidButtonBox(std::make_unique<InMemoryHidLine>(far), descriptor, "", clock),
+                      Catch::Contains("neither buttons nor keys"));
+}

@@ -1,0 +1,119 @@
+#include "devices/eyelink/eyelink_words.h"
+
+#include <catch2/catch.hpp>
+
+#include "experiment/base/error.h"
+
+using namespace overt;
+using namespace std::chrono_literals;
+
+namespace {
+
+TrackerWish wish_of(double rate_hz, bool both) {
+    TrackerWish wish;
+    wish.rate_hz = rate_hz;
+    wish.both_eyes = both;
+    return wish;
+}
+
+std::string granted(std::string_view list, double rate_hz, bool both) {
+    const EyelinkGrant grant = eyelink_grant(eyelink_modes(list), wish_of(rate_hz, both));
+    return fmt::format("{}{}", grant.rate_hz, grant.both_eyes ? "B" : "");
+}
+
+std::string message(std::string_view text, SessionDuration age) {
+    std::array<char, 40> room{};
+    return std::string(eyelink_message(text, age, room));
+}
+
+} // namespace
+
+TEST_CASE("an EyeLink grants the nearest rate that it has, of both eyes where it can", "[unit]") {
+    constexpr std::string_view list = "250RB 500RB 1000B 2000";
+    CHECK(granted(list, 2000, false) == "2000");
+    CHECK(granted(list, 2000, true) == "1000B");
+    CHECK(granted(list, 1000, true) == "1000B");
+    CHECK(granted(list, 700, false) == "500");
+    CHECK(granted(list, 100, false) == "250");
+    CHECK(granted("2000 1000", 1000, true) == "1000"); // one eye only, as the tracker is mounted
+    CHECK(granted("2000B", 1000, true) == "2000B");
+    // A host that tells nothing, or nonsense.
+    CHECK(granted("", 2000, true) == "1000B");
+    CHECK(granted("", 2000, false) == "2000");
+    CHECK(granted("B -5 99999999999 0 x1000", 500, false) == "500");
+}
+
+TEST_CASE("an EyeLink is told the screen in pixels and millimetres", "[unit]") {
+    TrackerWish wish = wish_of(1000, false);
+    wish.eye = Eye::left;
+    EyelinkSettings settings;
+    settings.calibration_points = 13;
+    const auto commands = eyelink_commands(wish, settings, {1000, false});
+    const auto has = [&](std::string_view text) {
+        return std::ranges::find(commands, text, &EyelinkCommand::text) != commands.end();
+    };
+    CHECK(has("screen_pixel_coords = 0 0 1919 1079"));
+    CHECK(has("screen_phys_coords = -349.2 196.4 349.2 -196.4"));
+    CHECK(has("screen_distance = 1750"));
+    CHECK(has("sample_rate = 1000"));
+    CHECK(has("binocular_enabled = NO"));
+    CHECK(has("active_eye = LEFT"));
+    CHECK(has("calibration_type = HV13"));
+    CHECK(has("select_parser_configuration = 0"));
+    CHECK(eyelink_display_coords(wish.screen) == "DISPLAY_COORDS 0 0 1919 1079");
+    for (const EyelinkCommand& command : eyelink_commands(wish, settings, {1000, true}))
+        CHECK_FALSE(command.text.starts_with("active_eye"));
+}
+
+TEST_CASE("an EyeLink's data files have names of eight characters, and no part replaces another", "[unit]") {
+    CHECK(eyelink_file_name("ob01_2") == "OB01_2");
+    CHECK(eyelink_file_name("observer") == "OBSERVER");
+    CHECK(eyelink_file_name("observer", 1) == "OBSERV_1");
+    CHECK(eyelink_file_name("ab", 10) == "AB_A");
+    CHECK_THROWS_AS(eyelink_file_name(""), InputError);
+    CHECK_THROWS_AS(eyelink_file_name("observer1"), InputError);
+    CHECK_THROWS_WITH(eyelink_file_name("m-k"), Catch::Contains("\"m-k\"") && Catch::Contains("1 to 8"));
+    CHECK_THROWS_AS(eyelink_file_name("ob.1"), InputError);
+    CHECK_THROWS_AS(eyelink_file_name("observer", 36), DeviceError);
+}
+
+TEST_CASE("messages for an EyeLink's file lead with how long ago it was", "[unit]") {
+    CHECK(message("SYNCTIME", 0ms) == "SYNCTIME");
+    CHECK(message("SYNCTIME", 6400us) == "6 SYNCTIME");
+    CHECK(message("SYNCTIME", -3ms) == "-3 SYNCTIME");
+    CHECK(message("12 flips", 0ms) == "0 12 flips"); // not twelve milliseconds
+    CHECK(message("-5 deg", 2ms) == "2 -5 deg");
+    CHECK(message("TRIALID 4", 9ms) == "TRIALID 4");
+    CHECK(message("!V TRIAL_VAR a b", 9ms) == "!V TRIAL_VAR a b");
+    CHECK(message(std::string(100, 'x'), 7ms) == "7 " + std::string(38, 'x'));
+    std::array<char, 2> small{};
+    CHECK(eyelink_message("abc", 1234567ms, small).size() <= 2);
+    CHECK(eyelink_message("abc", 0ms, {}).empty());
+}
+
+TEST_CASE("accuracy and drift are read from the EyeLink's own sentences", "[unit]") {
+    const auto found = eyelink_validation(
+        "VALIDATION HV13 R RIGHT GOOD ERROR 0.45 avg. 0.76 max  OFFSET 0.02 deg. -0.7,-0.5 pix.");
+    REQUIRE(found);
+    CHECK(found->mean_error.value == 0.45);
+    CHECK(found->max_error.value == 0.76);
+    CHECK_FALSE(eyelink_validation("calibration is good"));
+    CHECK_FALSE(eyelink_validation("ERROR nan avg. 1 max"));
+    CHECK_FALSE(eyelink_validation("ERROR 2.0 avg. 1.0 max"));
+    CHECK(eyelink_drift("DRIFTCORRECT R RIGHT at 512,384  OFFSET 0.35 deg.  11.4,-4.5 pix.").value().value ==
+          0.35);
+    CHECK_FALSE(eyelink_drift("drift correction aborted"));
+    CHECK_FALSE(eyelink_drift("OFFSET"));
+}
+
+TEST_CASE("what keeps an EyeLink from connecting or sending its file is said in words", "[unit]") {
+    CHECK_FALSE(eyelink_connection_problem(0, "100.1.1.1"));
+    CHECK_THAT(*eyelink_connection_problem(-201, "10.0.0.7"),
+               Catch::Contains("10.0.0.7") && Catch::Contains("time-out"));
+    CHECK_THAT(*eyelink_connection_problem(-202, "100.1.1.1"), Catch::Contains("version"));
+    CHECK_THAT(*eyelink_connection_problem(-203, "100.1.1.1"), Catch::Contains("busy"));
+    CHECK_THAT(*eyelink_connection_problem(-200, "100.1.1.1"), Catch::Contains("error -200"));
+    CHECK_FALSE(eyelink_transfer_problem(1));
+    for (const std::int32_t result : {0, -110, -111, -112, -113, -7})
+        CHECK(eyelink_transfer_problem(result));
+}

@@ -1,0 +1,197 @@
+#include "devices/hid/hid_driver.h"
+
+#include <cstring>
+
+#include <catch2/catch.hpp>
+
+#include "experiment/base/error.h"
+#include "tests/devices/hid/hid_bytes.h"
+#include "tests/support/kept_items.h"
+
+using namespace overt;
+using namespace overt::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+HidDeviceInfo tracker_info() {
+    HidDeviceInfo info;
+    info.path = "/dev/hidraw0";
+    info.vendor_id = 0x1209;
+    info.product_id = 0x0e7e;
+    info.product = "Mock Eye Tracker";
+    info.serial_number = "MET-0001";
+    info.usages = {{0x12, 0x10}, {0x12, 0x01}};
+    return info;
+}
+
+std::vector<std::byte> gaze_report(std::uint64_t us, std::int32_t x_um, std::int32_t y_um,
+                                   std::int32_t left_z_um = 600'000) {
+    std::vector<std::byte> report(53);
+    report[0] = std::byte{0x10};
+    const std::int32_t places[11] = {x_um, y_um, -30'000, 1'000, left_z_um, 30'000, 2'000, 610'000, 0, 0, 0};
+    std::memcpy(report.data() + 1, &us, 8);
+    std::memcpy(report.data() + 9, places, 44);
+    return report;
+}
+
+struct TrackerBench {
+    VirtualClock clock;
+    HidFarEnd far{clock};
+    KeptItems kept;
+    TrackerWish wish;
+    HidTrackerSettings settings;
+
+    TrackerBench() {
+        // A screen of 500 mm by 250 mm, ready, 500 Hz.
+        far.features[0x12] = bytes_of({0x12, 0x20, 0xA1, 0x07, 0, 0x90, 0xD0, 0x03, 0});
+        far.features[0x13] = bytes_of({0x13, 1, 0xF4, 0x01});
+        wish.screen.screen_px = {1000, 500};
+        wish.eye = Eye::left;
+    }
+    HidDriver driver() {
+        return {settings, clock, system_with(far, tracker_info(), eye_tracker_descriptor())};
+    }
+};
+
+} // namespace
+
+TEST_CASE("a HID eye tracker tells its rate and screen, and is asked to send gaze", "[unit]") {
+    TrackerBench bench;
+    HidDriver driver = bench.driver();
+    const TrackerDescription granted = driver.connect(bench.wish);
+    CHECK(granted.sample_rate_hz == 500.0);
+    CHECK_FALSE(granted.both_eyes);
+    CHECK(granted.model == "Mock Eye Tracker 1209:0e7e MET-0001");
+    REQUIRE(bench.far.features_sent.size() == 1);
+    CHECK(bench.far.features_sent[0] == bytes_of({0x14, 3}));
+}
+
+TEST_CASE("reports of a HID eye tracker are gaze in pixels by the screen that it was calibrated for",
+          "[unit]") {
+    TrackerBench bench;
+    bench.far.arriving.push_back({SessionTime(0ms), gaze_report(1, 1, 1)}); // before the recording
+    HidDriver driver = bench.driver();
+    driver.connect(bench.wish);
+    driver.start();
+    bench.far.arriving.push_back({SessionTime(10ms), gaze_report(7'000'000'000'123, 250'000, 125'000)});
+    bench.far.arriving.push_back({SessionTime(12ms), gaze_report(7'000'000'002'123, -10'000, 0)});
+    bench.far.arriving.push_back(
+        {SessionTime(14ms), gaze_report(7'000'000'004'123, 2'147'483'647, 0, 2'147'483'647)});
+    CHECK(driver.read(bench.kept, SessionTime(100ms)) == RecordingState::running);
+    CHECK(driver.read(bench.kept, SessionTime(100ms)) == RecordingState::running);
+    CHECK(driver.read(bench.kept, SessionTime(100ms)) == RecordingState::running);
+    const auto samples = bench.kept.all<GazeSample>();
+    REQUIRE(samples.size() == 3);
+    CHECK(samples[0].sampled_at == tracker_time(7'000'000'000'123));
+    CHECK(samples[0].eye == Eye::left);
+    REQUIRE(samples[0].gaze);
+    CHECK(samples[0].gaze->x_px == Approx(500.0)); // half of a screen of 500 mm, whatever the protocol's is
+    CHECK(samples[0].gaze->y_px == Approx(250.0));
+    REQUIRE(samples[1].gaze);
+    CHECK(samples[1].gaze->x_px == Approx(-20.0));
+    CHECK_FALSE(samples[2].gaze); // it says that it does not know
+    const auto details = bench.kept.all<SampleDetail>();
+    REQUIRE(details.size() == 2);
+    CHECK(details[0].eye_mm.value().z == Approx(600.0));
+    const auto bounds = bench.kept.all<ClockPair>();
+    REQUIRE(bounds.size() == 1);
+    CHECK(bounds[0].after == SessionTime(10ms));
+    CHECK(bounds[0].before == SessionTime(-40ms));
+    CHECK(bounds[0].other == samples[0].sampled_at);
+}
+
+TEST_CASE("the largest number there is means that a HID eye tracker does not know a place", "[unit]") {
+    // Even where the descriptor would let it be one.
+    const HidDescriptor descriptor = parse_report_descriptor(eye_tracker_descriptor(2'147'483'647));
+    std::string why;
+    const auto layout = HidGazeLayout::find(descriptor, why);
+    REQUIRE(layout);
+    CHECK(layout->read(gaze_report(1, 2'147'483'646, 0)).value().gaze_mm);
+    const auto unknown = layout->read(gaze_report(1, 2'147'483'647, 0, 2'147'483'647));
+    REQUIRE(unknown);
+    CHECK_FALSE(unknown->gaze_mm);
+    CHECK_FALSE(unknown->left_mm);
+    CHECK(unknown->right_mm);
+}
+
+TEST_CASE("other reports, reports that are cut off and times beyond all are passed over", "[unit]") {
+    TrackerBench bench;
+    HidDriver driver = bench.driver();
+    driver.connect(bench.wish);
+    driver.start();
+    auto cut = gaze_report(1, 1, 1);
+    cut.resize(16);
+    auto other = gaze_report(1, 1, 1);
+    other[0] = std::byte{0x11};
+    bench.far.arriving.push_back({SessionTime(1ms), cut});
+    bench.far.arriving.push_back({SessionTime(2ms), other});
+    bench.far.arriving.push_back({SessionTime(3ms), gaze_report(~std::uint64_t{0}, 0, 0)});
+    while (bench.clock.now() < SessionTime(10ms))
+        driver.read(bench.kept, SessionTime(10ms));
+    const auto samples = bench.kept.all<GazeSample>();
+    REQUIRE(samples.size() == 1);
+    CHECK(samples[0].sampled_at == tracker_time(3000)); // by our clock
+}
+
+TEST_CASE("a HID eye tracker that is unplugged is lost, and can be plugged in again", "[unit]") {
+    TrackerBench bench;
+    HidDriver driver = bench.driver();
+    driver.connect(bench.wish);
+    driver.start();
+    bench.far.unplugged = true;
+    CHECK(driver.read(bench.kept, SessionTime(5ms)) == RecordingState::lost);
+    CHECK_THROWS_WITH(driver.connect(bench.wish), Catch::Contains("No HID eye tracker"));
+    bench.far.unplugged = false;
+    driver.connect(bench.wish);
+    driver.start();
+    CHECK(driver.read(bench.kept, SessionTime(9ms)) == RecordingState::running);
+}
+
+TEST_CASE("a HID eye tracker that is not ready, or none, says what is to be done", "[unit]") {
+    TrackerBench bench;
+    SECTION("calibrated by its maker's program") {
+        bench.far.features[0x13][1] = std::byte{4};
+        CHECK_THROWS_WITH(bench.driver().connect(bench.wish),
+                          Catch::Contains("calibrated to the observer first"));
+    }
+    SECTION("told its screen") {
+        bench.far.features[0x13][1] = std::byte{3};
+        CHECK_THROWS_WITH(bench.driver().connect(bench.wish), Catch::Contains("told its screen first"));
+    }
+    SECTION("never ready") {
+        bench.far.features[0x13][1] = std::byte{2};
+        CHECK_THROWS_WITH(bench.driver().connect(bench.wish), Catch::Contains("after 5 s"));
+        CHECK(bench.clock.now() < SessionTime(6s));
+    }
+    SECTION("a keyboard") {
+        HidDriver driver({"1209:0e7e"}, bench.clock,
+                         system_with(bench.far, tracker_info(), keyboard_descriptor()));
+        CHECK_THROWS_WITH(driver.connect(bench.wish), Catch::Contains("it is no eye tracker"));
+    }
+    SECTION("another device") {
+        bench.settings.device = "1209:ffff";
+        CHECK_THROWS_WITH(bench.driver().connect(bench.wish),
+                          Catch::Contains("No HID device 1209:ffff") && Catch::Contains("Mock Eye Tracker"));
+    }
+    SECTION("a wrong name") {
+        bench.settings.device = "eyetracker";
+        CHECK_THROWS_AS(bench.driver().connect(bench.wish), InputError);
+    }
+    SECTION("it refuses") {
+        bench.far.takes_features = false;
+        CHECK_THROWS_WITH(bench.driver().connect(bench.wish), Catch::Contains("does not take the request"));
+    }
+    SECTION("it says nothing of itself") {
+        bench.far.features.clear();
+        CHECK(bench.driver().connect(bench.wish).sample_rate_hz == bench.wish.rate_hz);
+    }
+}
+
+TEST_CASE("HID devices are named by vendor and product in hexadecimal", "[unit]") {
+    CHECK(hid_numbers("1209:0e7e") == std::pair<std::uint16_t, std::uint16_t>(0x1209, 0x0e7e));
+    CHECK_FALSE(hid_numbers("1209"));
+    CHECK_FALSE(hid_numbers("12099:1"));
+    CHECK_FALSE(hid_numbers("1209:0e7e "));
+    CHECK_FALSE(hid_numbers(""));
+}

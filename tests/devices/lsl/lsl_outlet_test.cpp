@@ -1,0 +1,120 @@
+#include "devices/lsl/lsl_outlet.h"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "devices/lsl/lsl_inlet.h"
+#include "devices/triggers/threaded_marker_sink.h"
+#include "tests/devices/lsl/lsl_bench.h"
+#include "tests/support/kept_items.h"
+
+using namespace overt;
+using namespace overt::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// A tracker whose every read gives what was put down for it.
+class ScriptedTracker final : public TrackerDriver {
+  public:
+    std::vector<std::vector<TrackerItem>> reads;
+    TrackerDescription connect(const TrackerWish& wish) override {
+        return {"Scripted", 500.0, wish.eye, wish.both_eyes, "model 7"};
+    }
+    void start() override {}
+    void stop() noexcept override {}
+    RecordingState read(TrackerItemSink& sink, SessionTime) noexcept override {
+        for (const TrackerItem& item : reads.at(next_))
+            sink.put(item);
+        ++next_;
+        return RecordingState::running;
+    }
+
+  private:
+    std::size_t next_ = 0;
+};
+
+GazeSample sample_of(Eye eye, int at_us, std::optional<ScreenPoint> gaze, float pupil) {
+    GazeSample sample;
+    sample.eye = eye;
+    sample.sampled_at = tracker_time(at_us);
+    sample.gaze = gaze;
+    sample.pupil_area = pupil;
+    return sample;
+}
+
+} // namespace
+
+TEST_CASE("markers become a stream of text, stamped with the time of what they mark", "[unit]") {
+    LslBench bench;
+    const auto library = load_lsl(LslBench::library());
+    {
+        ThreadedMarkerSink sink(std::make_unique<LslMarkerOutlet>(library, "s01", bench.clock), bench.clock,
+                                {0ms, 0ms});
+        REQUIRE(bench.fake().sent.size() == 1);
+        const double offset_s = library->local_clock() - to_seconds(bench.clock.now());
+        const SessionTime at = bench.clock.now() - 100s;
+        sink.mark({at, 3, "ONSET runner/smooth"});
+        sink.mark({at, 200, ""});
+        CHECK(sink.finish().empty());
+        const FakeStream& stream = *bench.fake().sent.front();
+        CHECK(stream.name == "overt");
+        CHECK(stream.type == "Markers");
+        CHECK(stream.channels == 1);
+        CHECK(stream.format == 3);
+        CHECK(stream.rate_hz == 0.0);
+        CHECK(stream.source == "overt s01");
+        REQUIRE(stream.pushed.size() == 2);
+        CHECK(stream.pushed[0].text == "ONSET runner/smooth");
+        CHECK(stream.pushed[1].text == "200");
+        // The time that it is about, and not that of its sending.
+        CHECK(std::abs(stream.pushed[0].time_s - (to_seconds(at) + offset_s)) < 20.0);
+    }
+    CHECK(bench.fake().outlets == 0);
+    CHECK(bench.fake().infos == 0);
+}
+
+TEST_CASE("a relayed tracker gives what it gave, and its samples are a stream of gaze as well", "[unit]") {
+    LslBench bench;
+    auto tracker = std::make_unique<ScriptedTracker>();
+    SampleDetail detail;
+    detail.eye = Eye::right;
+    detail.sampled_at = tracker_time(2000);
+    detail.confidence = 0.75f;
+    tracker->reads = {{sample_of(Eye::left, 2000, ScreenPoint{1.0, 2.0}, 3.0f),
+                       sample_of(Eye::right, 2000, std::nullopt, 0.0f), detail,
+                       sample_of(Eye::left, 4000, ScreenPoint{5.0, 6.0}, 3.5f),
+                       sample_of(Eye::right, 4000, ScreenPoint{7.0, 8.0}, 4.5f)},
+                      {},
+                      {TrackerGap{}, sample_of(Eye::left, 6000, std::nullopt, 0.0f)}};
+    LslGazeRelay relay(std::move(tracker), load_lsl(LslBench::library()), "s01");
+    TrackerWish wish;
+    wish.both_eyes = true;
+    CHECK(relay.connect(wish).model == "model 7");
+    KeptItems items;
+    for (int i = 0; i < 3; ++i)
+        relay.read(items, SessionTime());
+    CHECK(items.items.size() == 7);
+    const FakeStream& stream = *bench.fake().sent.back();
+    CHECK(stream.name == "overt gaze");
+    CHECK(stream.rate_hz == 500.0);
+    REQUIRE(stream.pushed.size() == 3);
+    const std::vector<double>& first = stream.pushed[0].values;
+    CHECK(std::vector<double>(first.begin(), first.begin() + 3) == std::vector<double>{1.0, 2.0, 3.0});
+    CHECK(std::isnan(first[4]));
+    CHECK(first[7] == 0.75);
+    CHECK(first[8] == 0.002);
+    CHECK(stream.pushed[1].values[4] == 7.0);
+    CHECK(std::isnan(stream.pushed[1].values[7])); // the confidence of the sample before is not this one's
+    CHECK(std::isnan(stream.pushed[2].values[0]));
+    CHECK(stream.pushed[2].values[8] == 0.006);
+
+    // What one sends another receives: the channels say what they are.
+    bench.fake().network = {bench.fake().sent.back()};
+    LslInletSettings settings;
+    settings.library = LslBench::library();
+    settings.patience = 100ms;
+    LslInlet inlet(settings, bench.clock);
+    CHECK_THROWS_WITH(inlet.connect(wish), Catch::Contains("sends nothing"));
+}

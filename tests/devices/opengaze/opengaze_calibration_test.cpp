@@ -1,0 +1,127 @@
+#include "devices/opengaze/opengaze_calibration.h"
+
+#include <catch2/catch.hpp>
+
+#include "experiment/base/error.h"
+#include "tests/devices/opengaze/opengaze_bench.h"
+
+using namespace overt;
+using namespace overt::test;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+
+TEST_CASE("an Open Gaze server's calibration shows its targets on the stage and gives each eye's errors",
+          "[unit]") {
+    OpenGazeBench bench;
+    bench.settings.calibration_points = {{0.5, 0.5}, {0.1, 0.9}, {0.9, 0.1}};
+    bench.model.invalid_points = {2}; // for the left eye
+    bench.connect();
+    ScriptedStage stage(bench.clock);
+    const SetupOutcome outcome = bench.tracker->set_up(stage);
+    CHECK(outcome.kind == SetupOutcome::Kind::done);
+    REQUIRE(stage.targets.size() == 3);
+    CHECK(stage.targets[1].x_px == Approx(192.0));
+    CHECK(stage.targets[1].y_px == Approx(972.0));
+    CHECK(stage.beeps == 3);
+    CHECK(outcome.method == "tracker, 3 points");
+    CHECK_THAT(outcome.message,
+               Contains("5 of 6 measurements") && Contains("not of a validation") && Contains("19.4 px"));
+    REQUIRE(outcome.validation);
+    REQUIRE(outcome.validation->targets.size() == 6);
+    const ValidatedTarget& first = outcome.validation->targets[0];
+    CHECK(first.eye == Eye::left);
+    REQUIRE(first.gaze);
+    CHECK(first.gaze->x_px == Approx(979.2));
+    // By hand: 19.2 px of 698.4 mm / 1920 px are 6.984 mm beside the middle, at 1750 mm.
+    CHECK(first.error.value == Approx(0.228658).epsilon(1e-4));
+    CHECK_FALSE(outcome.validation->targets[2].gaze);
+    CHECK(outcome.validation->mean_error.value > 0.2);
+    CHECK(outcome.validation->max_error >= outcome.validation->mean_error);
+    CHECK_THAT(bench.model.told("CALIBRATE_SHOW"), Contains("STATE=\"0\""));
+    CHECK_THAT(bench.model.told("CALIBRATE_TIMEOUT"), Contains("VALUE=\"1.250\""));
+}
+
+TEST_CASE("without points of our own an Open Gaze server takes its own, and one eye's errors count",
+          "[unit]") {
+    OpenGazeBench bench;
+    bench.wish.both_eyes = false;
+    bench.wish.eye = Eye::right;
+    bench.connect();
+    ScriptedStage stage(bench.clock);
+    const SetupOutcome outcome = bench.tracker->set_up(stage);
+    CHECK(stage.targets.size() == 5);
+    REQUIRE(outcome.validation);
+    CHECK(outcome.validation->targets.size() == 5);
+    for (const ValidatedTarget& target : outcome.validation->targets)
+        CHECK(target.eye == Eye::right);
+}
+
+TEST_CASE("an Open Gaze calibration that finds no eye has failed", "[unit]") {
+    OpenGazeBench bench;
+    bench.wish.both_eyes = false;
+    bench.wish.eye = Eye::left;
+    bench.model.invalid_points = {1, 2, 3, 4, 5};
+    bench.connect();
+    ScriptedStage stage(bench.clock);
+    const SetupOutcome outcome = bench.tracker->set_up(stage);
+    CHECK(outcome.kind == SetupOutcome::Kind::failed);
+    CHECK_FALSE(outcome.validation);
+    CHECK_THAT(outcome.message, Contains("at none of its targets"));
+}
+
+TEST_CASE("an Open Gaze calibration ends when the operator escapes or the display is closed", "[unit]") {
+    OpenGazeBench bench;
+    bench.connect();
+    ScriptedStage stage(bench.clock);
+    SECTION("escape") {
+        stage.keys_after = 2;
+        stage.keys = {SetupKey{SetupKey::Kind::escape}};
+    }
+    SECTION("closed") { stage.cancel_after = 2; }
+    CHECK(bench.tracker->set_up(stage).kind == SetupOutcome::Kind::cancelled);
+    CHECK(stage.targets.size() == 2);
+    CHECK_THAT(bench.model.told("CALIBRATE_START"), Contains("STATE=\"0\""));
+}
+
+TEST_CASE("an Open Gaze calibration that never ends, or that the server does not begin, is told", "[unit]") {
+    OpenGazeBench bench;
+    bench.connect();
+    ScriptedStage stage(bench.clock);
+    bench.model.points.assign(400, {0.5, 0.5}); // 80 s, while the server tells of 5
+    bench.model.refused_on = {"CALIBRATE_ADDPOINT"};
+    const SessionTime begun = bench.clock.now();
+    const SetupOutcome outcome = bench.tracker->set_up(stage);
+    CHECK(outcome.kind == SetupOutcome::Kind::failed);
+    CHECK_THAT(outcome.message, Contains("did not end"));
+    CHECK(bench.clock.now() - begun < 60s);
+    bench.model.refused_on = {"CALIBRATE_START"};
+    CHECK_THROWS_WITH(bench.tracker->set_up(stage), Contains("does not begin to calibrate"));
+    bench.model.refused_on.clear();
+    bench.far.unplugged = true;
+    CHECK_THROWS_AS(bench.tracker->set_up(stage), DeviceError);
+}
+
+TEST_CASE("the tracker's own window can show the targets instead", "[unit]") {
+    OpenGazeBench bench;
+    bench.settings.own_calibration_screen = true;
+    bench.connect();
+    ScriptedStage stage(bench.clock);
+    CHECK(bench.tracker->set_up(stage).kind == SetupOutcome::Kind::done);
+    CHECK(stage.targets.empty());
+    REQUIRE_FALSE(stage.texts.empty());
+    CHECK_THAT(stage.texts.front(), Contains("own window"));
+}
+
+TEST_CASE("the tracker's clock goes on over a calibration, after which its seconds begin anew", "[unit]") {
+    OpenGazeBench bench;
+    bench.model.tick_frequency = "0";
+    bench.connect();
+    bench.record(300ms);
+    const TrackerTime before = bench.items.all<GazeSample>().back().sampled_at;
+    ScriptedStage stage(bench.clock);
+    bench.tracker->set_up(stage);
+    bench.items.items.clear();
+    bench.record(300ms);
+    CHECK(bench.items.all<GazeSample>().front().sampled_at > before);
+    CHECK(bench.items.all<GazeSample>().front().sampled_at < before + 5s);
+}

@@ -1,0 +1,246 @@
+#include "devices/pupil/pupil_tracker.h"
+
+#include <catch2/catch.hpp>
+
+#include "devices/host/clocks.h"
+#include "experiment/base/error.h"
+#include "tests/devices/pupil/pupil_peer.h"
+#include "tests/devices/tracker/scripted_stage.h"
+#include "tests/support/kept_items.h"
+
+using namespace overt;
+using namespace overt::test;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+using Catch::Matchers::VectorContains;
+
+namespace {
+
+/// Pupil Capture over sockets in real time, and its driver.
+struct PupilBench {
+    SteadyClock clock;
+    PupilPeer peer;
+    PupilSettings settings;
+    TrackerWish wish;
+    KeptItems items;
+    std::unique_ptr<PupilTracker> tracker;
+
+    PupilBench() {
+        settings.remote = peer.address();
+        settings.patience = 20s; // the peer's thread may get no processor for long
+        wish.both_eyes = true;
+    }
+
+    TrackerDescription connect() {
+        tracker = std::make_unique<PupilTracker>(settings, clock);
+        return tracker->connect(wish);
+    }
+
+    /// Until so many samples have come.
+    RecordingState read_samples(std::size_t wanted) {
+        RecordingState state = RecordingState::running;
+        const SessionTime give_up = clock.now() + 60s;
+        while (items.all<GazeSample>().size() < wanted && state == RecordingState::running &&
+               clock.now() < give_up)
+            state = tracker->read(items, clock.now() + 2ms);
+        return state;
+    }
+};
+
+} // namespace
+
+TEST_CASE("Pupil Capture tells its version and how fast its cameras are", "[unit]") {
+    PupilBench bench;
+    const TrackerDescription description = bench.connect();
+    CHECK(description.name == "Pupil Core");
+    CHECK(description.model == "Pupil Capture 3.5.1");
+    CHECK(description.sample_rate_hz == 120.0);
+    CHECK(description.both_eyes);
+    CHECK_THAT(bench.peer.commands(),
+               VectorContains(std::string("notify.start_plugin {\"args\":{},\"name\":\"Annotation_Capture\","
+                                          "\"subject\":\"start_plugin\"}")));
+}
+
+TEST_CASE("gaze on the surface that is named becomes samples over real sockets", "[unit]") {
+    PupilBench bench;
+    bench.connect();
+    bench.tracker->start();
+    REQUIRE(bench.read_samples(60) == RecordingState::running);
+    bench.tracker->stop();
+    const auto samples = bench.items.all<GazeSample>();
+    for (std::size_t i = 0; i + 1 < samples.size(); i += 2) {
+        CHECK(samples[i].eye == Eye::left);
+        REQUIRE(samples[i].gaze);
+        CHECK(samples[i].gaze->x_px == Approx(480.0));
+        CHECK(samples[i].gaze->y_px == Approx(270.0));
+        CHECK(samples[i + 1].sampled_at == samples[i].sampled_at);
+        if (i > 0)
+            CHECK(samples[i].sampled_at > samples[i - 2].sampled_at);
+    }
+    CHECK(samples[samples.size() - 2].pupil_area == 4.5f);
+    CHECK(samples.back().pupil_area == 3.5f);
+    CHECK(bench.items.all<TrackerGap>().empty());
+    CHECK(*bench.items.all<SampleDetail>().back().eye_mm == glm::vec3(1.0f, 2.0f, 40.0f));
+}
+
+TEST_CASE("what is published between recordings is no part of the next", "[unit]") {
+    PupilBench bench;
+    bench.connect();
+    bench.tracker->start();
+    bench.read_samples(10);
+    bench.tracker->stop();
+    bench.items.items.clear();
+    const int before = bench.peer.gazes();
+    while (bench.peer.gazes() < before + 50)
+        bench.clock.wait_until(bench.clock.now() + 5ms);
+    const auto started = static_cast<std::int64_t>(PupilPeer::now_s() * 1e6);
+    bench.tracker->start();
+    bench.read_samples(10);
+    CHECK(bench.items.all<GazeSample>().front().sampled_at.time_since_epoch().count() > started - 50'000);
+}
+
+TEST_CASE("gaze of little confidence is lost, and one eye's camera is not the other eye's gaze", "[unit]") {
+    PupilBench bench;
+    bench.peer.confidence = 0.5;
+    bench.peer.cameras = 0;
+    bench.wish.both_eyes = false;
+    bench.connect();
+    bench.tracker->start();
+    bench.read_samples(5);
+    CHECK_FALSE(bench.items.all<GazeSample>().back().gaze);
+    CHECK(bench.items.all<SampleDetail>().back().confidence == 0.5f);
+    bench.peer.confidence = 0.7;
+    bench.items.items.clear();
+    bench.read_samples(60);
+    CHECK(bench.items.all<GazeSample>().back().gaze);
+    bench.wish.eye = Eye::left;
+    bench.settings.patience = 2s;
+    CHECK_THROWS_WITH(bench.connect(), Contains("tells nothing of the left eye"));
+}
+
+TEST_CASE("readings of Pupil Capture's clock hold the truth between them", "[unit]") {
+    PupilBench bench;
+    bench.connect();
+    for (int i = 0; i < 10; ++i) {
+        const double session_s = to_seconds(bench.clock.now()), pupil_s = PupilPeer::now_s();
+        const auto pair = bench.tracker->read_clocks();
+        REQUIRE(pair);
+        const double told_s = static_cast<double>(pair->other.time_since_epoch().count()) * 1e-6;
+        const double session_of_told_s = told_s - pupil_s + session_s;
+        CHECK(to_seconds(pair->before) <= session_of_told_s + 1e-3);
+        CHECK(session_of_told_s <= to_seconds(pair->after) + 1e-3);
+    }
+}
+
+TEST_CASE("marks become annotations at the pupil time of what they mark", "[unit]") {
+    PupilBench bench;
+    bench.connect();
+    bench.tracker->start();
+    bench.read_samples(10);
+    const double offset_s = PupilPeer::now_s() - to_seconds(bench.clock.now());
+    const SessionTime at = bench.clock.now() - 100s;
+    const SessionTime give_up = bench.clock.now() + 20s;
+    while (bench.peer.annotations().empty() && bench.clock.now() < give_up) {
+        bench.tracker->send({at, "ONSET \xff 3"});
+        bench.tracker->read(bench.items, bench.clock.now() + 20ms);
+    }
+    REQUIRE_FALSE(bench.peer.annotations().empty());
+    const nlohmann::json annotation = bench.peer.annotations().front();
+    CHECK(annotation["topic"] == "annotation");
+    CHECK(annotation["label"] == "ONSET ? 3");
+    CHECK(std::abs(annotation["timestamp"].get<double>() - (to_seconds(at) + offset_s)) < 20.0);
+}
+
+TEST_CASE("Pupil Capture records from the first recording of a session to its end", "[unit]") {
+    PupilBench bench;
+    bench.wish.file_name = "s01";
+    bench.connect();
+    for (int i = 0; i < 2; ++i) {
+        bench.tracker->start();
+        bench.read_samples(5);
+        bench.tracker->stop();
+    }
+    CHECK(bench.tracker->finish("", {}).empty());
+    const std::vector<std::string> commands = bench.peer.commands();
+    CHECK(std::ranges::count(commands, "R s01") == 1);
+    CHECK(std::ranges::count(commands, "r") == 1);
+}
+
+TEST_CASE("a surface that never comes is told in the end", "[unit]") {
+    PupilBench bench;
+    bench.peer.has_surface = false;
+    bench.connect();
+    bench.tracker->start();
+    const SessionTime end = bench.clock.now() + 100ms;
+    while (bench.clock.now() < end)
+        CHECK(bench.tracker->read(bench.items, bench.clock.now() + 5ms) == RecordingState::running);
+    bench.tracker->stop();
+    CHECK(bench.items.all<GazeSample>().empty());
+    REQUIRE(bench.tracker->finish("", {}).size() == 1);
+    CHECK_THAT(bench.tracker->finish("", {}).front(), Contains("no gaze came on the surface \"screen\""));
+}
+
+TEST_CASE("Pupil Capture calibrates, fails, takes too long or is broken off", "[unit]") {
+    PupilBench bench;
+    bench.connect();
+    ScriptedStage stage(bench.clock);
+    CHECK(bench.tracker->set_up(stage).kind == SetupOutcome::Kind::done);
+    CHECK_THAT(stage.texts.front(), Contains("Pupil Capture calibrates"));
+    bench.peer.calibrates_well = false;
+    CHECK(bench.tracker->set_up(stage).kind == SetupOutcome::Kind::failed);
+    bench.peer.calibration_s = 1000.0;
+    stage.keys = {SetupKey{SetupKey::Kind::escape}};
+    CHECK(bench.tracker->set_up(stage).kind == SetupOutcome::Kind::cancelled);
+    CHECK(bench.peer.commands().back() == "c");
+    bench.settings.calibration_time = 100ms;
+    bench.connect();
+    const SetupOutcome late = bench.tracker->set_up(stage);
+    CHECK(late.kind == SetupOutcome::Kind::failed);
+    CHECK_THAT(late.message, Contains("in time"));
+}
+
+TEST_CASE("Pupil Capture that is not there, or is something else, is refused with a remedy", "[unit]") {
+    PupilBench bench;
+    bench.settings.patience = 200ms;
+    bench.peer.answers = false;
+    CHECK_THROWS_WITH(bench.connect(), Contains("does not answer at 127.0.0.1") && Contains("Pupil Remote"));
+    bench.peer.answers = true;
+    bench.settings.patience = 20s;
+    bench.peer.sub_port_answer = "Hello\n";
+    CHECK_THROWS_WITH(bench.connect(), Contains("is not Pupil Remote") && Contains("Hello\\x0a"));
+}
+
+TEST_CASE("Pupil Capture that falls silent is lost, with a gap, and can be reached again", "[unit]") {
+    PupilBench bench;
+    bench.settings.silence = 300ms;
+    bench.connect();
+    bench.tracker->start();
+    bench.read_samples(10);
+    bench.peer.publishes = false;
+    CHECK(bench.read_samples(1'000'000) == RecordingState::lost);
+    REQUIRE_FALSE(bench.items.all<TrackerGap>().empty());
+    CHECK(bench.items.all<TrackerGap>().back().reason == TrackerGap::Reason::connection);
+    bench.tracker->stop();
+    bench.peer.publishes = true;
+    bench.settings.silence = 20s;
+    bench.tracker->connect(bench.wish);
+    bench.tracker->start();
+    bench.items.items.clear();
+    bench.read_samples(10);
+    CHECK(bench.items.all<GazeSample>().size() >= 10);
+}
+
+TEST_CASE("messages that Pupil Capture would never send are gaps and nothing worse", "[unit]") {
+    PupilBench bench;
+    bench.connect();
+    bench.tracker->start();
+    bench.read_samples(10);
+    bench.peer.publish_raw("surfaces.screen", std::string(1'000'000, '\x91'));
+    bench.peer.publish_raw("pupil.0.3d", "");
+    bench.items.items.clear();
+    const SessionTime give_up = bench.clock.now() + 20s;
+    while (bench.items.all<TrackerGap>().size() < 2 && bench.clock.now() < give_up)
+        bench.tracker->read(bench.items, bench.clock.now() + 2ms);
+    REQUIRE(bench.items.all<TrackerGap>().size() == 2);
+    CHECK(bench.items.all<TrackerGap>().front().reason == TrackerGap::Reason::unreadable);
+}

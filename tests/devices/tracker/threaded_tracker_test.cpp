@@ -1,0 +1,152 @@
+/// A driver on its own thread: nothing is lost or doubled, what has no room is told, and what the driver
+/// says of the recording comes through.
+#include <catch2/catch.hpp>
+
+#include <thread>
+
+#include "devices/host/clocks.h"
+#include "devices/tracker/threaded_tracker.h"
+#include "experiment/base/error.h"
+#include "tests/devices/tracker/scripted_driver.h"
+
+using namespace overt;
+using namespace overt::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+struct Bench {
+    SteadyClock clock;
+    DriverDiary diary;
+    ThreadedTracker tracker;
+    explicit Bench(double rate_hz = 2000.0, std::size_t ring = std::size_t{1} << 16)
+        : tracker(std::make_unique<ScriptedDriver>(clock, diary, rate_hz), clock,
+                  {.rate_hz = rate_hz, .screen = {}}, ring) {}
+
+    std::vector<TrackerItem> take_all() {
+        std::vector<TrackerItem> all;
+        std::array<TrackerItem, 100> some;
+        for (std::size_t taken = some.size(); taken == some.size();) {
+            taken = tracker.poll(some);
+            all.insert(all.end(), some.begin(), some.begin() + static_cast<std::ptrdiff_t>(taken));
+        }
+        return all;
+    }
+};
+
+template <class Kind> std::vector<Kind> all_of(const std::vector<TrackerItem>& items) {
+    std::vector<Kind> found;
+    for (const TrackerItem& item : items)
+        if (const auto* one = std::get_if<Kind>(&item))
+            found.push_back(*one);
+    return found;
+}
+
+/// Waits for what another thread does; not for ever.
+bool comes_true(const std::function<bool()>& condition) {
+    bool is_true = condition();
+    for (int i = 0; i < 2000 && !is_true; ++i) {
+        std::this_thread::sleep_for(5ms);
+        is_true = condition();
+    }
+    return is_true;
+}
+
+} // namespace
+
+TEST_CASE("each sample of a driver arrives once, in order, with clock readings between", "[unit]") {
+    Bench bench;
+    bench.tracker.start_recording();
+    std::vector<TrackerItem> items;
+    const SessionTime end = bench.clock.now() + 1300ms;
+    while (bench.clock.now() < end) {
+        std::this_thread::sleep_for(8ms);
+        const std::vector<TrackerItem> more = bench.take_all();
+        items.insert(items.end(), more.begin(), more.end());
+    }
+    bench.tracker.stop_recording();
+    const std::vector<TrackerItem> last = bench.take_all();
+    items.insert(items.end(), last.begin(), last.end());
+    const std::vector<GazeSample> samples = all_of<GazeSample>(items);
+    REQUIRE(samples.size() > 2000);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        REQUIRE(samples[i].gaze->x_px == static_cast<double>(i));
+    CHECK(all_of<ClockPair>(items).size() >= 1);
+    CHECK(all_of<TrackerGap>(items).empty());
+    CHECK(bench.diary.starts == 1);
+    CHECK(bench.diary.stops == 1);
+    CHECK_FALSE(bench.tracker.lost());
+}
+
+TEST_CASE("samples that nobody takes are told as a gap, with their number", "[unit]") {
+    Bench bench(2000.0, 256);
+    bench.tracker.start_recording();
+    REQUIRE(comes_true([&] { return bench.diary.reads > 200; }));
+    std::vector<TrackerItem> items = bench.take_all();
+    REQUIRE(comes_true([&] {
+        const std::vector<TrackerItem> more = bench.take_all();
+        items.insert(items.end(), more.begin(), more.end());
+        return !all_of<TrackerGap>(items).empty();
+    }));
+    const std::size_t gap_at = static_cast<std::size_t>(
+        std::ranges::find_if(items,
+                             [](const auto& item) { return std::holds_alternative<TrackerGap>(item); }) -
+        items.begin());
+    const TrackerGap gap = std::get<TrackerGap>(items[gap_at]);
+    REQUIRE(gap_at + 1 < items.size());
+    const auto before = std::get<GazeSample>(items[gap_at - 1]);
+    const auto* after = std::get_if<GazeSample>(&items[gap_at + 1]);
+    REQUIRE(after);
+    CHECK(gap.reason == TrackerGap::Reason::overflow);
+    CHECK(gap.after == before.sampled_at);
+    CHECK(static_cast<double>(gap.lost_samples) == after->gaze->x_px - before.gaze->x_px - 1.0);
+    bench.tracker.stop_recording();
+}
+
+TEST_CASE("marks reach the driver in order, before, in and after a recording", "[unit]") {
+    Bench bench;
+    bench.tracker.mark({bench.clock.now(), "TRIALID 1"});
+    bench.tracker.start_recording();
+    for (int i = 0; i < 100; ++i)
+        bench.tracker.mark({bench.clock.now(), "FRAME " + std::to_string(i)});
+    bench.tracker.mark({bench.clock.now(), std::string(500, 'x')});
+    bench.tracker.stop_recording();
+    bench.tracker.mark({bench.clock.now(), "TRIAL_RESULT 0"});
+    REQUIRE(bench.diary.marks.size() == 103);
+    CHECK(bench.diary.marks.front() == "TRIALID 1");
+    for (int i = 0; i < 100; ++i)
+        CHECK(bench.diary.marks[static_cast<std::size_t>(1 + i)] == "FRAME " + std::to_string(i));
+    CHECK(bench.diary.marks[101] == std::string(longest_mark, 'x'));
+    CHECK(bench.diary.marks.back() == "TRIAL_RESULT 0");
+}
+
+TEST_CASE("what becomes of a recording at the tracker is seen, and a lost tracker can be had again",
+          "[unit]") {
+    Bench bench;
+    for (const RecordingState state : {RecordingState::repeat, RecordingState::skip, RecordingState::abort}) {
+        bench.tracker.start_recording();
+        CHECK(bench.tracker.recording_state() == RecordingState::running);
+        bench.diary.state = state;
+        CHECK(comes_true([&] { return bench.tracker.recording_state() == state; }));
+        bench.tracker.stop_recording();
+        bench.diary.state = RecordingState::running;
+    }
+    bench.tracker.start_recording();
+    bench.diary.unplugged = true;
+    REQUIRE(comes_true([&] { return bench.tracker.lost(); }));
+    bench.tracker.stop_recording();
+    CHECK(bench.tracker.lost());
+    bench.diary.unplugged = false;
+    bench.tracker.reconnect();
+    CHECK_FALSE(bench.tracker.lost());
+    CHECK(bench.diary.connects == 2);
+    bench.tracker.start_recording();
+    CHECK(comes_true([&] { return !bench.take_all().empty(); }));
+}
+
+TEST_CASE("drift is measured from samples where a tracker has no check of its own", "[unit]") {
+    // The x of the samples runs away: nothing rests.
+    Bench bench;
+    CHECK(bench.tracker.drift_check({960.0, 540.0}).kind == DriftOutcome::Kind::no_eye);
+    CHECK(bench.diary.stops == 1);
+}

@@ -1,0 +1,5 @@
+# A USB serial chip by libusb, on a machine that has none; in the program that runs under umockdev-wrapper.
+if(TARGET umockdev_tests)
+    target_sources(umockdev_tests PRIVATE ${CMAKE_CURRENT_LIST_DIR}/umockdev_ftdi.cpp)
+    target_link_libraries(umockdev_tests PRIVATE overt_devices_usb)
+endif()
