@@ -71,6 +71,14 @@ PoseTable distinct_poses(const Animation& animation) {
     return poses;
 }
 
+std::vector<double> seconds_of_poses(const Animation& animation, const PoseTable& poses) {
+    std::vector<double> seconds(poses.angles.size(), 0.0);
+    for (int step = 0; step < animation.shown_frame_count(); ++step)
+        seconds[static_cast<std::size_t>(poses.pose_of(animation.frame_at_step(step)).value)] +=
+            1.0 / animation.frame_rate_hz;
+    return seconds;
+}
+
 const PageCycleEntry& PageCycle::entry_at(int refresh) const {
     OVERT_EXPECTS(refresh >= 0 && refresh < total_refreshes);
     const std::size_t in_period = static_cast<std::size_t>(refresh) % entry_of_refresh.size();

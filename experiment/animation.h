@@ -67,6 +67,9 @@ struct PoseTable {
 };
 PoseTable distinct_poses(const Animation& animation);
 
+/// How long one presentation shows each pose as planned, in seconds; by PoseIndex.
+std::vector<double> seconds_of_poses(const Animation& animation, const PoseTable& poses);
+
 /// One record of the page-cycle table: a page of the frame store, lit for a number of refreshes.
 struct PageCycleEntry {
     AnimationFrameIndex frame;

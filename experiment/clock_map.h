@@ -2,7 +2,9 @@
 /// also says how far it can be wrong.
 #pragma once
 
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "experiment/clock_pair.h"
 #include "experiment/session_time.h"
@@ -62,6 +64,46 @@ template <class OtherClock> class ClockMapOf {
     double slope_uncertainty_ = 0.0;
     double worst_excess_ns_ = 0.0;
 };
-using ClockMap = ClockMapOf<TrackerClock>;
+
+/// By how much the other clock went forward between two readings beyond what two clocks can differ by: half
+/// their round trips, largest_drift_ppm of the time between, and a millisecond. Nothing if it may have run on
+/// steadily.
+std::optional<SessionDuration> clock_jump(const ClockPair& from, const ClockPair& to);
+
+/// A tracker's clock over one sitting. It runs steadily, but may begin anew, when the tracker was lost and
+/// connected again, or be set while it runs: each run of it then has a line of its own. A single reading off
+/// the line is no run, and counts towards the bound on the error.
+class ClockMap {
+  public:
+    /// At least one pair, in any order, all of one sitting.
+    explicit ClockMap(std::span<const ClockPair> pairs);
+
+    /// By the run whose readings are around this time, or at most five minutes off. Where the tracker's clock showed the same time in two
+    /// runs, the uncertainty covers both; see at().
+    MappedTime to_session(TrackerTime time) const;
+
+    /// See ClockMapOf; by the run that a session time is in.
+    TrackerTime to_other(SessionTime time) const;
+
+    /// The map with the run alone that a session time is in, such as the onset of a trial's presentation:
+    /// what was sampled in that trial has but one time.
+    ClockMap at(SessionTime time) const;
+
+    /// Of the last run, see ClockMapOf.
+    double drift_ppm() const { return runs_.back().line.drift_ppm(); }
+    double drift_uncertainty_ppm() const { return runs_.back().line.drift_uncertainty_ppm(); }
+
+    std::size_t run_count() const { return runs_.size(); }
+
+  private:
+    struct Run {
+        ClockMapOf<TrackerClock> line;
+        SessionTime first, last; ///< of its readings
+    };
+    explicit ClockMap(const Run& run) : runs_{run} {}
+    const Run& run_at(SessionTime time) const;
+
+    std::vector<Run> runs_; ///< in the order of their times
+};
 
 } // namespace overt

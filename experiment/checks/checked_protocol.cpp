@@ -45,6 +45,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_simulated_effects(examination);
         check_breaks(examination);
         check_sitting(examination);
+        check_devices(examination);
         check_sculptures(examination, shipped_sculptures);
         check_materials(examination);
         check_frames(examination);

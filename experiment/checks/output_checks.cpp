@@ -5,6 +5,7 @@
 #include "experiment/checks/protocol_checks.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/stimulus/frame_memory.h"
+#include "experiment/stimulus/gaze_tags.h"
 #include "experiment/stimulus/photodiode_patch.h"
 
 namespace overt {
@@ -126,6 +127,50 @@ void check_photodiode(ProtocolExamination& examination) {
     }
 }
 
+void check_tags(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    const DisplaySettings& display = protocol.display;
+    if (display.tags_px == 0) {
+        if (examination.is_written("display.tags_light"))
+            examination.warning({"display.tags_light"}, "no tags are shown: tags_px says no size");
+        return;
+    }
+    const int step = tag_modules * (joins_pixels_in_pairs(display.output) ? 2 : 1);
+    if (display.tags_px % step != 0) {
+        examination.error({"display.tags_px"},
+                          fmt::format("a tag is {} modules wide, each of whole pixels{}", tag_modules,
+                                      step > tag_modules ? ", and of whole pairs of them" : ""),
+                          fmt::format("write a multiple of {}, such as {}", step,
+                                      std::max(step, display.tags_px / step * step)));
+        return;
+    }
+    const ScreenGeometry geometry = screen_geometry_of(protocol);
+    const std::optional<PatchPlace> patch = photodiode_patch_of(display);
+    const std::vector<TagPlace> tags = gaze_tags_of(geometry, display);
+    for (const TagPlace& tag : tags) {
+        const auto place = fmt::format("the tag in columns {} to {} and rows {} to {}", tag.origin_px.x,
+                                       tag.end_px().x - 1, tag.origin_px.y, tag.end_px().y - 1);
+        if (touches(tag, geometry.image_origin_px, geometry.image_px)) {
+            examination.error({"display.tags_px"},
+                              fmt::format("{} is closer than {} px to the stimulus", place, tag_distance_px),
+                              "take smaller tags or a smaller stimulus");
+            return;
+        }
+        if (patch && touches(tag, patch->origin_px, patch->size_px)) {
+            examination.error(
+                {"display.photodiode", "display.tags_px"},
+                fmt::format("{} is closer than {} px to the square for a photodiode", place, tag_distance_px),
+                "tags take all corners: measure with the photodiode in a session without them");
+            return;
+        }
+        for (const TagPlace& other : tags)
+            if (other.id < tag.id && touches(tag, other.origin_px, other.size_px)) {
+                examination.error({"display.tags_px"}, "the tags meet each other", "take smaller ones");
+                return;
+            }
+    }
+}
+
 void check_frame_store(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
     const double stimulus_mb = 1e-6 * most_pages(protocol) * page_bytes(protocol);
@@ -147,6 +192,7 @@ void check_output(ProtocolExamination& examination) {
     check_keys_of_mode(examination);
     check_place(examination);
     check_photodiode(examination);
+    check_tags(examination);
     check_frame_store(examination);
 }
 

@@ -26,6 +26,8 @@ void check_simulated_effects(ProtocolExamination& examination);
 void check_breaks(ProtocolExamination& examination);
 /// Consent, form, the operator's keys and spoken answers.
 void check_sitting(ProtocolExamination& examination);
+/// Response boxes and outputs of markers, and who answers at which.
+void check_devices(ProtocolExamination& examination);
 
 /// Reads the characterisation of the display, if the protocol names one and `look_at_files`, and finds what
 /// in the protocol contradicts it or asks for it. Turns luminances into linear light.

@@ -7,6 +7,7 @@
 
 #include "experiment/animation.h"
 #include "experiment/base/bytes_in_words.h"
+#include "experiment/maps/light_pictures.h"
 #include "experiment/ports/tracker_kinds.h"
 
 namespace overt {
@@ -42,9 +43,14 @@ RecordingSize recording_size(const Protocol& protocol, std::span<const Sculpture
     RecordingSize size;
     // SQLite's log holds a trial's rows until they are in the file.
     size.rows = bytes_at_first + (trials + 1) * trial_bytes;
-    size.maps =
-        picture_bytes * mapped * static_cast<double>(distinct_poses(protocol.animation).angles.size());
-    size.pictures = picture_bytes * sculpture_count * static_cast<double>(protocol.materials.size());
+    const auto poses = static_cast<double>(distinct_poses(protocol.animation).angles.size());
+    const auto materials = static_cast<double>(protocol.materials.size());
+    size.maps = picture_bytes * mapped * poses;
+    const LightPictures light{.image_px = {protocol.view.width_px, protocol.view.height_px},
+                              .square_px =
+                                  light_square_px({protocol.view.width_px, protocol.view.height_px})};
+    size.pictures = picture_bytes * sculpture_count * materials +
+                    bytes_per_px * static_cast<double>(light.squares()) * mapped * poses * materials;
     for (const Sculpture& sculpture : sculptures)
         size.meshes += bytes_per_vertex * static_cast<double>(sculpture.mesh.positions.size()) +
                        bytes_per_triangle * static_cast<double>(sculpture.mesh.triangles.size());

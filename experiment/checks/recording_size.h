@@ -16,13 +16,14 @@ struct RecordingSize {
     double rows = 0.0;     ///< session.sqlite: gaze samples and flips, and the log of the trial in progress
     double maps = 0.0;     ///< one of each sculpture in each pose
     double meshes = 0.0;   ///< copies of all
-    double pictures = 0.0; ///< one of each stimulus
+    double pictures = 0.0; ///< of each stimulus: one, and its light in each pose
     double answers = 0.0;  ///< spoken ones, where the protocol records them
     double total() const { return rows + maps + meshes + pictures + answers; }
 };
 
 /// Of so many trials with answers of `answer_s`, which the protocol's limits shorten or lengthen. What a
-/// compressed picture takes is not known before it is drawn: half a byte for each pixel is assumed.
+/// compressed picture takes is not known before it is drawn: half a byte for each pixel, or square of its
+/// light, is assumed.
 RecordingSize recording_size(const Protocol& protocol, std::span<const Sculpture> sculptures, int trials,
                              double answer_s);
 

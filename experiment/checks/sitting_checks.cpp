@@ -62,11 +62,28 @@ void check_keys(ProtocolExamination& examination) {
                           fmt::format("the key \"{}\" both accepts and declines", consent.accept_key));
 }
 
+void check_calibration(ProtocolExamination& examination) {
+    const CalibrationKeys& keys = examination.protocol.calibration;
+    const auto check_count = [&](const char* key, int points) {
+        if (points != 3 && points != 5 && points != 9 && points != 13)
+            examination.error({key}, fmt::format("{}: there are layouts of 3, 5, 9 and 13 targets", points));
+    };
+    check_count("calibration.points", keys.points);
+    check_count("calibration.validation_points", keys.validation_points);
+    if (keys.model == CalibrationModel::homography && keys.points == 3)
+        examination.error({"calibration.points", "calibration.model"},
+                          "a homography needs 5 targets or more");
+    if (keys.mean_limit_deg > keys.max_limit_deg)
+        examination.error({"calibration.mean_limit_deg", "calibration.max_limit_deg"},
+                          "the mean error may not be larger than the largest");
+}
+
 } // namespace
 
 void check_sitting(ProtocolExamination& examination) {
     check_observer_fields(examination);
     check_keys(examination);
+    check_calibration(examination);
     const AnswerSettings& answers = examination.protocol.answers;
     if (answers.bits != 16 && answers.bits != 24)
         examination.error({"answers.bits"}, fmt::format("{} bits: sound is kept in 16 or 24", answers.bits));

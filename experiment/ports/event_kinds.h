@@ -34,8 +34,20 @@ inline constexpr std::string_view operator_answered_event = "operator answered";
 
 // Of the equipment.
 inline constexpr std::string_view validation_event =
-    "validation";                                          ///< of a calibration: mean and largest error
-inline constexpr std::string_view screen_event = "screen"; ///< a finding about it
+    "validation"; ///< of a calibration: mean and largest error
+inline constexpr std::string_view calibrated_event = "calibrated"; ///< by the tracker, which tells no errors
+inline constexpr std::string_view calibration_failed_event = "calibration failed"; ///< or was cancelled
+inline constexpr std::string_view tracker_event = "eye tracker"; ///< what it is, and what it told at its end
+inline constexpr std::string_view tracker_lost_event = "eye tracker lost";
+inline constexpr std::string_view tracker_regained_event = "eye tracker regained"; ///< connected again
+inline constexpr std::string_view response_box_event = "response box";             ///< what it is
+inline constexpr std::string_view response_box_lost_event = "response box lost";
+inline constexpr std::string_view response_box_regained_event = "response box regained";
+inline constexpr std::string_view marker_output_event = "marker output"; ///< what it is, or what it failed at
+inline constexpr std::string_view tracker_clock_jumped_event =
+    "eye tracker's clock jumped";                                            ///< and by how much
+inline constexpr std::string_view tracker_fault_event = "eye tracker fault"; ///< a simulated one that struck
+inline constexpr std::string_view screen_event = "screen";                   ///< a finding about it
 inline constexpr std::string_view thread_event = "thread"; ///< how the program's threads are scheduled
 inline constexpr std::string_view output_verified_event = "output verified";
 inline constexpr std::string_view display_box_event = "display box";

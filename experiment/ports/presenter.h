@@ -1,10 +1,12 @@
 /// The port through which a session shows pictures and texts.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiment/flip_report.h"
+#include "experiment/ports/setup_stage.h"
 #include "experiment/session_time.h"
 #include "experiment/trial.h"
 
@@ -26,7 +28,14 @@ struct FormRow {
 
 /// A screen that is not a stimulus. All words are UTF-8.
 struct Screen {
-    enum class Kind : std::uint8_t { blank, text, form, drift_target };
+    enum class Kind : std::uint8_t {
+        blank,
+        text,
+        form,
+        target,     ///< to be looked at
+        validation, ///< where gaze was measured beside the targets; `text` below
+        camera      ///< what a tracker's camera sees
+    };
     Kind kind = Kind::blank;
     /// For text and form; paragraphs split by newlines, emphasis by <b>, <i>, <u>, <big> and <small>. A first
     /// line that begins with "# " is the title. Of a form, its title and what is said below its rows.
@@ -35,6 +44,10 @@ struct Screen {
     std::vector<KeyHint> keys = {}; ///< set apart at the foot
     int page = 0, pages = 0;        ///< how far this is, from 1; of none, no line is drawn
     std::string frame = {}; ///< whom it is for, if not for the observer: then a frame is drawn around it
+    std::optional<ScreenPoint> target_place = {}; ///< its middle; nothing: the middle of the screen
+    Degrees target_diameter{0.6};                 ///< of the disc of the fixation target (Thaler et al. 2013)
+    std::vector<ValidatedTarget> validated = {};
+    CameraImage camera = {};
 };
 
 /// How the display shows things: known once the presenter is open.
@@ -78,6 +91,10 @@ class Presenter {
     /// Shows a frame of the loaded stimulus at the next refresh and returns when that refresh has begun.
     /// Allocates, opens and throws nothing.
     virtual FlipReport flip(AnimationFrameIndex frame) noexcept = 0;
+
+    /// Raises these digital outputs of the display box, a bit each, with the refresh that the next flip()
+    /// lights, for this long; in the modes that carry them, else nothing. Allocates and throws nothing.
+    virtual void raise_with_next_flip(std::uint16_t /*outputs*/, double /*pulse_ms*/) noexcept {}
 
     /// The window was closed or the display went away. The session ends the trial and then itself.
     virtual bool closed() const noexcept = 0;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiment/ports/session_phase.h"
+#include "experiment/ports/setup_stage.h"
 #include "experiment/session_time.h"
 #include "experiment/trial.h"
 
@@ -45,6 +46,8 @@ constexpr bool is_operators(ResponsePress::Key key) { return key >= ResponsePres
 /// An operator's key as [operator] and the record call it; empty for the observer's.
 std::string_view name_of(ResponsePress::Key key) noexcept;
 
+class SessionLog;
+
 /// Keys that the operator pressed are never forgotten, whatever is waited for.
 class ResponsePanel {
   public:
@@ -58,12 +61,18 @@ class ResponsePanel {
     virtual void await_decision(bool is_consent, SessionTime since) = 0;
     /// A form is being filled in: keys of letters are letters. Forgets earlier presses.
     virtual void await_entry(SessionTime since) = 0;
+    /// A tracker is set up: keys are told as they are, by next_setup_key(). Forgets earlier presses.
+    virtual void await_setup(SessionTime since) { await_key(since); }
+    virtual std::optional<SetupKey> next_setup_key() { return std::nullopt; }
     /// The next press, if there was one. Allocates and throws nothing: it is called during presentations.
     virtual std::optional<ResponsePress> poll() noexcept = 0;
     /// What was said or typed in answer, once the press has come; empty if the panel takes none.
     virtual std::string answer() = 0;
     /// What the operator should know once the session has ended, a line each.
     virtual std::vector<std::string> closing_warnings() const { return {}; }
+    /// Records what its buttons did and what became of its devices since it was asked last. Asked often, but
+    /// not during presentations. Throws as SessionLog does.
+    virtual void write_down(SessionLog& /*log*/) {}
     /// The session has come to this phase; `trial` is -1 outside of trials.
     virtual void entered(SessionPhase /*phase*/, int /*trial*/) noexcept {}
 };

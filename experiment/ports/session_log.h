@@ -10,7 +10,11 @@
 #include "experiment/gaze.h"
 #include "experiment/ports/observer_field.h"
 #include "experiment/ports/recorded_answer.h"
+#include "experiment/ports/recorded_button.h"
+#include "experiment/ports/recorded_calibration.h"
 #include "experiment/ports/recorded_consent.h"
+#include "experiment/ports/recorded_marker.h"
+#include "experiment/ports/tracker_items.h"
 #include "experiment/ports/trial_outcome.h"
 #include "experiment/trial.h"
 
@@ -33,11 +37,19 @@ class SessionLog {
     /// Comes before the flip that ended it.
     virtual void missed(const MissedRefresh& refresh) noexcept = 0;
     virtual void sample(int trial, const GazeSample& sample) noexcept = 0;
+    /// Of the tracker, other than samples and clock readings. As sample(): allocates, opens and throws
+    /// nothing.
+    virtual void tracker_item(int /*trial*/, const TrackerItem& /*item*/) noexcept {}
     virtual void clock_pair(const ClockPair& pair) noexcept = 0;
     virtual void event(const SessionEvent& event) = 0;
+    virtual void calibration(const RecordedCalibration& /*calibration*/) {}
     /// What the observer filled in; replaces what was noted before.
     virtual void observer_fields(const std::vector<RecordedObserverField>& /*fields*/) {}
     virtual void consent(const RecordedConsent& /*consent*/) {}
+    /// Of response boxes. Those of a trial come before its trial_finished().
+    virtual void buttons(const std::vector<RecordedButton>& /*buttons*/) {}
+    /// What became of markers at their outputs. The same.
+    virtual void markers(const std::vector<RecordedMarker>& /*markers*/) {}
     /// Of the attempt that was started last.
     virtual void answer_recorded(const RecordedAnswer& /*answer*/) {}
     virtual void trial_started(const Trial& trial, SessionTime at) = 0;

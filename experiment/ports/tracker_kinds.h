@@ -17,6 +17,13 @@ struct TrackerKindRow {
 
 inline constexpr TrackerKindRow tracker_kinds[] = {
     {"simulated", "measures a simulated observer, with noise and a clock of its own"},
+    {"replay", "plays back the gaze of a recorded session or of an EyeLink recording (ASC)"},
+    {"eyelink", "an SR Research EyeLink 1000 or later, through the vendor's library"},
+    {"opengaze", "a Gazepoint, through the Open Gaze API of Gazepoint Control"},
+    {"pupil", "Pupil Core glasses, through Pupil Capture"},
+    {"lsl", "a stream of gaze of the Lab Streaming Layer"},
+    {"hid", "a device of the HID usage page of eye trackers"},
+    {"mouse", "the mouse pointer stands in for an eye"},
     {"none", "there is none, and the session is recorded without gaze", false},
 };
 

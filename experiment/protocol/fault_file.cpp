@@ -32,11 +32,25 @@ struct FaultKeys {
     std::optional<double> ms;
 };
 
+/// [tracker]
+struct TrackerKeys {
+    std::optional<double> granted_rate_hz;
+};
+
+/// [[tracker-fault]]
+struct TrackerFaultKeys {
+    TrackerFault::Kind kind = TrackerFault::Kind::stall;
+    std::optional<int> trial, attempt, refusals, number;
+    std::optional<double> at_s, s, ms;
+};
+
 /// What stands in a file.
 struct FileKeys {
     DisplayKeys display;
     ChanceKeys chance;
     std::vector<FaultKeys> faults;
+    TrackerKeys tracker;
+    std::vector<TrackerFaultKeys> tracker_faults;
 };
 
 std::vector<Key> display_keys() {
@@ -107,11 +121,85 @@ std::vector<Key> fault_keys() {
         {{.name = "refreshes", .low = 1, .high = 10000, .explanation = "How many of skip."}, &F::refreshes}};
 }
 
+std::vector<Key> tracker_fault_keys() {
+    using F = TrackerFaultKeys;
+    return {
+        {{.name = "kind",
+          .is_required = true,
+          .explanation = "one of \"stall\", \"gap\", \"garbage\", \"doubled\", \"no-eye\", \"clock-jump\", "
+                         "\"slow-start\", \"unplug\", \"repeat\", \"skip\", \"abort\", \"calibration\""},
+         &F::kind},
+        {{.name = "trial", .low = 1, .high = 1000000, .explanation = "Which trial, from 1; left out: each."},
+         &F::trial},
+        {{.name = "attempt", .low = 1, .high = 1000, .explanation = "At the trial, from 1."}, &F::attempt},
+        {{.name = "at_s",
+          .unit = "s",
+          .low = 0,
+          .high = 100000,
+          .explanation = "Since the recording's first sample."},
+         &F::at_s},
+        {{.name = "s", .unit = "s", .low = 0, .high = 100000, .explanation = "How long it lasts."}, &F::s},
+        {{.name = "ms",
+          .unit = "ms",
+          .low = -1e9,
+          .high = 1e9,
+          .explanation = "By how much the tracker's clock is put forward."},
+         &F::ms},
+        {{.name = "refusals",
+          .low = 0,
+          .high = 1000,
+          .explanation = "So many attempts to connect again are refused."},
+         &F::refusals},
+        {{.name = "number", .low = 1, .high = 1000, .explanation = "Which calibration, from 1."},
+         &F::number}};
+}
+
 const KeyTable& fault_table() {
-    static const KeyTable table({{.name = "display", .keys = display_keys(), .home = &FileKeys::display},
-                                 {.name = "chance", .keys = chance_keys(), .home = &FileKeys::chance},
-                                 {.name = "fault", .keys = fault_keys(), .home = &FileKeys::faults}});
+    static const KeyTable table(
+        {{.name = "display", .keys = display_keys(), .home = &FileKeys::display},
+         {.name = "chance", .keys = chance_keys(), .home = &FileKeys::chance},
+         {.name = "fault", .keys = fault_keys(), .home = &FileKeys::faults},
+         {.name = "tracker",
+          .keys = {{{.name = "granted_rate_hz",
+                     .unit = "Hz",
+                     .low = 1,
+                     .high = 10000,
+                     .explanation = "The rate that the eye tracker grants, whatever was wished."},
+                    &TrackerKeys::granted_rate_hz}},
+          .home = &FileKeys::tracker},
+         {.name = "tracker-fault", .keys = tracker_fault_keys(), .home = &FileKeys::tracker_faults}});
     return table;
+}
+
+/// Which of the keys of a tracker's fault belong to its kind.
+struct TrackerFaultShape {
+    std::string_view amount; ///< the key that says how much; empty: none
+    bool has_place = true;   ///< at_s
+    bool has_trial = true;   ///< trial and attempt
+};
+
+TrackerFaultShape shape_of(TrackerFault::Kind kind) {
+    using Kind = TrackerFault::Kind;
+    switch (kind) {
+    case Kind::stall:
+    case Kind::gap:
+    case Kind::garbage:
+    case Kind::doubled:
+    case Kind::no_eye:
+        return {.amount = "s"};
+    case Kind::slow_start:
+        return {.amount = "s", .has_place = false};
+    case Kind::clock_jump:
+        return {.amount = "ms"};
+    case Kind::calibration:
+        return {.amount = "number", .has_place = false, .has_trial = false};
+    case Kind::unplug:
+    case Kind::repeat:
+    case Kind::skip:
+    case Kind::abort:
+        break;
+    }
+    return {};
 }
 
 class FaultReader {
@@ -119,23 +207,37 @@ class FaultReader {
     FaultReader(std::string file, Diagnostics& diagnostics)
         : file_(std::move(file)), diagnostics_(diagnostics) {}
 
-    DisplayFaults read(const TomlFile& toml) {
+    SimulatedFaults read(const TomlFile& toml) {
         FileKeys keys;
         KeyPaths faulty;
         KeyWalk(fault_table(), file_, places_, faulty, diagnostics_).read(toml, keys);
         check_chance(keys.chance);
-        DisplayFaults faults{.seed = keys.chance.seed.value_or(DisplayFaults{}.seed),
-                             .drift_ppm = keys.display.drift_ppm,
-                             .jitter_sd_ms = keys.display.jitter_sd_ms,
-                             .counts_refreshes = keys.display.time_stamps == TimeStamps::counted,
-                             .by_chance = keys.chance,
-                             .given = {}};
+        SimulatedFaults faults{{.seed = keys.chance.seed.value_or(DisplayFaults{}.seed),
+                                .drift_ppm = keys.display.drift_ppm,
+                                .jitter_sd_ms = keys.display.jitter_sd_ms,
+                                .counts_refreshes = keys.display.time_stamps == TimeStamps::counted,
+                                .by_chance = keys.chance,
+                                .given = {}},
+                               {.granted_rate_hz = keys.tracker.granted_rate_hz, .given = {}}};
         for (std::size_t i = 0; i < keys.faults.size(); ++i) {
             const FaultKeys& fault = keys.faults[i];
             check_fault(fmt::format("fault[{}]", i), fault);
             faults.given.push_back({fault.kind, fault.trial ? std::optional(*fault.trial - 1) : std::nullopt,
                                     fault.refresh.value_or(0), fault.ms.value_or(0.0),
                                     fault.refreshes.value_or(1)});
+        }
+        for (std::size_t i = 0; i < keys.tracker_faults.size(); ++i) {
+            const TrackerFaultKeys& fault = keys.tracker_faults[i];
+            check_tracker_fault(fmt::format("tracker-fault[{}]", i), fault);
+            faults.tracker.given.push_back(
+                {.kind = fault.kind,
+                 .trial = fault.trial ? std::optional(*fault.trial - 1) : std::nullopt,
+                 .attempt = fault.attempt.value_or(1),
+                 .at_s = fault.at_s.value_or(0.0),
+                 .s = fault.s.value_or(0.0),
+                 .ms = fault.ms.value_or(0.0),
+                 .refusals = fault.refusals.value_or(0),
+                 .number = fault.number.value_or(1)});
         }
         return faults;
     }
@@ -170,6 +272,33 @@ class FaultReader {
             error(path, "before refresh 0 there is no presentation to stall", "take refresh 1 or later");
     }
 
+    /// Each kind takes its own keys and no others.
+    void check_tracker_fault(const std::string& path, const TrackerFaultKeys& fault) {
+        const auto has = [&](std::string_view key) {
+            return places_.is_written(fmt::format("{}.{}", path, key));
+        };
+        if (!has("kind"))
+            return;
+        const TrackerFaultShape shape = shape_of(fault.kind);
+        const auto refuse = [&](std::string_view key, bool is_taken) {
+            if (has(key) && !is_taken)
+                error(fmt::format("{}.{}", path, key),
+                      fmt::format("an eye tracker's fault of kind \"{}\" has no \"{}\"", name_of(fault.kind),
+                                  key));
+        };
+        for (const std::string_view key : {"s", "ms", "number"})
+            refuse(key, key == shape.amount);
+        refuse("refusals", fault.kind == TrackerFault::Kind::unplug);
+        refuse("at_s", shape.has_place);
+        refuse("trial", shape.has_trial);
+        refuse("attempt", shape.has_trial);
+        if ((shape.amount == "s" || shape.amount == "ms") && !has(shape.amount))
+            error(path,
+                  fmt::format("an eye tracker's fault of kind \"{}\" needs \"{}\"", name_of(fault.kind),
+                              shape.amount),
+                  shape.amount == "s" ? "how long it lasts, in seconds" : "by how much, in milliseconds");
+    }
+
     std::string file_;
     Diagnostics& diagnostics_;
     KeyPlaces places_;
@@ -177,15 +306,15 @@ class FaultReader {
 
 } // namespace
 
-std::optional<DisplayFaults> read_fault_text(std::string_view text, const std::string& file,
-                                             Diagnostics& diagnostics) {
+std::optional<SimulatedFaults> read_fault_text(std::string_view text, const std::string& file,
+                                               Diagnostics& diagnostics) {
     const int errors_before = diagnostics.error_count();
     diagnostics.quote_from(file, text);
-    const DisplayFaults faults = FaultReader(file, diagnostics).read(parse_toml(text, file, diagnostics));
+    const SimulatedFaults faults = FaultReader(file, diagnostics).read(parse_toml(text, file, diagnostics));
     return diagnostics.error_count() > errors_before ? std::nullopt : std::optional(faults);
 }
 
-std::optional<DisplayFaults> read_fault_file(const std::filesystem::path& file, Diagnostics& diagnostics) {
+std::optional<SimulatedFaults> read_fault_file(const std::filesystem::path& file, Diagnostics& diagnostics) {
     int error = 0;
     const std::optional<std::string> text = read_whole_file(file, most_text_bytes, error);
     if (!text) {

@@ -8,6 +8,7 @@ namespace overt::key_rows {
 // What the experiment runs on (rig_keys.cpp).
 Section display();
 Section tracker();
+Section calibration();
 Section events();
 Section screens();
 
@@ -46,6 +47,10 @@ Section instructions();
 Section observer_fields();
 Section operators();
 Section answers();
+
+// What else takes part: boxes with buttons, outputs of markers (device_keys.cpp).
+Section button_box();
+Section marker_output();
 
 // What is said on the screen besides, and of the dataset (word_keys.cpp).
 Section words();

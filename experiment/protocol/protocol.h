@@ -14,11 +14,14 @@
 
 #include "experiment/animation.h"
 #include "experiment/base/enum_names.h"
+#include "experiment/calibration/calibration_settings.h"
 #include "experiment/colour/display_characterisation.h"
 #include "experiment/events/event_settings.h"
+#include "experiment/gaze.h"
 #include "experiment/keys/key_places.h"
 #include "experiment/ports/observer_field.h"
 #include "experiment/protocol/design_settings.h"
+#include "experiment/protocol/device_settings.h"
 #include "experiment/protocol/material_kind.h"
 #include "experiment/protocol/output_mode.h"
 #include "experiment/protocol/protocol_sources.h"
@@ -68,22 +71,69 @@ struct DisplaySettings {
     double frame_store_mb = 1000.0; ///< what the frames of two stimuli may take on the graphics card
     PatchCorner photodiode = PatchCorner::none; ///< a square that alternates with the animation frames
     int photodiode_px = 60;                     ///< side of it
-    std::optional<double> background_cd_m2;     ///< or its luminance, from which `background` is made
+    int tags_px = 0;                        ///< side of the AprilTags around the stimulus; 0: there are none
+    double tags_light = 0.5;                ///< of their white modules, 0 … 1 of the display's white
+    std::optional<double> background_cd_m2; ///< or its luminance, from which `background` is made
 };
 
 /// A row of experiment/ports/tracker_kinds.h.
 enum class TrackerKind : std::uint8_t {};
 
+/// The kind that is called so. Throws InputError naming those there are.
+TrackerKind tracker_kind_called(std::string_view name);
+
+/// Which point of gaze is taken of a tracker that tells several.
+enum class TrackedPoint : std::uint8_t {
+    eyes, ///< each eye's own
+    best  ///< the tracker's mean of both eyes, or that of the one that it finds
+};
+template <> inline constexpr auto names_of<TrackedPoint> = enum_names<TrackedPoint>("eyes", "best");
+
+/// The unit in which a stream tells gaze.
+enum class StreamUnit : std::uint8_t { as_told, px, normalized };
+template <>
+inline constexpr auto names_of<StreamUnit> = enum_names<StreamUnit>("as-told", "px", "normalized");
+
 /// [tracker]
 struct TrackerSettings {
     TrackerKind kind{}; ///< the first: simulated
     double rate_hz = 2000.0;
-    std::string eye = "right";    ///< "left" or "right"
+    std::string address; ///< of its host or stream; empty: what is usual for the kind
+    std::string library; ///< of its maker, a file; empty: where the system looks
+    bool outlet = false; ///< its samples are sent on by the Lab Streaming Layer
+    TrackedPoint point = TrackedPoint::eyes;
+    std::string surface = "screen"; ///< that a scene camera finds gaze on
+    double least_confidence = 0.6;  ///< of a tracker that tells confidence: below, gaze is lost
+    // Of a stream.
+    std::vector<std::string> channels; ///< what they mean; empty: as the stream tells
+    StreamUnit unit = StreamUnit::as_told;
+    bool y_is_up = false;
+    std::string eye = "right"; ///< "left", "right" or "both"
+    bool measures_both_eyes() const { return eye == "both"; }
+    /// The one that the analysis takes: of both, the right one.
+    Eye analysed_eye() const { return eye == "left" ? Eye::left : Eye::right; }
     double drift_limit_deg = 2.0; ///< a drift check beyond this is noted as failed
     // How the simulated tracker differs from a perfect one.
     double simulated_noise_deg = 0.05;       ///< standard deviation of each sample
     double simulated_accuracy_deg = 0.3;     ///< standard deviation of a trial's constant offset
     double simulated_clock_drift_ppm = 40.0; ///< rate of its clock against the session's
+};
+
+/// Who calibrates the eye tracker.
+enum class CalibratedBy : std::uint8_t {
+    automatic, ///< the tracker where it can, else the program
+    tracker,
+    overt
+};
+template <>
+inline constexpr auto names_of<CalibratedBy> = enum_names<CalibratedBy>("auto", "tracker", "overt");
+
+/// [calibration]
+struct CalibrationKeys : CalibrationSettings {
+    CalibratedBy by = CalibratedBy::automatic;
+    // A validation beyond these is shown to the operator, who decides.
+    double mean_limit_deg = 1.0, max_limit_deg = 2.0;
+    bool beeps = true; ///< sounds while it goes on, where there is a sound device
 };
 
 /// Who says when the eye rested, jumped and was closed.
@@ -247,6 +297,7 @@ struct Protocol {
     std::string title;
     DisplaySettings display;
     TrackerSettings tracker;
+    CalibrationKeys calibration;
     EventDetectionSettings events;
     ViewSettings view;
     LightSettings light;
@@ -257,6 +308,8 @@ struct Protocol {
     ConsentSettings consent;
     InstructionSettings instructions;
     OperatorSettings operators;
+    std::vector<ButtonBoxSettings> button_boxes;
+    std::vector<MarkerOutputSettings> marker_outputs;
     AnswerSettings answers;
     WordSettings words;
     DatasetSettings dataset;

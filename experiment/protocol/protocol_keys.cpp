@@ -1,5 +1,11 @@
 #include "experiment/protocol/protocol_keys.h"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiment/base/error.h"
 #include "experiment/ports/tracker_kinds.h"
 #include "experiment/protocol/key_rows.h"
 
@@ -9,6 +15,7 @@ const KeyTable& protocol_keys() {
     static const KeyTable table({key_rows::protocol(),
                                  key_rows::display(),
                                  key_rows::tracker(),
+                                 key_rows::calibration(),
                                  key_rows::events(),
                                  key_rows::view(),
                                  key_rows::light(),
@@ -20,6 +27,8 @@ const KeyTable& protocol_keys() {
                                  key_rows::instructions(),
                                  key_rows::observer_fields(),
                                  key_rows::operators(),
+                                 key_rows::button_box(),
+                                 key_rows::marker_output(),
                                  key_rows::answers(),
                                  key_rows::task(),
                                  key_rows::block(),
@@ -36,6 +45,14 @@ const KeyTable& protocol_keys() {
                                  key_rows::dataset()},
                                 "include");
     return table;
+}
+
+TrackerKind tracker_kind_called(std::string_view name) {
+    const auto found = std::ranges::find(tracker_names, name);
+    if (found == tracker_names.end())
+        throw InputError(fmt::format("there is no kind of eye tracker called \"{}\"; there are {}", name,
+                                     fmt::join(tracker_names, ", ")));
+    return static_cast<TrackerKind>(found - tracker_names.begin());
 }
 
 std::string_view name_of(TrackerKind kind) { return tracker_names[static_cast<std::size_t>(kind)]; }

@@ -7,7 +7,7 @@ namespace overt::key_rows {
 
 namespace {
 
-constexpr std::string_view eyes[] = {"left", "right"};
+constexpr std::string_view eyes[] = {"left", "right", "both"};
 
 /// "Which eye tracker. `one`: …. `other`: …."
 std::string_view tracker_explanation() {
@@ -89,7 +89,8 @@ Section display() {
                   .explanation =
                       "The Display++ or Bits# that shows `mono++`, `color++` and `bits++`: `auto` looks for "
                       "it on the USB serial ports, a path such as `/dev/ttyACM0` names its port, and with "
-                      "`none` its mode is not switched and it is not asked anything. Sessions on a real screen in "
+                      "`none` its mode is not switched and it is not asked anything. Sessions on a real "
+                      "screen in "
                       "real time need it; see [display_plus_plus.md](display_plus_plus.md)."},
                  &D::box},
                 {{.name = "onset_trigger",
@@ -113,6 +114,21 @@ Section display() {
                   .high = 1000,
                   .explanation = "Side of that square."},
                  &D::photodiode_px},
+                {{.name = "tags_px",
+                  .unit = "px",
+                  .low = 0,
+                  .high = 1000,
+                  .explanation = "Side of the AprilTags (tag36h11, 0 to 5) that stand in the corners of the "
+                                 "screen, and in the middle of its left and right edge where there is room, "
+                                 "for eye trackers with a scene camera; a multiple of 10, or of 20 where the "
+                                 "output joins pixels in pairs. 0 for none. See [trackers.md](trackers.md)."},
+                 &D::tags_px},
+                {{.name = "tags_light",
+                  .low = 0.02,
+                  .high = 1,
+                  .explanation = "Light of their white modules, as a share of the display's white; the black "
+                                 "ones have none."},
+                 &D::tags_light},
                 {{.name = "gamma",
                   .low = 0.1,
                   .high = 5,
@@ -170,7 +186,51 @@ Section tracker() {
                   .high = 10000,
                   .explanation = "Gaze samples per second."},
                  &T::rate_hz},
-                {{.name = "eye", .choices = eyes, .explanation = "The eye that is tracked."}, &T::eye},
+                {{.name = "address",
+                  .if_left_out = "what is usual for the kind",
+                  .explanation =
+                      "Where the tracker is. `eyelink`: address of its host, or `dummy` to try the "
+                      "library without one. `opengaze` and `pupil`: host or host:port. `lsl`: name of "
+                      "the stream. `hid`: /dev/hidrawN, or vendor:product. `replay`: a session's folder, "
+                      "or an EyeLink recording (.asc)."},
+                 &T::address},
+                {{.name = "library",
+                  .if_left_out = "where the system looks",
+                  .explanation = "The library of the tracker's maker, a file, for kinds that need one."},
+                 &T::library},
+                {{.name = "outlet",
+                  .explanation = "Whether samples are also sent on as a stream \"overt gaze\" of the Lab "
+                                 "Streaming Layer, of trackers that measure in real time."},
+                 &T::outlet},
+                {{.name = "point",
+                  .explanation = "Of `opengaze`, which point of gaze is taken. `eyes`: each eye's own. "
+                                 "`best`: the mean of both, or that of the one that is found."},
+                 &T::point},
+                {{.name = "surface",
+                  .explanation = "Of `pupil`, the surface in Pupil Capture that is the screen."},
+                 &T::surface},
+                {{.name = "least_confidence",
+                  .low = 0,
+                  .high = 1,
+                  .explanation = "Of `pupil`, and of streams that tell confidence: gaze of less is lost."},
+                 &T::least_confidence},
+                {{.name = "channels",
+                  .if_left_out = "what the stream tells",
+                  .explanation =
+                      "Of `lsl`, what the stream's channels mean: eye (or none), meaning, and the channel's "
+                      "label or its number from 1, such as `[\"left x 1\", \"left y 2\", \"right pupil "
+                      "PupilRight\"]`. Meanings are x, y, confidence, pupil, eye-x, eye-y, eye-z."},
+                 &T::channels},
+                {{.name = "unit",
+                  .explanation = "Of `lsl`, the unit of gaze: pixels, or shares of the screen."},
+                 &T::unit},
+                {{.name = "y_is_up",
+                  .explanation = "Of `lsl`, whether y grows upward from the lower edge of the screen."},
+                 &T::y_is_up},
+                {{.name = "eye",
+                  .choices = eyes,
+                  .explanation = "The eye that is tracked. Of both, the right one is analysed."},
+                 &T::eye},
                 {{.name = "drift_limit_deg",
                   .unit = "deg",
                   .low = 0.01,
@@ -197,6 +257,89 @@ Section tracker() {
                  &T::simulated_clock_drift_ppm},
             },
         .home = &Protocol::tracker};
+}
+
+Section calibration() {
+    using C = CalibrationKeys;
+    // What the calibration itself needs are members of its base.
+    const auto number = [](double CalibrationSettings::*member) -> double C::* { return member; };
+    const auto count = [](int CalibrationSettings::*member) -> int C::* { return member; };
+    return {
+        .name = "calibration",
+        .explanation = "How the eye tracker is calibrated and what of its validation is accepted; see "
+                       "[trackers.md](trackers.md).",
+        .keys =
+            {
+                {{.name = "by",
+                  .explanation =
+                      "Who calibrates. `auto`: the tracker where it can, else the program. `tracker`: "
+                      "the tracker. `overt`: the program, on top of what the tracker measures."},
+                 &C::by},
+                {{.name = "points", .explanation = "Targets of a calibration by the program: 3, 5, 9 or 13."},
+                 count(&C::points)},
+                {{.name = "validation_points",
+                  .explanation = "Targets of its validation, at other places: 3, 5, 9 or 13."},
+                 count(&C::validation_points)},
+                {{.name = "model",
+                  .explanation =
+                      "What is fitted to the targets. `polynomial`: of first order up to 5 targets, "
+                      "of second order from 9 on. `homography`: a plane seen from elsewhere."},
+                 static_cast<CalibrationModel C::*>(&C::model)},
+                {{.name = "accept",
+                  .explanation = "By what a target counts as looked at. `fixation`: gaze rested. `key`: the "
+                                 "operator pressed the space bar while it did."},
+                 static_cast<TargetAcceptance C::*>(&C::accept)},
+                {{.name = "area",
+                  .low = 0.1,
+                  .high = 1,
+                  .explanation = "Share of the screen's width and height that the targets span."},
+                 number(&C::area)},
+                {{.name = "target_deg",
+                  .unit = "deg",
+                  .low = 0.05,
+                  .high = 5,
+                  .explanation = "Diameter of a target's disc."},
+                 number(&C::target_deg)},
+                {{.name = "fixation_s",
+                  .unit = "s",
+                  .low = 0.05,
+                  .high = 5,
+                  .explanation = "For so long gaze must rest on a target."},
+                 number(&C::fixation_s)},
+                {{.name = "fixation_reach_deg",
+                  .unit = "deg",
+                  .low = 0.05,
+                  .high = 10,
+                  .explanation =
+                      "So far its samples may lie from their median while it rests, but for one in fifty."},
+                 number(&C::fixation_reach_deg)},
+                {{.name = "patience_s",
+                  .unit = "s",
+                  .low = 1,
+                  .high = 120,
+                  .explanation = "So long a target is shown at most; one that was missed comes again once."},
+                 number(&C::patience_s)},
+                {{.name = "mean_limit_deg",
+                  .unit = "deg",
+                  .low = 0.01,
+                  .high = 45,
+                  .explanation =
+                      "A validation with a larger mean error is shown to the operator, who decides "
+                      "whether to go on; the record says so."},
+                 &C::mean_limit_deg},
+                {{.name = "max_limit_deg",
+                  .unit = "deg",
+                  .low = 0.01,
+                  .high = 45,
+                  .explanation = "The same of the largest error of a target."},
+                 &C::max_limit_deg},
+                {{.name = "beeps",
+                  .explanation =
+                      "Sounds while the tracker is set up: a target appeared, it went well, it did "
+                      "not. Without a sound device there are none, and it is said."},
+                 &C::beeps},
+            },
+        .home = &Protocol::calibration};
 }
 
 Section events() {

@@ -71,6 +71,12 @@ Section operators() {
                 key("abort", &O::abort, "Ends the session; in an animation, the trial first."),
                 {{.name = "yes", .choices = letter_names, .explanation = "Confirms."}, &O::yes},
                 {{.name = "no", .choices = letter_names, .explanation = "Takes it back."}, &O::no},
+                {{.name = "keyboard_answers",
+                  .explanation =
+                      "Whether the window's keyboard also answers for the observer. `false`: it is "
+                      "the operator's alone, and the observer answers at a `[[button_box]]`; the "
+                      "form is still filled in at the keyboard."},
+                 &O::keyboard_answers},
                 {{.name = "pause_text", .explanation = "What stands on the screen in a pause."},
                  &O::pause_text},
                 {{.name = "skip_reasons",

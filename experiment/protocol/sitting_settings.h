@@ -31,6 +31,7 @@ struct OperatorSettings {
     std::string skip = "f5";
     std::string abort = "escape";
     std::string yes = "y", no = "n";
+    bool keyboard_answers = true; ///< the window's keyboard answers for the observer, too
     std::string pause_text = "# Pause\nPlease wait a moment.";
     std::vector<std::string> skip_reasons{"eye lost", "observer's wish", "equipment", "other"};
 };
@@ -50,6 +51,13 @@ struct AnswerSettings {
 /// [words]: what the program itself says on the screen.
 struct WordSettings {
     std::string recalibrate = "Calibrate the eye tracker anew?\nThe session then goes on where it is.";
+    std::string validation = "Go on with this calibration? Otherwise it is done again.";
+    std::string validation_poor = "This calibration is poorer than the protocol allows.\n"
+                                  "Go on all the same? Otherwise it is done again.";
+    std::string not_calibrated =
+        "The eye tracker is not calibrated.\nCalibrate again? Otherwise the session ends.";
+    std::string tracker_lost =
+        "The eye tracker was lost.\nConnect and calibrate again? Otherwise the session ends.";
     std::string repeat = "Break this trial off and repeat it at once?";
     std::string reject = "Reject this trial?\nIt comes again as the protocol says.";
     std::string skip = "Skip this trial?\nIt does not come again.";

@@ -15,6 +15,13 @@ Section words() {
         .keys =
             {
                 text("recalibrate", &W::recalibrate, "Asked before the tracker is calibrated anew."),
+                text("validation", &W::validation,
+                     "Asked when the program has calibrated the tracker; mean and largest error follow."),
+                text("validation_poor", &W::validation_poor,
+                     "Asked when the errors are larger than `[tracker]` allows; they follow."),
+                text("not_calibrated", &W::not_calibrated,
+                     "Asked when a calibration was cancelled or failed."),
+                text("tracker_lost", &W::tracker_lost, "Asked when the tracker has gone away."),
                 text("repeat", &W::repeat, "Asked before a trial is broken off and repeated."),
                 text("reject", &W::reject, "Asked before a trial is rejected."),
                 text("skip", &W::skip, "Asked before a trial is skipped; the reasons follow."),

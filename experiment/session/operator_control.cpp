@@ -1,10 +1,12 @@
 #include "experiment/session/operator_control.h"
+#include "experiment/base/error.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/ports/eye_tracker.h"
 #include "experiment/ports/presenter.h"
 #include "experiment/ports/response_panel.h"
 #include "experiment/ports/session_phase.h"
 #include "experiment/session/session_screens.h"
+#include "experiment/session/session_stage.h"
 
 #include <algorithm>
 
@@ -20,6 +22,7 @@ using ResponseKey = ResponsePress::Key;
 
 void OperatorControl::rest_a_little(SessionTime latest) {
     state_.ports.presenter.use_spare_time();
+    state_.write_down();
     state_.ports.clock.wait_until(std::min(latest, state_.now() + key_interval));
 }
 
@@ -141,8 +144,12 @@ bool OperatorControl::end_trial(ResponseKey key) {
 }
 
 std::optional<int> OperatorControl::confirm(const std::string& question, int reasons) {
-    state_.note(operator_asked_event, question);
-    const SessionTime onset = state_.show(screens::operator_question(state_.protocol, question));
+    return confirm(screens::operator_question(state_.protocol, question), reasons);
+}
+
+std::optional<int> OperatorControl::confirm(const Screen& screen, int reasons) {
+    state_.note(operator_asked_event, screen.text);
+    const SessionTime onset = state_.show(screen);
     state_.ports.panel.await_decision(false, onset);
     std::optional<int> answer;
     for (bool is_decided = false; !is_decided && !state_.ends_by_itself();) {
@@ -199,13 +206,89 @@ void OperatorControl::calibrate() {
         state_.enter(SessionPhase::calibration, state_.trial());
     // An empty screen would look like a session that has stopped.
     state_.show(screens::please_wait(state_.protocol));
-    if (!state_.ports.tracker.measures_gaze()) {
+    EyeTracker& tracker = state_.ports.tracker;
+    if (!tracker.measures_gaze()) {
         state_.note("calibration", "none: the session has no eye tracker");
         return;
     }
-    const ValidationResult result = state_.ports.tracker.calibrate();
+    SessionStage stage(state_);
+    while (!state_.ends_by_itself()) {
+        SetupOutcome outcome;
+        try {
+            outcome = tracker.set_up(stage);
+        } catch (const DeviceError& error) {
+            if (!connect_again(error.what()))
+                return;
+            continue;
+        }
+        if (outcome.kind == SetupOutcome::Kind::done) {
+            if (accepts(outcome))
+                return;
+            continue;
+        }
+        state_.note(calibration_failed_event, outcome.message);
+        if (state_.ends_by_itself())
+            return;
+        if (!confirm(state_.protocol.words.not_calibrated)) {
+            state_.end_session("the eye tracker was not calibrated");
+            return;
+        }
+    }
+}
+
+/// Records what the validation found. What is too poor by the protocol, or was calibrated by the program, is
+/// shown to the operator, who decides.
+bool OperatorControl::accepts(const SetupOutcome& outcome) {
+    const CalibrationKeys& limits = state_.protocol.calibration;
+    const WordSettings& words = state_.protocol.words;
+    if (!outcome.validation) {
+        state_.note(calibrated_event, outcome.message);
+        return true;
+    }
+    const ValidationResult& found = *outcome.validation;
     state_.note(validation_event, fmt::format("mean error {:.3f} deg, largest {:.3f} deg",
-                                              result.mean_error.value, result.max_error.value));
+                                              found.mean_error.value, found.max_error.value));
+    const bool is_good =
+        found.mean_error.value <= limits.mean_limit_deg && found.max_error.value <= limits.max_limit_deg;
+    if (!is_good || !state_.ports.tracker.calibrates_itself()) {
+        const std::optional<int> goes_on = confirm(
+            screens::validation(state_.protocol, found, is_good ? words.validation : words.validation_poor));
+        if (!goes_on)
+            return false;
+        if (!is_good)
+            state_.note(operator_event, "goes on with a validation that is poorer than the protocol allows");
+    }
+    state_.log().calibration({state_.now(), state_.trial(), outcome.method, found, is_good});
+    return true;
+}
+
+/// Until it is reached; false: the session is over.
+bool OperatorControl::connect_again(const std::string& why) {
+    state_.note(tracker_lost_event, why);
+    while (!state_.is_over()) {
+        if (!confirm(state_.protocol.words.tracker_lost)) {
+            state_.end_session("the eye tracker was lost");
+            return false;
+        }
+        try {
+            state_.ports.tracker.reconnect();
+            state_.note(tracker_regained_event);
+            return true;
+        } catch (const DeviceError& error) {
+            state_.note(tracker_lost_event, error.what());
+        }
+    }
+    return false;
+}
+
+void OperatorControl::regain_tracker(const std::string& why) {
+    const SessionPhase phase = state_.phase();
+    const int trial = state_.trial();
+    if (!connect_again(why))
+        return;
+    calibrate();
+    if (!state_.is_over() && state_.phase() != phase)
+        state_.enter(phase, trial);
 }
 
 } // namespace overt

@@ -63,16 +63,29 @@ class OperatorControl {
     /// Shows a question and waits for yes or no. A digit up to `reasons` says yes, too. Gives that digit's
     /// number, or 0 for a plain yes.
     std::optional<int> confirm(const std::string& question, int reasons = 0);
+    /// The same on a screen of its own, whose text is the question.
+    std::optional<int> confirm(const Screen& screen, int reasons = 0);
 
     /// Of the trial that is running. begin_trial() forgets the one before.
     const TrialDecision& decision() const { return decision_; }
     void begin_trial() { decision_ = {}; }
 
+    /// Sets the tracker up, until it is calibrated well enough or the operator goes on all the same; else the
+    /// session is over. A tracker that is lost meanwhile is connected again as regain_tracker() does.
     void calibrate();
+    /// The tracker was lost, with what it said: asks whether to connect again, and sets it up. Otherwise the
+    /// session is over.
+    void regain_tracker(const std::string& why = {});
+
+    /// What was decided at the tracker's host.
+    void repeat_trial() { decision_ = {TrialDecision::Word::repeated, {}}; }
+    void skip_trial(std::string why) { decision_ = {TrialDecision::Word::skipped, std::move(why)}; }
 
   private:
     void pause();
     bool end_trial(ResponsePress::Key key);
+    bool accepts(const SetupOutcome& outcome);
+    bool connect_again(const std::string& why);
     void rest_a_little(SessionTime latest);
 
     SessionState& state_;

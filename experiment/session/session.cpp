@@ -35,6 +35,13 @@ class PracticeLog final : public SessionLog {
     void missed(const MissedRefresh&) noexcept override {}
     void sample(int, const GazeSample&) noexcept override {}
     void clock_pair(const ClockPair& pair) noexcept override { record_.clock_pair(pair); }
+    void buttons(const std::vector<RecordedButton>& buttons) override {
+        std::vector<RecordedButton> outside = buttons;
+        for (RecordedButton& button : outside)
+            button.trial = -1;
+        record_.buttons(outside);
+    }
+    void markers(const std::vector<RecordedMarker>& markers) override { record_.markers(markers); }
     void event(const SessionEvent& event) override {
         record_.event({event.at, -1, event.kind,
                        event.detail.empty() ? "in practice" : event.detail + ", in practice"});
@@ -79,6 +86,9 @@ SessionResult Session::run(const TrialDone& trial_done, const SessionHistory& hi
     // All is done: a window that is closed during the farewell aborts nothing.
     if (!result.aborted)
         farewell();
+    for (std::string& sentence : state_.markers.finish(state_.log()))
+        state_.note(marker_output_event, std::move(sentence));
+    state_.write_down();
     state_.note(result.aborted ? session_aborted_event : session_completed_event, result.reason);
     return result;
 }

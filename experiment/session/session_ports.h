@@ -8,12 +8,14 @@
 #include "experiment/ports/answer_recorder.h"
 #include "experiment/ports/clock.h"
 #include "experiment/ports/eye_tracker.h"
+#include "experiment/ports/marker_sink.h"
 #include "experiment/ports/presentation_listener.h"
 #include "experiment/ports/presenter.h"
 #include "experiment/ports/recorded_answer.h"
 #include "experiment/ports/response_panel.h"
 #include "experiment/ports/session_log.h"
 #include "experiment/ports/session_phase.h"
+#include "experiment/ports/setup_stage.h"
 
 namespace overt {
 
@@ -30,6 +32,11 @@ struct SessionPorts {
     AnswerRecorder* recorder = nullptr; ///< null: spoken answers are not recorded
     /// Told every now and then while an answer is recorded, between presentations; may be empty.
     std::function<void(const AudioLevel&)> on_level = {};
+    /// One for each [[marker_output]] of the protocol, in their order; null for one that rides on the video
+    /// signal, or is left out. None at all: no marker is sent.
+    std::vector<MarkerSink*> markers = {};
+    /// Sounds while the tracker is set up; may be empty.
+    std::function<void(SetupBeep)> on_beep = {};
     /// Told of each change of phase, with the trial or -1; not during a presentation. May be empty.
     std::function<void(SessionPhase, int)> on_phase = {};
 };

@@ -106,6 +106,14 @@ std::string skip_question(const Protocol& protocol) {
     return question;
 }
 
+Screen validation(const Protocol& protocol, const ValidationResult& found, const std::string& question) {
+    Screen screen = operator_question(protocol, fmt::format("{}\n{:.2f}° ({:.2f}°)", question,
+                                                            found.mean_error.value, found.max_error.value));
+    screen.kind = found.targets.empty() ? Screen::Kind::text : Screen::Kind::validation;
+    screen.validated = found.targets;
+    return screen;
+}
+
 Screen please_wait(const Protocol& protocol) {
     return {.kind = Screen::Kind::text, .text = protocol.words.please_wait};
 }
@@ -141,6 +149,8 @@ std::vector<std::pair<std::string, Screen>> all_of(const Protocol& protocol) {
     add("operator_pause", pause(protocol));
     const WordSettings& words = protocol.words;
     add("operator_recalibrate", operator_question(protocol, words.recalibrate));
+    add("operator_not_calibrated", operator_question(protocol, words.not_calibrated));
+    add("operator_tracker_lost", operator_question(protocol, words.tracker_lost));
     add("operator_repeat", operator_question(protocol, words.repeat));
     add("operator_reject", operator_question(protocol, words.reject));
     add("operator_skip", operator_question(protocol, skip_question(protocol)));

@@ -33,6 +33,9 @@ Screen operator_question(const Protocol& protocol, const std::string& question);
 /// With the reasons, which digits choose.
 std::string skip_question(const Protocol& protocol);
 
+/// Gaze beside its targets, and a question to the operator.
+Screen validation(const Protocol& protocol, const ValidationResult& found, const std::string& question);
+
 /// While the session is at work.
 Screen please_wait(const Protocol& protocol);
 

@@ -34,7 +34,7 @@ void SessionState::end_session(std::string why) {
 bool SessionState::ends_by_itself() {
     if (!went_away())
         return false;
-    end_session(ports.presenter.closed() ? ports.presenter.why_closed() : "the eye tracker was lost");
+    end_session(ports.presenter.why_closed());
     return true;
 }
 

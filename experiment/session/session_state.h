@@ -7,6 +7,7 @@
 #include "experiment/ports/event_kinds.h"
 #include "experiment/ports/session_phase.h"
 #include "experiment/protocol/protocol.h"
+#include "experiment/session/session_markers.h"
 #include "experiment/session/session_ports.h"
 
 namespace overt {
@@ -14,10 +15,12 @@ namespace overt {
 class SessionState {
   public:
     /// Both must outlive this.
-    SessionState(const Protocol& of, SessionPorts& on) : protocol(of), ports(on), log_(&on.log) {}
+    SessionState(const Protocol& of, SessionPorts& on)
+        : protocol(of), ports(on), markers(of, on.markers), log_(&on.log) {}
 
     const Protocol& protocol;
     SessionPorts& ports;
+    SessionMarkers markers;
 
     SessionTime now() const noexcept { return ports.clock.now(); }
 
@@ -33,18 +36,24 @@ class SessionState {
     /// An event now, of the trial that is running.
     void note(std::string_view kind, std::string detail = {});
 
+    /// Records what response boxes and outputs of markers did since. Not during a presentation.
+    void write_down() {
+        ports.panel.write_down(log());
+        markers.write_down(log());
+    }
+
     /// Shows a screen and tells the listeners; gives its onset.
     SessionTime show(const Screen& screen);
 
-    /// The display or the tracker has gone away.
-    bool went_away() const noexcept { return ports.presenter.closed() || ports.tracker.lost(); }
+    /// The display has gone away.
+    bool went_away() const noexcept { return ports.presenter.closed(); }
 
     /// The session ends after what is under way. The first reason stays.
     void end_session(std::string why);
     bool is_over() const noexcept { return is_over_; }
     const std::string& why_over() const noexcept { return why_over_; }
 
-    /// Ends the session if the display or the tracker went away; whether it did.
+    /// Ends the session if the display went away; whether it did.
     bool ends_by_itself();
 
   private:

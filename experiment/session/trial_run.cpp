@@ -1,11 +1,15 @@
 #include "experiment/session/trial_run.h"
 
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "experiment/base/counted.h"
+#include "experiment/base/error.h"
+#include "experiment/clock_map.h"
 #include "experiment/ports/event_kinds.h"
+#include "experiment/ports/trial_mark.h"
 #include "experiment/session/answer_check.h"
 #include "experiment/session/level_watch.h"
 #include "experiment/session/session_screens.h"
@@ -37,26 +41,34 @@ using How = OperatorControl::How;
 TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre)
     : state_(state), control_(control), screen_centre_(screen_centre),
       cycle_(make_page_cycle(state.protocol.animation, state.protocol.display.refresh_hz)),
-      ledger_(cycle_, state.protocol.animation.when_late), samples_(4096) {}
+      ledger_(cycle_, state.protocol.animation.when_late), items_(4096) {}
 
 TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Condition>& next, bool is_practice) {
     Attempt attempt;
     attempt.outcome.status = TrialOutcome::Status::aborted;
     control_.begin_trial();
+    state_.write_down();
+    state_.markers.begin_trial(trial, is_practice);
     state_.enter(SessionPhase::trial, is_practice ? -1 : trial.index);
     state_.ports.presenter.load_frames(trial.condition);
     state_.log().trial_started(trial, state_.now());
+    // Practice has numbers of its own.
+    mark(MarkedEvent::trial, state_.now(),
+         fmt::format("{}{}{}", trial_mark, is_practice ? "practice " : "", trial.index + 1));
     const Clock::Disturbance before = state_.ports.clock.disturbance();
     ask(trial, attempt);
     if (goes_on(attempt))
         check_drift(attempt.outcome);
     if (goes_on(attempt)) {
         present(trial, attempt);
+        act_on_tracker(attempt);
         act_on_pressed_keys(attempt);
     }
     if (goes_on(attempt))
         take_answer(trial, next, is_practice, attempt);
     note_disturbance(before);
+    mark_result(trial, attempt);
+    state_.write_down();
     const TrialDecision::Word word = control_.decision().word;
     attempt.result.is_rejected = attempt.result.is_rejected || word == TrialDecision::Word::rejected;
     attempt.result.is_repeated = word == TrialDecision::Word::repeated;
@@ -82,7 +94,7 @@ void TrialRun::ask(const Trial& trial, Attempt& attempt) {
 
 void TrialRun::check_drift(TrialOutcome& outcome) {
     state_.enter(SessionPhase::drift_check, state_.trial());
-    const Screen target{Screen::Kind::drift_target, ""};
+    const Screen target{.kind = Screen::Kind::target, .text = ""};
     const How how = control_
                         .wait({.screen = target,
                                .onset = state_.show(target),
@@ -93,7 +105,23 @@ void TrialRun::check_drift(TrialOutcome& outcome) {
                         .how;
     if (how != How::timed_out || !state_.ports.tracker.measures_gaze())
         return;
-    outcome.drift = state_.ports.tracker.drift_check(screen_centre_);
+    DriftOutcome drift;
+    try {
+        drift = state_.ports.tracker.drift_check(screen_centre_);
+    } catch (const DeviceError& error) {
+        control_.regain_tracker(error.what());
+        control_.repeat_trial();
+        return;
+    }
+    if (drift.kind == DriftOutcome::Kind::set_up_wanted) {
+        // Asked for at the tracker's host: the trial begins anew once it is done.
+        state_.note(drift_check_failed_event, "the tracker asked to be set up");
+        control_.calibrate();
+        control_.repeat_trial();
+        return;
+    }
+    if (drift.kind == DriftOutcome::Kind::measured)
+        outcome.drift = drift.error;
     const double limit_deg = state_.protocol.tracker.drift_limit_deg;
     if (!outcome.drift)
         state_.note(drift_check_failed_event, "no eye was found");
@@ -109,30 +137,39 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
     const SessionDuration lead = from_seconds(state_.protocol.screens.recording_lead_s);
     state_.enter(SessionPhase::stimulus, state_.trial());
     read_clocks();
-    ports.tracker.start_recording();
+    if (jump_)
+        state_.note(tracker_clock_jumped_event,
+                    fmt::format("by {:+.3f} ms before the trial", 1e3 * to_seconds(*jump_)));
+    jump_.reset();
+    if (!start_recording())
+        return;
     state_.show({});
-    wait_and_take_samples(trial.index, state_.now() + lead);
+    wait_and_take_items(trial.index, state_.now() + lead);
     for (PresentationListener* listener : ports.listeners)
         listener->presentation_begins(trial);
 
-    sample_count_ = lost_count_ = 0;
-    pressed_.reset();
     const auto is_broken_off = [&] { return pressed_ && pressed_->key == ResponsePress::Key::abort; };
     // From here to the last flip nothing allocates, opens, throws or formats.
     ledger_.begin(trial.index);
-    while (!ledger_.is_complete() && !state_.went_away() && !is_broken_off()) {
+    state_.markers.begin_presentation();
+    while (!ledger_.is_complete() && !state_.went_away() && !is_broken_off() &&
+           recording_ == RecordingState::running) {
         // Take what the tracker has seen so far.
-        take_samples(trial.index);
+        take_items(trial.index);
         // Show the frame that the plan has next, and learn when it was lit.
+        state_.markers.before_flip(ledger_.next_refresh(), ledger_.next().frame, ports.presenter);
         const FlipRecord& flip = ledger_.enter(ports.presenter.flip(ledger_.next().frame));
         // Record what was shown at each refresh, and tell the listeners.
         for (int i = 0; i < ledger_.missed_count(); ++i)
             log.missed(ledger_.missed(i));
         log.flip(flip);
+        mark_flip(flip);
+        state_.markers.flipped(flip);
         for (PresentationListener* listener : ports.listeners)
             listener->flipped(flip);
-        // Remember what the operator pressed.
+        // Remember what the operator pressed, here or at the tracker's host.
         look_at_keys();
+        recording_ = ports.tracker.recording_state();
     }
     outcome.presentation_onset = ledger_.onset();
     outcome.shown_refreshes = ledger_.shown_refreshes();
@@ -143,11 +180,99 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
             static_cast<double>(lost_count_) / static_cast<double>(sample_count_);
 
     outcome.presentation_end = state_.show({});
+    mark(MarkedEvent::end, outcome.presentation_end, "PRESENTATION_END");
     state_.ends_by_itself();
-    wait_and_take_samples(trial.index, state_.now() + lead);
+    wait_and_take_items(trial.index, state_.now() + lead);
     ports.tracker.stop_recording();
-    take_samples(trial.index);
+    take_items(trial.index);
     read_clocks();
+    if (recording_ == RecordingState::running)
+        recording_ = ports.tracker.recording_state();
+    note_what_came(attempt);
+}
+
+/// Whether it began; else it is lost.
+bool TrialRun::start_recording() {
+    sample_count_ = lost_count_ = doubled_count_ = 0;
+    last_at_ = {};
+    pressed_.reset();
+    marked_frame_ = no_frame;
+    recording_ = RecordingState::running;
+    why_lost_.clear();
+    has_presented_ = false;
+    try {
+        state_.ports.tracker.start_recording();
+    } catch (const DeviceError& error) {
+        why_lost_ = error.what();
+        recording_ = RecordingState::lost;
+        return false;
+    }
+    has_presented_ = true;
+    return true;
+}
+
+/// What became of the tracker's clock and samples meanwhile. An attempt in which the clock jumped has samples
+/// whose times are not known.
+void TrialRun::note_what_came(Attempt& attempt) {
+    if (doubled_count_ > 0)
+        state_.note(tracker_event,
+                    fmt::format("{} came twice and {} left out the second time",
+                                counted(doubled_count_, "sample"), doubled_count_ == 1 ? "was" : "were"));
+    if (!jump_)
+        return;
+    state_.note(tracker_clock_jumped_event,
+                fmt::format("by {:+.3f} ms in the trial", 1e3 * to_seconds(*jump_)));
+    jump_.reset();
+    attempt.result.is_rejected = true;
+}
+
+/// Two readings in a row that agree with each other and not with the one before tell of a jump; one alone
+/// may have been delayed.
+void TrialRun::watch(const ClockPair& pair) noexcept {
+    if (const std::optional<SessionDuration> jump = steady_ ? clock_jump(*steady_, pair) : std::nullopt) {
+        if (!suspect_ || clock_jump(*suspect_, pair)) {
+            suspect_ = pair;
+            return;
+        }
+        jump_ = jump;
+    }
+    steady_ = pair;
+    suspect_.reset();
+}
+
+void TrialRun::mark(MarkedEvent event, SessionTime at, std::string_view text) noexcept {
+    state_.ports.tracker.mark({at, text});
+    state_.markers.mark(event, at, text);
+}
+
+/// For the tracker, the onset, and each change of the frame: "FRAME 12" is on the screen from its flip's
+/// vertical blank on.
+void TrialRun::mark_flip(const FlipRecord& flip) noexcept {
+    if (flip.shown == marked_frame_)
+        return;
+    const SessionTime lit = flip.report.vertical_blank;
+    EyeTracker& tracker = state_.ports.tracker;
+    if (marked_frame_ == no_frame)
+        tracker.mark({lit, "SYNCTIME"});
+    marked_frame_ = flip.shown;
+    std::array<char, 24> text{};
+    const auto end = fmt::format_to_n(text.data(), text.size(), "FRAME {}", flip.shown.value).out;
+    tracker.mark({lit, {text.data(), end}});
+}
+
+/// What a viewer of the tracker's file groups trials by, and how the attempt ended.
+void TrialRun::mark_result(const Trial& trial, const Attempt& attempt) {
+    const SessionTime now = state_.now();
+    const auto variable = [&](std::string_view name, std::string_view value) {
+        const std::string text = fmt::format("!V TRIAL_VAR {} {}", name, value);
+        state_.ports.tracker.mark({now, text});
+        state_.markers.tell(now, text);
+    };
+    variable("task", state_.protocol.tasks[static_cast<std::size_t>(trial.task)].id);
+    variable("sculpture", state_.protocol.sculptures[static_cast<std::size_t>(trial.condition.sculpture)].id);
+    variable("material", state_.protocol.materials[static_cast<std::size_t>(trial.condition.material)].id);
+    variable("missed_refreshes", fmt::format("{}", attempt.outcome.missed_refreshes));
+    mark(MarkedEvent::result, now, fmt::format("TRIAL_RESULT {}", goes_on(attempt) ? 0 : 1));
 }
 
 void TrialRun::look_at_keys() noexcept {
@@ -156,6 +281,36 @@ void TrialRun::look_at_keys() noexcept {
         // The key that ends the session replaces one that was pressed before.
         if (is_operators(press->key) && (!pressed_ || ends_it))
             pressed_ = press;
+    }
+}
+
+/// What was decided at the tracker's host, or became of the tracker, becomes of the attempt.
+void TrialRun::act_on_tracker(Attempt& attempt) {
+    if (recording_ == RecordingState::running || state_.is_over())
+        return;
+    attempt.result.is_rejected = true;
+    if (has_presented_ && !ledger_.is_complete())
+        state_.note(presentation_broken_off_event,
+                    fmt::format("by the eye tracker, after {}",
+                                counted(attempt.outcome.shown_refreshes, "refresh", "refreshes")));
+    switch (recording_) {
+    case RecordingState::running:
+        break;
+    case RecordingState::repeat:
+        state_.note(operator_event, "repeats the trial, at the eye tracker");
+        control_.repeat_trial();
+        break;
+    case RecordingState::skip:
+        state_.note(operator_event, "skips the trial, at the eye tracker");
+        control_.skip_trial("skipped at the eye tracker");
+        break;
+    case RecordingState::abort:
+        state_.note(operator_event, "ends the session, at the eye tracker");
+        state_.end_session("aborted at the eye tracker");
+        break;
+    case RecordingState::lost:
+        control_.regain_tracker(why_lost_);
+        break;
     }
 }
 
@@ -169,7 +324,7 @@ void TrialRun::act_on_pressed_keys(Attempt& attempt) {
                                         counted(attempt.outcome.shown_refreshes, "refresh", "refreshes"))});
     control_.act_on(*pressed_);
     // The observer saw only a part of the animation: this attempt does not count, whatever was answered.
-    attempt.result.is_rejected = was_broken_off;
+    attempt.result.is_rejected = attempt.result.is_rejected || was_broken_off;
 }
 
 void TrialRun::take_answer(const Trial& trial, const std::optional<Condition>& next, bool is_practice,
@@ -210,8 +365,10 @@ void TrialRun::take_answer(const Trial& trial, const std::optional<Condition>& n
         recording->end(press.at);
     if (press.how == How::timed_out)
         state_.log().event({press.at, state_.trial(), response_timed_out_event, ""});
-    if (press.how == How::next)
+    if (press.how == How::next) {
         outcome.answer = ports.panel.answer();
+        state_.markers.mark(MarkedEvent::response, press.at, "RESPONSE");
+    }
     if (recording)
         keep_answer(*recording);
 }
@@ -248,31 +405,50 @@ void TrialRun::note_disturbance(const Clock::Disturbance& before) {
                     fmt::format("by {:+.3f} s; session time went on as before", moved_s));
 }
 
-void TrialRun::take_samples(int trial) noexcept {
+void TrialRun::take_items(int trial) noexcept {
     std::size_t taken = 0;
     do {
-        taken = state_.ports.tracker.poll(samples_);
-        for (std::size_t i = 0; i < taken; ++i) {
-            ++sample_count_;
-            lost_count_ += samples_[i].gaze ? 0 : 1;
-            state_.log().sample(trial, samples_[i]);
-        }
-    } while (taken == samples_.size());
+        taken = state_.ports.tracker.poll(items_);
+        for (std::size_t i = 0; i < taken; ++i)
+            take(trial, items_[i]);
+    } while (taken == items_.size());
 }
 
-void TrialRun::wait_and_take_samples(int trial, SessionTime until) noexcept {
+void TrialRun::take(int trial, const TrackerItem& item) noexcept {
+    if (const auto* sample = std::get_if<GazeSample>(&item)) {
+        std::optional<TrackerTime>& last_at = last_at_[sample->eye == Eye::left ? 0 : 1];
+        if (last_at == sample->sampled_at) {
+            ++doubled_count_;
+            return;
+        }
+        last_at = sample->sampled_at;
+        ++sample_count_;
+        lost_count_ += sample->gaze ? 0 : 1;
+        state_.log().sample(trial, *sample);
+    } else if (const auto* pair = std::get_if<ClockPair>(&item)) {
+        watch(*pair);
+        state_.log().clock_pair(*pair);
+    } else {
+        state_.log().tracker_item(trial, item);
+    }
+}
+
+void TrialRun::wait_and_take_items(int trial, SessionTime until) noexcept {
     while (state_.now() < until) {
-        take_samples(trial);
+        take_items(trial);
         state_.ports.clock.wait_until(std::min(until, state_.now() + poll_interval));
     }
-    take_samples(trial);
+    take_items(trial);
 }
 
 void TrialRun::read_clocks() noexcept {
     if (!state_.ports.tracker.measures_gaze())
         return;
     for (int i = 0; i < clock_readings; ++i)
-        state_.log().clock_pair(state_.ports.tracker.read_clocks());
+        if (const std::optional<ClockPair> pair = state_.ports.tracker.read_clocks()) {
+            watch(*pair);
+            state_.log().clock_pair(*pair);
+        }
 }
 
 } // namespace overt

@@ -1,6 +1,7 @@
 /// One attempt at a trial: question, drift check, animation, answer.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -22,23 +23,32 @@ class TrialRun {
         AttemptResult result;
     };
     /// `next`: the stimulus that probably comes after it. `is_practice`: its events are noted outside of
-    /// trials, and no answer is recorded. Throws DeviceError, GraphicsError or RecordError for what breaks
-    /// between its presentations; what happens in one is in the outcome.
+    /// trials, and no answer is recorded. Throws GraphicsError or RecordError for what breaks between its
+    /// presentations; what happens in one, or to the tracker, is in the outcome.
     Attempt run(const Trial& trial, const std::optional<Condition>& next, bool is_practice);
 
   private:
     void ask(const Trial& trial, Attempt& attempt);
     void check_drift(TrialOutcome& outcome);
+    bool start_recording();
+    void watch(const ClockPair& pair) noexcept;
+    void note_what_came(Attempt& attempt);
+    void act_on_tracker(Attempt& attempt);
     void present(const Trial& trial, Attempt& attempt);
     void act_on_pressed_keys(Attempt& attempt);
     void take_answer(const Trial& trial, const std::optional<Condition>& next, bool is_practice,
                      Attempt& attempt);
     void keep_answer(AnswerRecording& recording);
     bool goes_on(const Attempt& attempt) const;
-    void take_samples(int trial) noexcept;
-    void wait_and_take_samples(int trial, SessionTime until) noexcept;
+    void take_items(int trial) noexcept;
+    void take(int trial, const TrackerItem& item) noexcept;
+    void wait_and_take_items(int trial, SessionTime until) noexcept;
     void read_clocks() noexcept;
     void look_at_keys() noexcept;
+    /// To the tracker and to the outputs of markers.
+    void mark(MarkedEvent event, SessionTime at, std::string_view text) noexcept;
+    void mark_flip(const FlipRecord& flip) noexcept;
+    void mark_result(const Trial& trial, const Attempt& attempt);
     void note_disturbance(const Clock::Disturbance& before);
 
     SessionState& state_;
@@ -46,9 +56,17 @@ class TrialRun {
     ScreenPoint screen_centre_;
     PageCycle cycle_;
     RefreshLedger ledger_;
-    std::vector<GazeSample> samples_;                ///< room for one poll
-    std::int64_t sample_count_ = 0, lost_count_ = 0; ///< samples taken, and those without gaze
-    std::optional<ResponsePress> pressed_;           ///< by the operator during a presentation, the first
+    std::vector<TrackerItem> items_;                     ///< room for one poll
+    std::int64_t sample_count_ = 0, lost_count_ = 0;     ///< samples taken, and those without gaze
+    std::optional<ResponsePress> pressed_;               ///< by the operator during a presentation, the first
+    AnimationFrameIndex marked_frame_ = no_frame;        ///< the last whose flip the tracker was told of
+    RecordingState recording_ = RecordingState::running; ///< the first that was not, of this presentation
+    bool has_presented_ = false;                         ///< the recording began
+    std::string why_lost_;                               ///< as the tracker said before it began to record
+    std::array<std::optional<TrackerTime>, 2> last_at_;  ///< of each eye's samples, of this recording
+    std::int64_t doubled_count_ = 0;                     ///< samples that had been taken already
+    std::optional<ClockPair> steady_, suspect_; ///< the last reading on the line, and one that is off it
+    std::optional<SessionDuration> jump_;       ///< of the tracker's clock
 };
 
 } // namespace overt

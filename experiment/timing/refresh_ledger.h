@@ -25,6 +25,9 @@ class RefreshLedger {
     /// What to show next; not if is_complete().
     const PageCycleEntry& next() const noexcept { return cycle_->entry_at(step_); }
 
+    /// For which refresh of the plan that is, from 0.
+    int next_refresh() const noexcept { return step_; }
+
     /// Enters what became of next(). A count that does not go on, as no display should report it, is taken as
     /// the next refresh.
     const FlipRecord& enter(const FlipReport& report) noexcept;

@@ -7,8 +7,10 @@
 
 #include "experiment/base/random.h"
 #include "experiment/box_time.h"
+#include "tests/support/session_times.h"
 
 using namespace overt;
+using namespace overt::test;
 
 // Each machine has a clock type of its own, and so a map of its own: readings of one do not fit the other.
 static_assert(std::is_constructible_v<ClockMap, std::span<const ClockPair>>);
@@ -34,8 +36,6 @@ struct TrackerTruth {
         return {at, tracker_at(read_at), at + SessionDuration(std::llround(trip_ns))};
     }
 };
-
-SessionTime at_s(double seconds) { return SessionTime(from_seconds(seconds)); }
 
 TrackerTruth example_truth(double drift_ppm = 40.0) {
     return {at_s(17.25), TrackerTime(std::chrono::hours(30)), drift_ppm};
@@ -89,7 +89,7 @@ TEST_CASE("with one pair the rate is taken as 1, and the uncertainty grows with 
     const std::vector<ClockPair> pairs{truth.read(at_s(20.0), random, 50.0)};
     const ClockMap map(pairs);
     CHECK(map.drift_ppm() == 0.0);
-    CHECK(map.drift_uncertainty_ppm() == Approx(ClockMap::largest_drift_ppm));
+    CHECK(map.drift_uncertainty_ppm() == Approx(ClockMapOf<TrackerClock>::largest_drift_ppm));
     const MappedTime first = map.to_session(pairs[0].other);
     CHECK(first.time >= pairs[0].before);
     CHECK(first.time <= pairs[0].after);
@@ -123,7 +123,7 @@ TEST_CASE("where the rate is not known, it makes the offset of the pairs uncerta
             {at_s(20.0 + 0.001 * ms), tracker_time(5'000'000 + 1000 * ms), at_s(20.0 + 0.001 * ms)});
     const ClockMap map(pairs);
     CHECK(map.drift_ppm() == 0.0);
-    CHECK(map.drift_uncertainty_ppm() == Approx(ClockMap::largest_drift_ppm));
+    CHECK(map.drift_uncertainty_ppm() == Approx(ClockMapOf<TrackerClock>::largest_drift_ppm));
     CHECK(map.to_session(tracker_time(5'005'000)).uncertainty == std::chrono::nanoseconds(3000));
     CHECK(map.to_session(tracker_time(6'005'000)).uncertainty == std::chrono::nanoseconds(203'000));
 }
@@ -158,4 +158,47 @@ TEST_CASE("a rate that was not constant widens the uncertainty until every pair 
             was_needed || std::chrono::abs(mapped.time - pair.before) > std::chrono::microseconds(50);
     }
     CHECK(was_needed);
+}
+
+TEST_CASE("over a link with 5 ms of jitter, 50 ppm come back within what is stated", "[unit]") {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        RandomStream random(seed, "jitter of a link");
+        const TrackerTruth truth = example_truth(seed % 2 == 0 ? 50.0 : -50.0);
+        std::vector<ClockPair> pairs;
+        // Once a second for ten minutes, each way anything up to 5 ms.
+        for (int i = 0; i < 600; ++i) {
+            const SessionTime before = at_s(20.0 + i);
+            const SessionTime read_at = before + from_seconds(random.uniform(0.0, 0.005));
+            pairs.push_back(
+                {before, truth.tracker_at(read_at), read_at + from_seconds(random.uniform(0.0, 0.005))});
+        }
+        const ClockMap map(pairs);
+        CHECK(std::abs(map.drift_ppm() - truth.drift_ppm) <= map.drift_uncertainty_ppm());
+        CHECK(std::abs(map.drift_ppm() - truth.drift_ppm) < 3.0);
+        for (double at = 20.0; at <= 620.0; at += 7.0) {
+            const MappedTime mapped = map.to_session(truth.tracker_at(at_s(at)));
+            CHECK(std::chrono::abs(mapped.time - at_s(at)) <= mapped.uncertainty);
+            CHECK(std::chrono::abs(mapped.time - at_s(at)) < std::chrono::microseconds(1500));
+        }
+    }
+}
+
+TEST_CASE("arrivals alone bound a clock by the longest delay", "[unit]") {
+    // Of a tracker that cannot be asked, a sample was taken at most 8 ms before it arrived.
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        RandomStream random(seed, "one way");
+        const TrackerTruth truth = example_truth(50.0);
+        std::vector<ClockPair> pairs;
+        for (int i = 0; i < 600; ++i) {
+            const SessionTime sampled = at_s(20.0 + i);
+            const SessionTime arrived = sampled + from_seconds(random.uniform(0.003, 0.008));
+            pairs.push_back({arrived - from_seconds(0.008), truth.tracker_at(sampled), arrived});
+        }
+        const ClockMap map(pairs);
+        CHECK(std::abs(map.drift_ppm() - 50.0) <= map.drift_uncertainty_ppm());
+        for (double at = 20.0; at <= 620.0; at += 7.0) {
+            const MappedTime mapped = map.to_session(truth.tracker_at(at_s(at)));
+            CHECK(std::chrono::abs(mapped.time - at_s(at)) <= mapped.uncertainty);
+        }
+    }
 }

@@ -30,7 +30,8 @@ TEST_CASE("a record's rows are those of its samples and flips, whatever is answe
     CHECK(twenty.rows - ten.rows == Approx(10 * (16000 * 42.0 + 960 * 52.0)));
     CHECK(twenty.maps == ten.maps);
     CHECK(ten.maps == Approx(31 * 1024.0 * 1024.0 / 2.0));
-    CHECK(ten.pictures == Approx(3 * 1024.0 * 1024.0 / 2.0));
+    // Of three materials: a picture, and its light in 128 x 128 squares in each pose.
+    CHECK(ten.pictures == Approx(3 * (1024.0 * 1024.0 + 31 * 128 * 128) / 2.0));
     CHECK(ten.meshes == Approx(1000 * 12 + 2000 * 14));
     CHECK(ten.answers == 0.0);
     CHECK(ten.total() == Approx(ten.rows + ten.maps + ten.meshes + ten.pictures));
@@ -41,7 +42,7 @@ TEST_CASE("a record's rows are those of its samples and flips, whatever is answe
 
 TEST_CASE("without a tracker there are flips alone, and spoken answers take their limits", "[unit]") {
     Protocol protocol = paper_protocol();
-    protocol.tracker.kind = TrackerKind{1};
+    protocol.tracker.kind = tracker_kind_called("none");
     const RecordingSize without = recording_size(protocol, one_sculpture(), 9, 5.0);
     CHECK(without.rows == Approx(300e3 + 10 * 960 * 52.0));
     protocol.answers.record = AnswerUse::required;

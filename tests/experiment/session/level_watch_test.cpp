@@ -1,12 +1,12 @@
 #include "experiment/session/level_watch.h"
 
 #include "tests/experiment/record/plain_session.h"
+#include "tests/support/session_times.h"
 
 using namespace overt;
+using namespace overt::test;
 
 namespace {
-
-SessionTime at_s(double seconds) { return SessionTime(from_seconds(seconds)); }
 
 /// Bars of `seconds` of the same level, looked at every four milliseconds.
 std::vector<LevelBar> bars_of(LevelWatch& watch, const AudioLevel& level, double from_s, double seconds) {

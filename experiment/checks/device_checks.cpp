@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/checks/protocol_checks.h"
+#include "experiment/ports/button_meaning.h"
+#include "experiment/protocol/marker_codes.h"
+
+namespace overt {
+namespace {
+
+constexpr double longest_t_lock_ms = 24.8; // 248 slots of 0.1 ms
+
+template <class Entry>
+void check_device_ids(ProtocolExamination& examination, std::string_view list,
+                      const std::vector<Entry>& entries) {
+    std::set<std::string_view> ids;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+        if (!entries[i].id.empty() && !ids.insert(entries[i].id).second)
+            examination.error({fmt::format("{}[{}].id", list, i)},
+                              fmt::format("id \"{}\" is taken already", entries[i].id));
+}
+
+bool says(const std::vector<ButtonMeaning>& meanings, ResponsePress::Key key) {
+    return std::ranges::find(meanings, key, &ButtonMeaning::key) != meanings.end();
+}
+
+/// Gives what the buttons mean, as far as that can be read.
+std::vector<ButtonMeaning> check_button_box(ProtocolExamination& examination, std::size_t index) {
+    const Protocol& protocol = examination.protocol;
+    const ButtonBoxSettings& box = protocol.button_boxes[index];
+    const auto path = [&](std::string_view key) { return fmt::format("button_box[{}].{}", index, key); };
+    std::vector<ButtonMeaning> meanings;
+    std::set<std::string> named;
+    for (const std::string& text : box.buttons) {
+        try {
+            meanings.push_back(parse_button_meaning(text, box.is_operators()));
+        } catch (const InputError& fault) {
+            examination.error({path("buttons")}, fault.what());
+            continue;
+        }
+        if (!named.insert(meanings.back().button).second)
+            examination.error({path("buttons")},
+                              fmt::format("the button {} has two meanings", meanings.back().button));
+    }
+    if (box.is_operators() && box.buttons.empty())
+        examination.error({path("used_by")}, "an operator's box needs \"buttons\": none would do anything",
+                          "such as buttons = [\"1 pause\", \"2 yes\", \"3 no\"]");
+    if (box.kind == ButtonBoxKind::hid && box.address.empty())
+        examination.error({path("kind")}, "a box of kind hid needs its \"address\"",
+                          "vendor:product as lsusb shows them, or /dev/hidrawN; overt doctor lists them");
+    if (box.kind == ButtonBoxKind::cb6) {
+        if (!box.address.empty())
+            examination.error({path("address")},
+                              "a CB6 is read through the box of [display]: it has no address");
+        if (!has_t_lock(protocol.display.output) || protocol.display.box == "none")
+            examination.error({path("kind"), "display.output", "display.box"},
+                              "a CB6 is read through a Display++ or Bits#, and this session has none",
+                              "take output = \"mono++\", \"color++\" or \"bits++\" and a box in [display]");
+    }
+    return meanings;
+}
+
+void check_who_answers(ProtocolExamination& examination, const std::vector<ButtonMeaning>& observers,
+                       bool any_button_goes_on) {
+    const Protocol& protocol = examination.protocol;
+    if (protocol.operators.keyboard_answers)
+        return;
+    if (!any_button_goes_on && !says(observers, ResponsePress::Key::next))
+        examination.error({"operator.keyboard_answers"},
+                          "nothing would answer for the observer: no [[button_box]] of theirs goes on",
+                          "add a [[button_box]] with used_by = \"observer\"");
+    if (!protocol.consent.text.empty() &&
+        !(says(observers, ResponsePress::Key::yes) && says(observers, ResponsePress::Key::no)))
+        examination.error({"operator.keyboard_answers"},
+                          "the observer could not agree or decline: no button says yes and no",
+                          "map both in \"buttons\" of the observer's [[button_box]]");
+}
+
+void check_codes(ProtocolExamination& examination, std::size_t index) {
+    const MarkerOutputSettings& output = examination.protocol.marker_outputs[index];
+    const auto check = [&](std::string_view key, auto keep) {
+        MarkerOutputSettings alone = output;
+        keep(alone);
+        try {
+            MarkerCodes(examination.protocol, alone);
+        } catch (const InputError& fault) {
+            examination.error({fmt::format("marker_output[{}].{}", index, key)}, fault.what());
+            return false;
+        }
+        return true;
+    };
+    if (check("codes", [](MarkerOutputSettings& one) { one.condition_codes = one.refresh_codes = {}; }))
+        check("condition_codes", [](MarkerOutputSettings& one) { one.refresh_codes = {}; });
+    check("refresh_codes", [](MarkerOutputSettings& one) { one.codes = one.condition_codes = {}; });
+}
+
+void check_t_lock(ProtocolExamination& examination, std::size_t index) {
+    const Protocol& protocol = examination.protocol;
+    const MarkerOutputSettings& output = protocol.marker_outputs[index];
+    const auto path = [&](std::string_view key) { return fmt::format("marker_output[{}].{}", index, key); };
+    if (!has_t_lock(protocol.display.output))
+        examination.error({path("kind"), "display.output"},
+                          fmt::format("{} carries no digital outputs", name_of(protocol.display.output)),
+                          "take output = \"mono++\", \"color++\" or \"bits++\"");
+    if (protocol.display.onset_trigger != 0)
+        examination.error({"display.onset_trigger", path("kind")},
+                          "the digital outputs are those of a [[marker_output]] already",
+                          "write its code there: codes = [\"onset …\"]");
+    if (output.pulse_ms <= 0.0 || output.pulse_ms > longest_t_lock_ms)
+        examination.error({path("pulse_ms")}, "a pulse of t-lock lasts more than 0 and at most 24.8 ms");
+    for (const std::string& code : output.codes)
+        if (!code.starts_with("onset ") && !code.starts_with("frame "))
+            examination.error(
+                {path("codes")},
+                fmt::format("\"{}\": t-lock rides on the refreshes of the animation and marks onset "
+                            "and frame alone",
+                            code));
+    for (std::size_t other = 0; other < index; ++other)
+        if (protocol.marker_outputs[other].kind == MarkerOutputKind::t_lock)
+            examination.error({path("kind")}, "there is one output of kind t-lock already");
+}
+
+void check_marker_output(ProtocolExamination& examination, std::size_t index) {
+    const MarkerOutputSettings& output = examination.protocol.marker_outputs[index];
+    const auto path = [&](std::string_view key) { return fmt::format("marker_output[{}].{}", index, key); };
+    check_codes(examination, index);
+    const bool has_byte =
+        output.kind == MarkerOutputKind::serial || output.kind == MarkerOutputKind::parallel;
+    if (output.kind == MarkerOutputKind::t_lock)
+        check_t_lock(examination, index);
+    else if (!output.refresh_codes.empty())
+        examination.error({path("refresh_codes")}, "only outputs of kind t-lock are bound to refreshes");
+    if (output.kind != MarkerOutputKind::lsl && output.codes.empty() && output.refresh_codes.empty())
+        examination.error({path("kind")}, "nothing would be marked: \"codes\" are missing",
+                          "such as codes = [\"onset 10\", \"response 2\"]");
+    if (output.kind == MarkerOutputKind::lsl && !(output.codes.empty() && output.condition_codes.empty()))
+        examination.warning({path("codes"), path("condition_codes")},
+                            "codes have no effect: lsl tells texts, and all of them");
+    if (output.kind == MarkerOutputKind::serial && output.address.empty())
+        examination.error({path("kind")}, "an output of kind serial needs its \"address\"",
+                          "such as address = \"/dev/ttyUSB0\"");
+    if (!has_byte && !output.address.empty())
+        examination.error({path("address")}, "only serial and parallel outputs have an address");
+    if (output.kind != MarkerOutputKind::serial && examination.is_written(path("baud")))
+        examination.error({path("baud")}, "only serial outputs have a speed");
+    if (output.kind != MarkerOutputKind::lsl && !output.library.empty())
+        examination.error({path("library")}, "only outputs of kind lsl need a library");
+}
+
+} // namespace
+
+void check_devices(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    check_device_ids(examination, "button_box", protocol.button_boxes);
+    check_device_ids(examination, "marker_output", protocol.marker_outputs);
+    std::vector<ButtonMeaning> observers;
+    bool any_button_goes_on = false;
+    for (std::size_t i = 0; i < protocol.button_boxes.size(); ++i) {
+        const std::vector<ButtonMeaning> meanings = check_button_box(examination, i);
+        if (protocol.button_boxes[i].is_operators())
+            continue;
+        observers.insert(observers.end(), meanings.begin(), meanings.end());
+        any_button_goes_on = any_button_goes_on || protocol.button_boxes[i].buttons.empty();
+    }
+    check_who_answers(examination, observers, any_button_goes_on);
+    for (std::size_t i = 0; i < protocol.marker_outputs.size(); ++i)
+        check_marker_output(examination, i);
+}
+
+} // namespace overt

@@ -1,0 +1,47 @@
+/// Which code an output of markers has for an event, as its [[marker_output]] says.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "experiment/protocol/protocol.h"
+#include "experiment/trial.h"
+
+namespace overt {
+
+/// What is marked of a trial.
+enum class MarkedEvent : std::uint8_t { trial, onset, frame, end, response, result };
+template <>
+inline constexpr auto names_of<MarkedEvent> = enum_names<MarkedEvent>("trial", "onset", "frame", "end",
+                                                                      "response", "result");
+
+/// A code that a refresh of the animation has.
+struct RefreshCode {
+    int refresh = 0; ///< from 0
+    int code = 0;
+};
+
+class MarkerCodes {
+  public:
+    /// Throws InputError for entries that cannot be read, name what is not in the protocol, or make a code
+    /// beyond largest_code().
+    MarkerCodes(const Protocol& protocol, const MarkerOutputSettings& output);
+
+    /// 0: none. Of an onset, with what the trial's condition adds.
+    int code_of(MarkedEvent event, const Trial& trial) const noexcept;
+    /// In the order of refreshes.
+    std::span<const RefreshCode> refresh_codes() const noexcept { return refreshes_; }
+
+  private:
+    std::array<int, names_of<MarkedEvent>.size()> events_{};
+    std::vector<int> tasks_, sculptures_, materials_; ///< by index
+    std::vector<RefreshCode> refreshes_;
+};
+
+/// 255 of a byte; the ten digital outputs of a Display++ carry 1023.
+constexpr int largest_code(MarkerOutputKind kind) { return kind == MarkerOutputKind::t_lock ? 1023 : 255; }
+
+} // namespace overt

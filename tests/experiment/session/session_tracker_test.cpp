@@ -1,0 +1,164 @@
+/// What a session makes of its eye tracker: calibrations that are poor or fail, trials that the tracker ends,
+/// a tracker that is lost, and what it is told.
+#include <catch2/catch.hpp>
+
+#include "tests/experiment/record/plain_session.h"
+
+using namespace overt;
+using namespace overt::test;
+using Catch::Matchers::Contains;
+using Pressed = ResponsePress::Key;
+
+namespace {
+
+SetupOutcome validated(double mean_deg, double max_deg) {
+    return {SetupOutcome::Kind::done,
+            ValidationResult{{mean_deg},
+                             {max_deg},
+                             {{Eye::right, {100.0, 200.0}, ScreenPoint{110.0, 200.0}, {max_deg}, {}, {}}}},
+            "tracker",
+            {}};
+}
+
+/// Answers the operator's questions in this order, then with yes.
+void decide(Sitting& sitting, std::vector<Pressed> answers) {
+    sitting.panel.tell =
+        [answers, next = std::size_t{0}](ScriptedPanel& panel) mutable -> std::optional<ResponsePress> {
+        if (!panel.is_deciding() || next >= answers.size())
+            return std::nullopt;
+        return ResponsePress{answers[next++], {}};
+    };
+}
+
+} // namespace
+
+TEST_CASE("a validation within the limits goes on by itself and is recorded target by target", "[unit]") {
+    Sitting sitting(short_protocol("[calibration]\nmean_limit_deg = 0.5\nmax_limit_deg = 1\n"));
+    sitting.tracker.set_ups = {validated(0.5, 1.0)};
+    CHECK(sitting.run().completed_trials == 2);
+    REQUIRE(sitting.log.calibrations.size() == 1);
+    CHECK(sitting.log.calibrations[0].is_within_limits);
+    CHECK(sitting.log.calibrations[0].validation.targets.size() == 1);
+    CHECK(sitting.log.calibrations[0].method == "tracker");
+    CHECK(sitting.log.count("operator asked") == 0);
+}
+
+TEST_CASE("a validation beyond a limit is shown, and the operator decides", "[unit]") {
+    const Protocol protocol = short_protocol("[calibration]\nmean_limit_deg = 0.5\nmax_limit_deg = 1\n");
+    for (const SetupOutcome& poor : {validated(0.51, 0.9), validated(0.4, 1.01)}) {
+        Sitting sitting(protocol);
+        sitting.tracker.set_ups = {poor, poor};
+        decide(sitting, {Pressed::no, Pressed::yes});
+        CHECK(sitting.run().completed_trials == 2);
+        CHECK(sitting.tracker.calibrations == 2);
+        REQUIRE(sitting.log.calibrations.size() == 1);
+        CHECK_FALSE(sitting.log.calibrations[0].is_within_limits);
+        CHECK(sitting.log.details_of("operator").front() ==
+              "goes on with a validation that is poorer than the protocol allows");
+        const auto shown = std::ranges::count_if(sitting.presenter.screens, [](const Screen& screen) {
+            return screen.kind == Screen::Kind::validation && screen.validated.size() == 1;
+        });
+        CHECK(shown == 2);
+    }
+}
+
+TEST_CASE("a session does not go on uncalibrated", "[unit]") {
+    for (const SetupOutcome::Kind kind : {SetupOutcome::Kind::cancelled, SetupOutcome::Kind::failed}) {
+        Sitting again(short_protocol(""));
+        again.tracker.set_ups = {{kind, {}, {}, "no eye"}};
+        CHECK(again.run().completed_trials == 2); // the operator says yes: calibrate again
+        CHECK(again.tracker.calibrations == 2);
+        CHECK(again.log.details_of("calibration failed") == std::vector<std::string>{"no eye"});
+
+        Sitting ended(short_protocol(""));
+        ended.tracker.set_ups = {{kind, {}, {}, "no eye"}};
+        decide(ended, {Pressed::no});
+        const SessionResult result = ended.run();
+        CHECK(result.aborted);
+        CHECK(result.reason == "the eye tracker was not calibrated");
+        CHECK(ended.log.started.empty());
+    }
+}
+
+TEST_CASE("what is decided at the tracker's host becomes of the trial", "[unit]") {
+    for (const RecordingState state : {RecordingState::repeat, RecordingState::skip, RecordingState::abort}) {
+        Sitting sitting(short_protocol(""));
+        sitting.tracker.says = [state](int recording) {
+            return recording == 0 ? state : RecordingState::running;
+        };
+        const SessionResult result = sitting.run();
+        REQUIRE_FALSE(sitting.log.outcomes.empty());
+        CHECK_FALSE(sitting.log.completed[0]);
+        CHECK(sitting.log.outcomes[0].shown_refreshes == 1); // it is seen after the first flip
+        CHECK(sitting.log.count("presentation broken off") == 1);
+        if (state == RecordingState::repeat)
+            CHECK(sitting.log.started == std::vector<int>{0, 0, 1});
+        if (state == RecordingState::skip)
+            CHECK(sitting.log.started == std::vector<int>{0, 1});
+        CHECK(result.aborted == (state == RecordingState::abort));
+        if (result.aborted)
+            CHECK(result.reason == "aborted at the eye tracker");
+        else
+            CHECK(result.completed_trials == (state == RecordingState::repeat ? 2 : 1));
+    }
+}
+
+TEST_CASE("a tracker that is lost in a trial is asked for, connected and calibrated again", "[unit]") {
+    Sitting sitting(short_protocol(""));
+    sitting.tracker.says = [](int recording) {
+        return recording == 0 ? RecordingState::lost : RecordingState::running;
+    };
+    sitting.tracker.refused_reconnections = 1;
+    CHECK(sitting.run().completed_trials == 2);
+    CHECK(sitting.tracker.reconnections == 2);
+    CHECK(sitting.tracker.calibrations == 2);
+    CHECK_FALSE(sitting.log.completed[0]);
+    CHECK(sitting.log.details_of("eye tracker lost") ==
+          std::vector<std::string>{"", "it is still not there"});
+    CHECK(sitting.log.count("eye tracker regained") == 1);
+
+    Sitting ended(short_protocol(""));
+    ended.tracker.says = [](int) { return RecordingState::lost; };
+    decide(ended, {Pressed::no});
+    const SessionResult result = ended.run();
+    CHECK(result.aborted);
+    CHECK(result.reason == "the eye tracker was lost");
+    CHECK(ended.tracker.reconnections == 0);
+}
+
+TEST_CASE("a drift check that asks for a set-up calibrates and begins the trial anew", "[unit]") {
+    Sitting sitting(short_protocol(""));
+    sitting.tracker.set_ups_wanted = 1;
+    CHECK(sitting.run().completed_trials == 2);
+    CHECK(sitting.tracker.calibrations == 2);
+    CHECK(sitting.log.started == std::vector<int>{0, 0, 1});
+}
+
+TEST_CASE("a tracker is told of trials, onsets, frames and results at the times of their flips", "[unit]") {
+    Sitting sitting(short_protocol(""));
+    REQUIRE(sitting.run().completed_trials == 2);
+    std::vector<std::string> texts;
+    for (const auto& [at, text] : sitting.tracker.marks)
+        texts.push_back(text);
+    const auto begin = std::ranges::find(texts, "TRIALID 1"), second = std::ranges::find(texts, "TRIALID 2");
+    REQUIRE(begin != texts.end());
+    REQUIRE(second > begin);
+    const auto onset = std::find(begin, second, "SYNCTIME");
+    REQUIRE(onset != second);
+    CHECK(*std::next(onset) == "FRAME 0");
+    CHECK(sitting.tracker.marks[static_cast<std::size_t>(onset - texts.begin())].first ==
+          sitting.log.outcomes[0].presentation_onset);
+    // 0.1 s at 30 frames a second, each said once.
+    for (const char* const frame : {"FRAME 0", "FRAME 1", "FRAME 2"})
+        CHECK(std::count(begin, second, frame) == 1);
+    CHECK(std::count(begin, second, "PRESENTATION_END") == 1);
+    const auto tells = [&](const std::string& beginning) {
+        return std::count_if(begin, second,
+                             [&](const std::string& text) { return text.starts_with(beginning); });
+    };
+    for (const char* const name : {"task", "sculpture", "material", "missed_refreshes"})
+        CHECK(tells(std::string("!V TRIAL_VAR ") + name + " ") == 1);
+    CHECK(std::count(begin, second, "TRIAL_RESULT 0") == 1);
+    for (const std::string& text : texts)
+        CHECK(text.size() <= longest_mark);
+}
