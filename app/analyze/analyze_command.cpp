@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -20,11 +21,12 @@ namespace {
 
 struct AnalyzeOptions {
     std::vector<std::filesystem::path> sessions;
-    std::filesystem::path out = "analysis";
+    std::filesystem::path out; ///< empty: "analysis", of shards "shards"
     StudyOptions study;
-    std::string by, sigma = "1deg", kernel = "geodesic", format = "csv";
+    std::optional<std::string> compare; ///< nothing: the usual one, where it makes groups
+    std::string by, sigma = "1deg", kernel = "geodesic", format = "csv", shard;
     bool overwrite = false;
-    bool with_meshes = false;
+    StudyExtras extras;
     bool json = false;
 };
 
@@ -40,7 +42,7 @@ std::vector<std::string> listed(const std::string& text) {
     return items;
 }
 
-void print_summary(const StudyResults& results, const std::filesystem::path& out) {
+void print_summary(const StudyResults& results, const std::filesystem::path& out, TableFormat format) {
     const StudyGlance& glance = results.glance;
     fmt::print("{}\n{}, {}, {} ({} excluded), {} samples\n", glance.title,
                counted(glance.observers, "observer"), counted(glance.sessions, "session"),
@@ -67,29 +69,89 @@ void print_summary(const StudyResults& results, const std::filesystem::path& out
             fmt::print(" ({:.3f} … {:.3f})", row.corrected.interval->low, row.corrected.interval->high);
         fmt::print("\n");
     }
-    fmt::print("analysis: {}\n", out.string());
+    fmt::print("analysis: {0}\n"
+               "open next: {0}/report.html in a browser; all tables are explained in {0}/dictionary.json;\n"
+               "           Rscript {0}/mixed_models.R fits mixed models, {0}/reporting.{1} lists what an "
+               "article has to "
+               "report\n",
+               out.string(), ending_of(format));
+}
+
+/// Whether shards were given, and not sessions.
+bool are_shards(const AnalyzeOptions& options) {
+    const auto is_one = [](const std::filesystem::path& folder) { return is_shard(folder); };
+    const auto first = std::ranges::find_if(options.sessions, is_one);
+    if (first == options.sessions.end())
+        return false;
+    const auto other = std::ranges::find_if_not(options.sessions, is_one);
+    if (other != options.sessions.end())
+        throw InputError(
+            fmt::format("{} is a shard and {} is none: give the shards of a study, or its sessions.",
+                        first->string(), other->string()));
+    return true;
+}
+
+int run_shard(const AnalyzeOptions& options) {
+    if (are_shards(options))
+        throw InputError("--shard reads sessions, and shards were given: leave it out to join them.");
+    const Shard which = shard_called(options.shard);
+    const std::filesystem::path out = (options.out.empty() ? "shards" : options.out) /
+                                      fmt::format("shard_{}_of_{}", which.number, which.count);
+    const Interruption interruption;
+    std::filesystem::create_directories(out.parent_path());
+    ExportFolder folder(out, options.overwrite,
+                        [](const std::string& file) { return file == shard_file_name; });
+    StudyShard shard = shard_of(options.sessions, which, options.study);
+    int trials = 0;
+    std::int64_t samples = 0;
+    for (const ReadSession& session : shard.read) {
+        for (const ReadTrial& trial : session.trials) {
+            trials += trial.samples > 0;
+            samples += trial.samples;
+        }
+    }
+    const std::string what = fmt::format("shard {} of {}: {} of {}, {}, {} samples", which.number,
+                                         which.count, counted(static_cast<int>(shard.read.size()), "session"),
+                                         shard.sessions.size(), counted(trials, "trial"), samples);
+    write_shard(folder.path(), std::move(shard));
+    folder.publish();
+    fmt::print("{}\n{}\nwhen all are there: overt analyze {}/shard_*_of_{} --out analysis\n", what,
+               out.string(), out.parent_path().string(), which.count);
+    return 0;
 }
 
 int run_analyze(AnalyzeOptions options) {
     options.study.by = listed(options.by);
+    if (options.compare) {
+        if (std::ranges::find(options.study.by, *options.compare) == options.study.by.end())
+            throw InputError(fmt::format("--compare {}: takes one of the columns of --by, which are {}",
+                                         *options.compare, fmt::join(options.study.by, ", ")));
+        options.study.compare = *options.compare;
+    }
     options.study.sigma = kernel_width(options.sigma);
     for (std::size_t i = 0; i < names_of<MapKernel>.size(); ++i) {
         if (names_of<MapKernel>[i] == options.kernel)
             options.study.kernel = static_cast<MapKernel>(i);
     }
+    if (!options.shard.empty())
+        return run_shard(options);
+    if (options.out.empty())
+        options.out = "analysis";
     TableFormat format = TableFormat::csv;
     for (const TableFormat one : {TableFormat::tsv, TableFormat::csv, TableFormat::jsonl}) {
         if (options.format == ending_of(one))
             format = one;
     }
     const Interruption interruption;
+    const bool joins = are_shards(options);
     StudyFolder folder(options.out, options.overwrite);
-    const StudyResults results = analyzed(options.sessions, options.study);
-    folder.publish(results, format, options.with_meshes ? StudyMeshes::written : StudyMeshes::left_out);
+    const StudyResults results =
+        joins ? analyzed_shards(options.sessions, options.study) : analyzed(options.sessions, options.study);
+    folder.publish(results, format, options.extras);
     if (options.json)
         fmt::print("{}", study_json(results));
     else
-        print_summary(results, options.out);
+        print_summary(results, options.out, format);
     return 0;
 }
 
@@ -102,9 +164,10 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
             "a field of the observer's form")
         ->default_str("task,sculpture,material")
         ->type_name("COLUMNS");
-    command.add_option("--compare", study.compare, "Column whose levels are compared within observers")
+    command
+        .add_option("--compare", options.compare, "Column of --by whose levels are compared within observers")
         ->type_name("COLUMN")
-        ->capture_default_str();
+        ->default_str(study.compare);
     command
         .add_option("--sigma", options.sigma,
                     "Standard deviation of the maps' kernel, such as 1deg (converted at the depth of each "
@@ -184,14 +247,27 @@ void add_analyze_command(CLI::App& app, ChosenCommand& chosen) {
         "overt analyze sessions/overt_2019/* --out analysis\n"
         "  overt analyze sessions/overt_2019/* --by task,handedness --sigma 30mm --out by_hand\n"
         "  overt analyze sessions/overt_2019/sub-07_ses-01 --most-lost 0.2 --json --out one_observer\n"
+        "  overt analyze sessions/overt_2019/* --shard 3/16     on the third of 16 machines, then\n"
+        "  overt analyze shards/* --out analysis\n"
         "Exit codes: 0 done, 1 failed, 2 bad input.");
-    command.add_option("SESSION", options.sessions, "Folders of sessions")->required();
-    command.add_option("--out", options.out, "Folder to write to")->type_name("DIR")->capture_default_str();
+    command.add_option("SESSION", options.sessions, "Folders of sessions, or of all shards of a study")
+        ->required();
+    command.add_option("--out", options.out, "Folder to write to; with --shard, the folder of all shards")
+        ->type_name("DIR")
+        ->default_str("analysis; with --shard: shards");
+    command
+        .add_option("--shard", options.shard,
+                    "Only read the part of machine I of N, I from 1, of these sessions; giving all shards in "
+                    "place of the sessions joins them")
+        ->type_name("I/N");
     add_study_options(command, options);
     command.add_option("--format", options.format, "Of the tables")
         ->check(CLI::IsMember({"csv", "tsv", "jsonl"}))
         ->capture_default_str();
-    command.add_flag("--meshes", options.with_meshes, "Write each map as a coloured mesh, too (GLB and PLY)");
+    command.add_flag("--meshes", options.extras.meshes,
+                     "Write each map as a coloured mesh, too (GLB and PLY)");
+    command.add_flag("--volumes", options.extras.volumes,
+                     "Write each map in space, too, as voxels (NRRD) and as a table of coordinates (.cube)");
     command.add_flag("--overwrite", options.overwrite, "Replace an analysis that is there");
     command.add_flag("--json", options.json, "Print the study as JSON");
     run_when_chosen(command, chosen, [given] { return run_analyze(*given); });

@@ -135,6 +135,7 @@ class ReplicaSessions {
                                            "--seed",
                                            fmt::format("{}", replica.seed),
                                            "--virtual-time",
+                                           "--no-pictures",
                                            "--sessions",
                                            folder_.string()};
         if (options_->context) {
@@ -166,10 +167,10 @@ class ReplicaSessions {
     std::vector<Replica> replicas_;
 };
 
-void make_stimuli(const Experiment& experiment, const ReplicateOptions& options) {
+void make_maps_of_stimuli(const Experiment& experiment, const ReplicateOptions& options) {
     const auto context = make_headless_context(options.context);
     StimulusLibrary library(*context, experiment.protocol, experiment.sculptures, cache_folder());
-    prepare_stimuli(library, MapsNow::made, experiment.protocol.bake.least(false));
+    prepare_maps_alone(library, MapsNow::made, experiment.protocol);
 }
 
 /// How many intervals hold the planted fraction, of those that there are.
@@ -226,13 +227,13 @@ int run_replicate(const ReplicateOptions& options) {
     fs::create_directories(options.out);
     StudyFolder folder(analysis, options.overwrite);
     const Interruption interruption;
-    make_stimuli(experiment, options);
+    make_maps_of_stimuli(experiment, options);
     replicas.run();
     StudyOptions study;
     study.seed = options.seed;
     StudyResults results = analyzed(replicas.sessions(), study);
     add_planted_truth(results, experiment, replicas.seeds());
-    folder.publish(results, TableFormat::csv, StudyMeshes::left_out);
+    folder.publish(results, TableFormat::csv, {});
     if (options.json)
         fmt::print("{}", study_json(results));
     else

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <span>
 
+#include "app/cli/shard.h"
 #include "experiment/base/export_folder.h"
 #include "experiment/record/tables/table_writer.h"
 #include "experiment/study/study_options.h"
+#include "experiment/study/study_shard.h"
 
 namespace overt {
 
@@ -14,8 +16,20 @@ namespace overt {
 /// Error. Throws as analyze_study does.
 StudyResults analyzed(std::span<const std::filesystem::path> sessions, const StudyOptions& options);
 
-/// Whether coloured meshes of all maps are written, too, which take gigabytes for a large study.
-enum class StudyMeshes : std::uint8_t { left_out, written };
+/// Reads that part of the study's sessions, with progress. Throws InputError if a session is named twice, and
+/// as read_sessions does.
+StudyShard shard_of(std::span<const std::filesystem::path> sessions, const Shard& which,
+                    const StudyOptions& options);
+
+/// The study of all its shards' folders, in any order: the same as analyzed() of its sessions. Throws as
+/// read_shard, joined_shards and join_sessions do.
+StudyResults analyzed_shards(std::span<const std::filesystem::path> folders, const StudyOptions& options);
+
+/// What is written besides tables, figures and report: it can take gigabytes for a large study.
+struct StudyExtras {
+    bool meshes = false;  ///< each map as a coloured mesh
+    bool volumes = false; ///< each map in space, as voxels and as a look-up table
+};
 
 class StudyFolder {
   public:
@@ -23,7 +37,7 @@ class StudyFolder {
     StudyFolder(const std::filesystem::path& directory, bool overwrite);
 
     /// Writes everything and gives the folder its name. Throws RecordError.
-    void publish(const StudyResults& results, TableFormat format, StudyMeshes meshes);
+    void publish(const StudyResults& results, TableFormat format, const StudyExtras& extras);
 
   private:
     ExportFolder folder_;

@@ -181,14 +181,14 @@ draw_legend(panels);
   for (const row of charted) {
     const name = row.keys.length === 1 ? row.keys[0][0] : row.keys[0][1];
     if (!clusters.has(name)) clusters.set(name, []);
-    clusters.get(name).push({label: row.keys.length === 1 ? row.keys[0][1] : short(row.keys.slice(1)), estimate: row.count});
+    clusters.get(name).push({label: row.keys.length === 1 ? row.keys[0][1] : short(row.keys.slice(1)), estimate: row.count, each: row.each});
   }
   if (rows.length) {
     by_id('figure4_chart').append(bars([...clusters].map(([name, list]) => ({name, bars: list})),
                                        {y_label: 'share of fixations on the head', most: 1, label: 'Figure 4: share of fixations on the head'}));
     by_id('figure4_table').append(table([{text: 'condition'}, 'by count, mean over observers', 'by duration', 'corrected for tracker error', 'pooled', 'observers', 'trials', 'fixations'],
         rows.map(r => [words(r.keys), estimate_text(r.count), estimate_text(r.duration), estimate_text(r.corrected), digits(r.pooled), r.observers, r.trials, r.fixations]),
-        `In brackets the ${level} over observers. Pooled: all fixations as if they were independent, as in the paper's figure 4. The paper's numbers are raw shares (by count, pooled); corrected: the share under which the measured places are most probable, given the tracker's error.`));
+        `Dots: single observers. In brackets the ${level} over observers. Pooled: all fixations as if they were independent, as in the paper's figure 4. The paper's numbers are raw shares (by count, pooled); corrected: the share under which the measured places are most probable, given the tracker's error.`));
   } else by_id('figure4_chart').append(element('p', {class: 'note'}, 'No sculpture has a part named "head".'));
 }
 
@@ -277,6 +277,49 @@ draw_figure5();
       'Root mean squares over the fixations, along the surface. Accuracy: the gaze cone of the validation before each trial. Precision: of a single sample (RMS-S2S divided by the root of 2). ' +
       'Timing: uncertainty of the clocks times the speed of the surface under gaze. An edge is where the sculpture ends or another sheet of it begins.'));
   by_id('metrics').hidden = !t.exposures.length && !t.predictions.length && !t.reliabilities.length && !errors.length;
+}
+
+// Effects of the factors.
+{
+  const rows = data.tables.effects;
+  if (rows.length) by_id('effects_body').append(
+      table([{text: 'measure'}, {text: 'effect'}, 'p', 'p after Holm', 'observers', {text: 'remark'}],
+            rows.map(r => [r.measure, r.effect.replace(':', ' × '), digits(r.p), digits(r.holm), r.observers, r.absent || (r.least > alpha + 1e-9 ? `so many observers can give no p below ${digits(r.least)}` : '')]),
+            'Of trials: the share of counted fixations on the head, and the logarithm of WSS. Permutations within observers: of a factor the levels are exchanged, of two together (×) the signs of whole observers. ' +
+            'Holm: corrected over the rows of the same measure. Mixed models (lme4): run mixed_models.R beside this page.'));
+  else by_id('effects').hidden = true;
+}
+
+// Gaze and the moving surface.
+{
+  const rows = data.tables.motions, found = rows.filter(r => r.gain.v !== null), clusters = new Map();
+  for (const row of found) {
+    const name = row.keys.length ? row.keys[0][0] : 'all';
+    if (!clusters.has(name)) clusters.set(name, []);
+    clusters.get(name).push({label: row.keys.length ? row.keys[0][1] : 'all', estimate: row.gain});
+  }
+  if (found.length) {
+    by_id('motion_chart').append(bars([...clusters].map(([name, list]) => ({name, bars: list})),
+        {y_label: 'gain of gaze along the surface', most: Math.max(1.1, ...found.map(r => r.gain.hi ?? r.gain.v)), least: Math.min(0, ...found.map(r => r.gain.lo ?? r.gain.v)), label: 'Gain of gaze along the motion of the surface'}));
+    by_id('motion_body').append(table([{text: 'condition'}, 'gain', 'speed of the surface / (deg/s)', 'observers', 'fixations'],
+        rows.map(r => [words(r.keys), estimate_text(r.gain), estimate_text(r.speed), r.observers, r.fixations]),
+        `While a fixation lasts the sculpture turns on. Gain 1: gaze goes with the place that it looks at; 0: it stays on the screen. In brackets the ${level} over observers.`));
+  } else by_id('motion').hidden = true;
+}
+
+// Light at gaze.
+{
+  const rows = data.tables.lights, found = rows.filter(r => r.met.v !== null);
+  if (found.length) {
+    const of = (name, key) => ({name, bars: found.filter(r => r[key].v !== null).map(r => ({label: r.keys.length ? r.keys[0][1] : 'all', estimate: r[key]}))});
+    const groups = [of('than at the same place of the screen', 'place'), of('than on the same point of the surface', 'point')].filter(g => g.bars.length);
+    const all = groups.flatMap(g => g.bars.map(b => b.estimate));
+    by_id('light_chart').append(bars(groups,
+        {y_label: 'more lightness met (SD)', most: Math.max(0.1, ...all.map(e => e.hi ?? e.v)), least: Math.min(0, ...all.map(e => e.lo ?? e.v)), label: 'How much brighter what gaze met was than the same places at other times'}));
+    by_id('light_body').append(table([{text: 'condition'}, 'lightness met', 'more than at the place of the screen', 'more than on the point of the surface', 'observers', 'fixations'],
+        rows.map(r => [words(r.keys), estimate_text(r.met), estimate_text(r.place), estimate_text(r.point), r.observers, r.fixations]),
+        `Lightness in standard deviations from its mean over the object in the same picture; gaze that is spread evenly over the object has 0. Highlights that stay while the surface turns beneath them, and are looked at, make the fourth column positive: the points were bright when gaze was on them, and are darker at other times. In brackets the ${level} over observers.`));
+  } else by_id('light').hidden = true;
 }
 
 // Time course.
@@ -410,6 +453,8 @@ if (data.trials.length) {
   });
   by_id('quality_table').append(table([{text: 'observer'}, {text: 'tracker'}, 'accuracy / deg', 'worst / deg', 'RMS-S2S / deg', 'SD / deg', 'lost', 'lost in blinks', 'blinks', 'rate / Hz', 'refreshes', 'missed', 'trials'], rows,
       'As the minimum reporting guideline asks (Dunn et al. 2023). Accuracy: mean and largest offset at the validation targets. RMS-S2S and SD: within fixations, medians.'));
+  by_id('reporting_body').append(table([{text: 'aspect'}, {text: 'item'}, {text: 'value'}], data.reporting.map(r => r.slice(0, 3)),
+      'Aspects of Holmqvist et al. (2022, table 7), on which the minimum reporting guideline of Dunn et al. (2023) rests. What is not recorded has to be added by hand.'));
   const excluded = data.trials.filter(t => t.excluded);
   by_id('exclusions').append(element('p', {class: 'note'}, excluded.length ? `${excluded.length} trials are excluded: ` + excluded.map(t => `${t.label} (${t.excluded})`).join(' ') : 'No trial is excluded.'));
   by_id('exclusions').append(element('p', {class: 'note'}, data.glance.not_counted.length ? 'Fixations not counted: ' + data.glance.not_counted.map(([why, n]) => `${n} ${why}`).join(', ') + '.' : 'All fixations are counted.'));

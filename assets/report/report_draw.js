@@ -87,10 +87,11 @@ function whisker(svg, x, low, high) {
 }
 
 // Bars in clusters; each bar {label, estimate}. Clusters {name, bars}.
-function bars(clusters, {y_label, label, most, width = 1120}) {
+// Bars from 0; `each` of a bar: dots of single observers, side by side.
+function bars(clusters, {y_label, label, most, least = 0, width = 1120}) {
   const count = clusters.reduce((sum, c) => sum + c.bars.length + 1, 0);
   const names = [...new Set(clusters.flatMap(c => c.bars.map(b => b.label)))];
-  const frame = plot({width, height: 300, x: [0, count], y: [0, most], x_label: null, y_label, label, bottom: 60});
+  const frame = plot({width, height: 300, x: [0, count], y: [least, most], x_label: null, y_label, label, bottom: 60});
   let at = 0.5;
   for (const cluster of clusters) {
     const begin = at;
@@ -98,10 +99,13 @@ function bars(clusters, {y_label, label, most, width = 1120}) {
       const e = bar.estimate, x = frame.px(at + 0.5);
       if (e && e.v !== null && e.v !== undefined) {
         const wide = (frame.px(1) - frame.px(0)) * 0.84;
-        const rect = shape('rect', {x: x - wide / 2, width: wide, y: frame.py(e.v), height: Math.max(0, frame.floor - frame.py(e.v)),
+        const top = frame.py(Math.max(0, e.v)), foot = frame.py(Math.min(0, e.v));
+        const rect = shape('rect', {x: x - wide / 2, width: wide, y: top, height: Math.max(0, foot - top),
                                     fill: palette[names.indexOf(bar.label) % palette.length]});
         rect.append(shape('title', {}, `${cluster.name}, ${bar.label}: ${estimate_text(e)}`));
         frame.svg.append(rect);
+        (bar.each || []).forEach((v, i, all) => frame.svg.append(shape('circle',
+            {cx: (x + wide * 0.8 * ((i + 0.5) / all.length - 0.5)).toFixed(1), cy: frame.py(v).toFixed(1), r: 1.7, fill: '#1c2430', 'fill-opacity': 0.55})));
         if (e.lo !== undefined) whisker(frame.svg, x, frame.py(e.lo), frame.py(Math.min(e.hi, most)));
       } else frame.svg.append(shape('text', {x, y: frame.floor - 4, 'text-anchor': 'middle', class: 'soft'}, 'n/a'));
       ++at;

@@ -302,18 +302,21 @@ Json json_of_traces(const StudyResults& results) {
 }
 
 Json json_of_tables(const StudyResults& results) {
-    Json heads = Json::array(), distributions = Json::array(), pairs = Json::array(),
-         predictions = Json::array(), reliabilities = Json::array(), exposures = Json::array(),
-         course = Json::array();
+    Json heads = Json::array(), distributions = Json::array(), pairs = Json::array(), effects = Json::array(),
+         motions = Json::array(), lights = Json::array(), predictions = Json::array(),
+         reliabilities = Json::array(), exposures = Json::array(), course = Json::array();
     for (const HeadFractionRow& row : results.head_fractions) {
         Json json{{"keys", json_of(row.keys)},
                   {"count", json_of(row.by_count)},
                   {"duration", json_of(row.by_duration)},
                   {"corrected", json_of(row.corrected)},
                   {"pooled", number(row.pooled)},
+                  {"each", Json::array()},
                   {"observers", row.observers},
                   {"trials", row.trials},
                   {"fixations", row.fixations}};
+        for (const double share : row.of_observers)
+            json["each"].push_back(number(share, 4));
         if (row.pooled_interval)
             json["pooled_ci"] = {number(row.pooled_interval->low), number(row.pooled_interval->high)};
         heads.push_back(std::move(json));
@@ -350,6 +353,27 @@ Json json_of_tables(const StudyResults& results) {
                          {"observers", row.observers},
                          {"comparisons", row.comparisons},
                          {"absent", row.absent}});
+    for (const FactorEffectRow& row : results.effects)
+        effects.push_back({{"measure", row.measure},
+                           {"effect", row.effect},
+                           {"p", number(row.p)},
+                           {"holm", number(row.p_holm)},
+                           {"least", number(row.least_p)},
+                           {"observers", row.observers},
+                           {"absent", row.absent}});
+    for (const GazeMotionRow& row : results.motions)
+        motions.push_back({{"keys", json_of(row.keys)},
+                           {"gain", json_of(row.surface_gain)},
+                           {"speed", json_of(row.surface_speed_deg_s)},
+                           {"observers", row.observers},
+                           {"fixations", row.fixations}});
+    for (const LightAtGazeRow& row : results.lights)
+        lights.push_back({{"keys", json_of(row.keys)},
+                          {"met", json_of(row.lightness)},
+                          {"place", json_of(row.over_place)},
+                          {"point", json_of(row.over_point)},
+                          {"observers", row.observers},
+                          {"fixations", row.fixations}});
     for (const MapPredictionRow& row : results.predictions)
         predictions.push_back({{"group", row.group},
                                {"sculpture", row.sculpture},
@@ -388,6 +412,9 @@ Json json_of_tables(const StudyResults& results) {
     return {{"heads", heads},
             {"distributions", distributions},
             {"pairs", pairs},
+            {"effects", effects},
+            {"motions", motions},
+            {"lights", lights},
             {"predictions", predictions},
             {"reliabilities", reliabilities},
             {"exposures", exposures},
@@ -459,6 +486,9 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
     Json quality = Json::array();
     for (const StudyQuality& q : results.session_quality)
         quality.push_back(json_of(q));
+    Json reporting = Json::array();
+    for (const ReportingItem& item : results.reporting)
+        reporting.push_back({item.topic, item.item, item.value, item.is_recorded});
     Json colours = Json::object();
     for (const ColourMap map : {ColourMap::viridis, ColourMap::cividis, ColourMap::coolwarm}) {
         std::vector<std::uint8_t> bytes;
@@ -486,6 +516,7 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
             {"colours", colours},
             {"sessions", sessions},
             {"session_quality", quality},
+            {"reporting", reporting},
             {"sculptures", sculptures},
             {"groups", groups},
             {"maps", json_of_maps(results, shown)},

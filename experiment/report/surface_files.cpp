@@ -1,13 +1,13 @@
 #include "experiment/report/surface_files.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "experiment/base/parallel.h"
 #include "experiment/base/whole_file.h"
+#include "experiment/report/map_names.h"
 #include "experiment/surface/colour_scale.h"
 #include "experiment/surface/coloured_mesh_file.h"
 
@@ -22,20 +22,6 @@ struct SurfaceFile {
     ColourMap colours;
     double low, high;
 };
-
-std::string file_name_of(std::string_view text) {
-    std::string name;
-    for (const char c : text)
-        name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-    return name;
-}
-
-std::string words_of(const std::vector<StudyKey>& keys) {
-    std::string words;
-    for (const StudyKey& key : keys)
-        words += fmt::format("{}{} {}", words.empty() ? "" : ", ", key.column, key.value);
-    return words.empty() ? "all" : words;
-}
 
 std::vector<std::array<std::uint8_t, 3>> colours_of(const SurfaceFile& file) {
     const ColourTable& table = colour_table(file.colours);
@@ -64,16 +50,13 @@ std::vector<SurfaceFile> files_of(const StudyResults& results) {
         for (const float value : map.difference)
             largest = std::max(largest, std::abs(static_cast<double>(value)));
     }
+    FileNames names;
     const auto add = [&](SurfaceFile file) {
         const bool fits = file.sculpture->mesh && !file.sculpture->mesh->triangles.empty() &&
                           file.values->size() == file.sculpture->mesh->positions.size();
         if (!fits)
             return;
-        // Names that are alike once their signs are gone are numbered.
-        const std::string wanted = file.name;
-        for (int n = 2;
-             std::ranges::any_of(files, [&](const auto& other) { return other.name == file.name; }); ++n)
-            file.name = fmt::format("{}_{}", wanted, n);
+        file.name = names.of(file.name);
         files.push_back(std::move(file));
     };
     for (const StudyMap& map : results.maps) {
@@ -81,29 +64,28 @@ std::vector<SurfaceFile> files_of(const StudyResults& results) {
         if (map.weighting != MapWeighting::duration || map.density.empty())
             continue;
         const std::vector<StudyKey>& keys = results.groups[static_cast<std::size_t>(map.group)].keys;
-        const std::string words = words_of(keys);
-        add({file_name_of(fmt::format("map_{}_{}", sculpture.id, words)),
-             fmt::format("{}: {}", sculpture.title, words), "ms of fixation per mm^2 and trial", "map",
-             &sculpture, &map.density, ColourMap::viridis, 0.0, most > 0.0 ? most : 1.0});
+        const std::string words = words_of_keys(keys);
+        add({fmt::format("map_{}_{}", sculpture.id, words), fmt::format("{}: {}", sculpture.title, words),
+             "ms of fixation per mm^2 and trial", "map", &sculpture, &map.density, ColourMap::viridis, 0.0,
+             most > 0.0 ? most : 1.0});
     }
     for (const StudySculpture& sculpture : results.sculptures) {
         const auto highest = [](const std::vector<float>& values) {
             const double top = values.empty() ? 0.0 : *std::ranges::max_element(values);
             return top > 0.0 ? top : 1.0;
         };
-        add({file_name_of(fmt::format("exposure_{}", sculpture.id)),
-             fmt::format("{}: exposure", sculpture.title), "share of the exposure per mm^2", "exposure",
-             &sculpture, &sculpture.exposure_density, ColourMap::viridis, 0.0,
-             highest(sculpture.exposure_density)});
-        add({file_name_of(fmt::format("visible_{}", sculpture.id)),
-             fmt::format("{}: time visible", sculpture.title), "s of a presentation", "visible", &sculpture,
-             &sculpture.seconds_visible, ColourMap::viridis, 0.0, highest(sculpture.seconds_visible)});
+        add({fmt::format("exposure_{}", sculpture.id), fmt::format("{}: exposure", sculpture.title),
+             "share of the exposure per mm^2", "exposure", &sculpture, &sculpture.exposure_density,
+             ColourMap::viridis, 0.0, highest(sculpture.exposure_density)});
+        add({fmt::format("visible_{}", sculpture.id), fmt::format("{}: time visible", sculpture.title),
+             "s of a presentation", "visible", &sculpture, &sculpture.seconds_visible, ColourMap::viridis,
+             0.0, highest(sculpture.seconds_visible)});
     }
     for (const DifferenceMap& map : results.differences) {
         const StudySculpture& sculpture = results.sculptures[static_cast<std::size_t>(map.sculpture)];
         const std::string words =
-            fmt::format("{}, {} {} less {}", words_of(map.keys), map.column, map.a, map.b);
-        add({file_name_of(fmt::format("difference_{}_{}", sculpture.id, words)),
+            fmt::format("{}, {} {} less {}", words_of_keys(map.keys), map.column, map.a, map.b);
+        add({fmt::format("difference_{}_{}", sculpture.id, words),
              fmt::format("{}: {}", sculpture.title, words), "share of fixation time per mm^2", "difference",
              &sculpture, &map.difference, ColourMap::coolwarm, largest > 0.0 ? -largest : -1.0,
              largest > 0.0 ? largest : 1.0});

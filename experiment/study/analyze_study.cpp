@@ -15,11 +15,15 @@
 #include "experiment/base/parallel.h"
 #include "experiment/study/difference_maps.h"
 #include "experiment/study/error_budget.h"
+#include "experiment/study/factor_effects.h"
 #include "experiment/study/fixation_maps.h"
+#include "experiment/study/gaze_motion.h"
 #include "experiment/study/head_fractions.h"
+#include "experiment/study/light_at_gaze.h"
 #include "experiment/study/map_predictions.h"
 #include "experiment/study/map_reliability.h"
 #include "experiment/study/point_distributions.h"
+#include "experiment/study/reporting.h"
 #include "experiment/study/study_maps.h"
 #include "experiment/study/study_pairs.h"
 
@@ -170,7 +174,10 @@ void remark_on_differences(StudyResults& results, const StudyOptions& options) {
 
 StudyResults analyze_study(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
                            const StudyOptions& options, const StudyProgress& progress) {
-    ReadStudy study = read_study(sessions, surface_for, options, progress);
+    return analyze_study(read_study(sessions, surface_for, options, progress), options, progress);
+}
+
+StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const StudyProgress& progress) {
     StudyResults& results = study.results;
     results.parameters = parameters_of(options);
     results.by = options.by;
@@ -194,6 +201,10 @@ StudyResults analyze_study(std::span<const std::filesystem::path> sessions, cons
     results.predictions = map_predictions(results, maps, options);
     results.reliabilities = map_reliabilities(results, maps, study.levels, options);
     add_fixations_to_exposures(results);
+    results.effects = factor_effects(results, study.levels, options);
+    results.motions = gaze_motions(results, study.levels, options);
+    results.lights = lights_at_gaze(results, study.levels, options);
+    results.reporting = reporting_items(results, options);
     progress("metrics", 1, 1);
     return std::move(study.results);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 #include "experiment/base/parallel.h"
 #include "experiment/study/study_maps.h"
@@ -50,36 +51,53 @@ class WeightedMean {
 
 using LeakOfFixation = std::map<const StudyFixation*, double>;
 
+/// A place of the coarse surface with all fixations that have a part of their weight there: ways along the
+/// surface are the same for all of them.
+struct SharedPlace {
+    SurfacePlace place;
+    std::vector<std::size_t> fixations;
+    std::vector<double> weights, sigmas_mm;
+};
+
 LeakOfFixation leaks_on(const StudyResults& results, int sculpture, const SculptureSurface& surface) {
     LeakOfFixation leaks;
     if (!surface.coarse)
         return leaks;
     std::vector<const StudyFixation*> fixations;
+    std::map<std::tuple<std::uint32_t, double, double>, SharedPlace> places;
     for (const StudyFixation& fixation : results.fixations) {
-        if (fixation.counted() && fixation.triangle && fixation.sigma_mm > 0.0 &&
-            results.trials[static_cast<std::size_t>(fixation.trial)].sculpture == sculpture)
-            fixations.push_back(&fixation);
-    }
-    const EuclideanKernel kernel(*surface.coarse_geometry);
-    std::vector<double> found(fixations.size());
-    parallel_for(static_cast<int>(fixations.size()), [&](int i) {
-        const auto at = static_cast<std::size_t>(i);
-        // Two corners, or all, often have the same vertex nearest to them.
-        std::vector<SurfaceWeight> weights;
-        for (const SurfaceWeight& weight : surface.coarse->moved(weight_of(*fixations[at], 1.0))) {
-            const auto same = std::ranges::find_if(weights, [&](const SurfaceWeight& one) {
-                return one.place.triangle == weight.place.triangle &&
-                       one.place.barycentric == weight.place.barycentric;
-            });
-            if (same != weights.end())
-                same->weight += weight.weight;
-            else
-                weights.push_back(weight);
+        if (!fixation.counted() || !fixation.triangle || !(fixation.sigma_mm > 0.0) ||
+            results.trials[static_cast<std::size_t>(fixation.trial)].sculpture != sculpture)
+            continue;
+        for (const SurfaceWeight& weight : surface.coarse->moved(weight_of(fixation, 1.0))) {
+            const SurfacePlace& at = weight.place;
+            SharedPlace& shared = places[{at.triangle, at.barycentric.x, at.barycentric.y}];
+            shared.place = at;
+            shared.fixations.push_back(fixations.size());
+            shared.weights.push_back(weight.weight);
+            shared.sigmas_mm.push_back(weight.sigma_mm);
         }
-        found[at] = kernel.map(weights).leaked_share;
+        fixations.push_back(&fixation);
+    }
+    std::vector<const SharedPlace*> shared;
+    for (const auto& [key, place] : places)
+        shared.push_back(&place);
+    const EuclideanKernel kernel(*surface.coarse_geometry);
+    std::vector<std::vector<double>> shares(shared.size());
+    parallel_for(static_cast<int>(shared.size()), [&](int i) {
+        const auto at = static_cast<std::size_t>(i);
+        shares[at] = kernel.leaked_shares(shared[at]->place, shared[at]->sigmas_mm);
     });
+    std::vector<double> leaked(fixations.size()), whole(fixations.size());
+    for (std::size_t place = 0; place < shared.size(); ++place) {
+        for (std::size_t i = 0; i < shares[place].size(); ++i) {
+            const std::size_t fixation = shared[place]->fixations[i];
+            leaked[fixation] += shared[place]->weights[i] * shares[place][i];
+            whole[fixation] += shared[place]->weights[i];
+        }
+    }
     for (std::size_t i = 0; i < fixations.size(); ++i)
-        leaks[fixations[i]] = found[i];
+        leaks[fixations[i]] = whole[i] > 0.0 ? leaked[i] / whole[i] : 0.0;
     return leaks;
 }
 

@@ -110,10 +110,7 @@ Exposure exposure_of(const CoordinateMaps& maps, const Animation& animation, con
     const std::size_t vertices = maps.mesh().positions.size();
     Exposure exposure{std::vector<float>(vertices, 0.0f), std::vector<double>(vertices, 0.0),
                       std::vector<double>(maps.mesh().part_names.size(), 0.0)};
-    std::vector<double> seconds(poses.angles.size(), 0.0);
-    for (int step = 0; step < animation.shown_frame_count(); ++step)
-        seconds[static_cast<std::size_t>(poses.pose_of(animation.frame_at_step(step)).value)] +=
-            1.0 / animation.frame_rate_hz;
+    const std::vector<double> seconds = seconds_of_poses(animation, poses);
     // A few poses at a time: what each gives is added in their order.
     constexpr std::size_t at_a_time = 8;
     for (std::size_t begin = 0; begin < seconds.size(); begin += at_a_time) {

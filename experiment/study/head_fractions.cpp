@@ -77,6 +77,7 @@ HeadFractionRow row_of(const StudyResults& results, std::vector<StudyKey> keys,
     row.observers = static_cast<int>(counts.size());
     row.fixations = static_cast<int>(pooled.all);
     row.by_count = estimated_share(counts, options, no_fixation);
+    row.of_observers = counts;
     row.by_duration = estimated_share(durations, options, no_fixation);
     row.corrected = estimated_share(corrected, options, no_error);
     row.pooled = pooled.share();

@@ -141,6 +141,100 @@ RowLayout<ExposureRow> exposure_layout(const StudyResults& results) {
                                share_decimals, [](const Row& row) { return row.share_of_fixations; }))};
 }
 
+RowLayout<FactorEffectRow> factor_effects_layout(const StudyResults&) {
+    using Row = FactorEffectRow;
+    return {
+        "factor_effects",
+        "Whether the columns of the groups have effects on trials: permutations within observers.",
+        joined_columns<Row>(
+            text_column<Row>(
+                "measure",
+                "head fraction: share of a trial's counted fixations on the head; log WSS: natural "
+                "logarithm of its within-cluster sum of squares in mm^2",
+                [](const Row& row) { return row.measure; }),
+            text_column<Row>("effect", "A column; with a colon: the interaction of two",
+                             [](const Row& row) { return row.effect; }),
+            number_column<Row>(
+                "statistic",
+                "Of a column: the sum over levels of the squares of the means over observers, times their "
+                "number; of an interaction: the sum over cells of the squares of the means",
+                "", share_decimals, [](const Row& row) { return row.statistic; }),
+            number_column<Row>("p", "How often permutations give as much", "", share_decimals,
+                               [](const Row& row) { return row.p; }),
+            number_column<Row>("p_holm", "Corrected for the rows of the same measure after Holm", "",
+                               share_decimals, [](const Row& row) { return row.p_holm; }),
+            number_column<Row>("least_p", "The smallest p that so many observers can give", "",
+                               share_decimals, [](const Row& row) { return row.least_p; }),
+            count_column<Row>("observers", "Observers that are compared with themselves",
+                              [](const Row& row) { return row.observers; }),
+            text_column<Row>("absent", "Why there is no test; n/a: there is one",
+                             [](const Row& row) { return row.absent; }))};
+}
+
+RowLayout<ReportingItem> reporting_layout() {
+    using Row = ReportingItem;
+    return {"reporting", "What an article on the study has to report, as far as the sessions know it.",
+            joined_columns<Row>(
+                text_column<Row>("topic", "Number and aspect after Holmqvist et al. (2022), table 7",
+                                 [](const Row& row) { return row.topic; }),
+                text_column<Row>("item", "What is reported", [](const Row& row) { return row.item; }),
+                text_column<Row>("value", "As recorded or found; else what to add",
+                                 [](const Row& row) { return row.value; }),
+                count_column<Row>("recorded", "1 if it is known, else 0",
+                                  [](const Row& row) { return row.is_recorded ? 1 : 0; }))};
+}
+
+RowLayout<GazeMotionRow> gaze_motion_layout(const StudyResults& results) {
+    using Row = GazeMotionRow;
+    return {"gaze_motion",
+            "Whether gaze goes with the surface or stays on the screen while a fixation lasts: of each level "
+            "of each "
+            "column, and of all.",
+            joined_columns<Row>(
+                key_columns<Row>(
+                    results.by, [](const Row& row) -> auto& { return row.keys; }),
+                estimate_columns<Row>(
+                    "surface_gain",
+                    "Slope of gaze's way on that of the surface point looked at: 1, gaze goes with the "
+                    "surface; 0, it "
+                    "stays on the screen",
+                    "", share_decimals, [](const Row& row) -> auto& { return row.surface_gain; }),
+                estimate_columns<Row>(
+                    "surface_speed", "Mean speed of the surface points on the screen", "deg/s",
+                    share_decimals, [](const Row& row) -> auto& { return row.surface_speed_deg_s; }),
+                count_column<Row>("observers", "Observers", [](const Row& row) { return row.observers; }),
+                count_column<Row>("fixations", "Counted fixations during which the surface moved",
+                                  [](const Row& row) { return row.fixations; }))};
+}
+
+RowLayout<LightAtGazeRow> light_at_gaze_layout(const StudyResults& results) {
+    using Row = LightAtGazeRow;
+    return {
+        "light_at_gaze",
+        "Whether fixations are drawn by light: of each level of each column, and of all. Lightness is in "
+        "standard deviations from its mean over the object in the same picture.",
+        joined_columns<Row>(
+            key_columns<Row>(
+                results.by, [](const Row& row) -> auto& { return row.keys; }),
+            estimate_columns<Row>(
+                "lightness", "Lightness of what gaze met; 0: that of the object on average", "",
+                share_decimals, [](const Row& row) -> auto& { return row.lightness; }),
+            estimate_columns<Row>(
+                "over_place",
+                "Lightness of what gaze met less that at the same place of the screen over the animation: "
+                "above 0, gaze comes when it is bright there",
+                "", share_decimals, [](const Row& row) -> auto& { return row.over_place; }),
+            estimate_columns<Row>(
+                "over_point",
+                "Lightness of what gaze met less that of the same point of the surface while it is "
+                "visible: above 0, gaze meets the point when light falls on it, as highlights that move "
+                "over the surface do",
+                "", share_decimals, [](const Row& row) -> auto& { return row.over_point; }),
+            count_column<Row>("observers", "Observers", [](const Row& row) { return row.observers; }),
+            count_column<Row>("fixations", "Counted fixations whose light is known",
+                              [](const Row& row) { return row.fixations; }))};
+}
+
 RowLayout<ClusterRow> clusters_layout(const StudyResults& results) {
     using Row = ClusterRow;
     const auto of_cluster = [](const char* name, const char* meaning, const char* unit, auto member) {

@@ -3,6 +3,7 @@
 
 #include "experiment/record/tables/row_layout.h"
 #include "experiment/study/study_results.h"
+#include "experiment/study/trial_summary.h"
 
 namespace overt {
 
@@ -10,15 +11,6 @@ namespace overt {
 struct FixationRow {
     const StudyFixation& fixation;
     const StudyTrial& trial;
-};
-
-/// A trial with what its counted fixations come to: for models that take trials as they are.
-struct TrialSummaryRow {
-    const StudyTrial& trial;
-    int counted = 0, on_head = 0;
-    std::optional<bool> has_head; ///< whether its sculpture has a head
-    double counted_s = 0.0, head_s = 0.0;
-    std::optional<double> wss_mm2; ///< of its counted fixations, two at least
 };
 
 // `results` must outlive the layouts.
@@ -32,6 +24,10 @@ RowLayout<TimeCourseRow> time_course_layout(const StudyResults& results);
 RowLayout<MapPredictionRow> map_predictions_layout(const StudyResults& results);
 RowLayout<MapReliabilityRow> map_reliability_layout(const StudyResults& results);
 RowLayout<ExposureRow> exposure_layout(const StudyResults& results);
+RowLayout<ReportingItem> reporting_layout();
+RowLayout<FactorEffectRow> factor_effects_layout(const StudyResults& results);
+RowLayout<GazeMotionRow> gaze_motion_layout(const StudyResults& results);
+RowLayout<LightAtGazeRow> light_at_gaze_layout(const StudyResults& results);
 
 /// A cluster of a map of differences.
 struct ClusterRow {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -12,11 +13,12 @@
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
 #include "experiment/maps/coordinate_maps.h"
+#include "experiment/record/preview_file.h"
 #include "experiment/record/read/recorded_validation.h"
 #include "experiment/study/exposure.h"
 #include "experiment/study/gaze_quality.h"
 #include "experiment/study/part_evidence.h"
-#include "experiment/study/trial_reader.h"
+#include "experiment/study/reporting.h"
 
 namespace overt {
 
@@ -24,6 +26,7 @@ namespace {
 
 /// A session with as many readers as may work on it at once.
 struct OpenSession {
+    std::filesystem::path path; ///< absolute
     std::vector<std::unique_ptr<SessionRecord>> readers;
     std::vector<std::unique_ptr<TrialKeys>> keys; ///< by reader
     std::vector<RecordedAccuracy> validations;
@@ -58,6 +61,12 @@ bool is_same_sculpture(const SessionHeader& a, int in_a, const SessionHeader& b,
            (!one.mesh_file.empty() || maps_of(a, in_a) == maps_of(b, in_b));
 }
 
+/// Who resumes a session adds to both.
+std::string state_of(const SessionRecord& record) {
+    return fmt::format("{} trials, last time {} ns", record.trials().size(),
+                       record.last_time().time_since_epoch().count());
+}
+
 std::string folder_name(const std::filesystem::path& session) {
     std::filesystem::path path = std::filesystem::absolute(session).lexically_normal();
     if (!path.has_filename() || path.filename() == "session.sqlite")
@@ -77,17 +86,53 @@ class StudyReader {
     }
 
     ReadStudy read() {
-        read_.resize(open_.size());
-        for (std::size_t i = 0; i < open_.size(); ++i)
-            read_[i].resize(open_[i].record().trials().size());
-        for (std::size_t sculpture = 0; sculpture < results().sculptures.size(); ++sculpture)
-            read_sculpture(static_cast<int>(sculpture));
+        begin_reading();
+        for (int sculpture = 0; sculpture < static_cast<int>(study_.surfaces.size()); ++sculpture) {
+            const SurfaceLookup* lookup = load_surface(sculpture);
+            find_exposure(sculpture, lookup);
+            read_trials(sculpture, lookup);
+            add_evidence(sculpture);
+        }
+        collect();
+        return std::move(study_);
+    }
+
+    std::vector<ReadSession> read_alone() {
+        begin_reading();
+        for (int sculpture = 0; sculpture < static_cast<int>(study_.surfaces.size()); ++sculpture) {
+            read_trials(sculpture, load_surface(sculpture));
+            study_.surfaces[static_cast<std::size_t>(sculpture)] = {};
+        }
+        return std::move(read_);
+    }
+
+    ReadStudy join(std::vector<ReadSession> read) {
+        read_ = std::move(read);
+        for (std::size_t i = 0; i < open_.size(); ++i) {
+            if (read_[i].state != state_of(open_[i].record()))
+                throw InputError(fmt::format("{}: this session has changed since it was read: read it again",
+                                             read_[i].session.string()));
+            results().sessions[i].events = read_[i].events;
+        }
+        for (int sculpture = 0; sculpture < static_cast<int>(study_.surfaces.size()); ++sculpture) {
+            find_exposure(sculpture, load_surface(sculpture));
+            add_evidence(sculpture);
+        }
         collect();
         return std::move(study_);
     }
 
   private:
     StudyResults& results() { return study_.results; }
+
+    void begin_reading() {
+        for (std::size_t i = 0; i < open_.size(); ++i) {
+            const SessionRecord& record = open_[i].record();
+            results().sessions[i].events = record.event_origins();
+            read_.push_back({open_[i].path, state_of(record), results().sessions[i].events,
+                             std::vector<ReadTrial>(record.trials().size())});
+        }
+    }
 
     void open(std::span<const std::filesystem::path> sessions) {
         const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
@@ -97,6 +142,7 @@ class StudyReader {
             if (!seen.insert(std::filesystem::weakly_canonical(session)).second)
                 throw InputError(fmt::format("{}: this session was named twice.", session.string()));
             OpenSession& one = open_.emplace_back();
+            one.path = std::filesystem::weakly_canonical(session);
             for (std::size_t i = 0; i < readers; ++i) {
                 one.readers.push_back(std::make_unique<SessionRecord>(session));
                 one.readers.back()->detect_events_of_imports();
@@ -118,8 +164,8 @@ class StudyReader {
         session.is_simulated = header.tracker.name.find("simulated") != std::string::npos;
         for (const RecordedObserverField& field : record.observer_fields())
             session.form.push_back({field.id, field.value});
-        session.events = record.event_origins();
         session.is_complete = record.is_complete();
+        session.setup = setup_of(record);
         for (const TrialRecord& trial : record.trials())
             session.trials += trial.counts;
         record.read_events([&](const RecordedEvent& event) {
@@ -168,11 +214,11 @@ class StudyReader {
         return static_cast<int>(results().sculptures.size()) - 1;
     }
 
-    void read_sculpture(int index) {
+    void read_trials(int index, const SurfaceLookup* lookup) {
         const std::string what =
             fmt::format("reading gaze on {}", results().sculptures[static_cast<std::size_t>(index)].id);
-        const SurfaceLookup* lookup = load_surface(index);
         const SculptureSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
+        const LightOfStimuli light = load_light(index, lookup);
         struct Job {
             std::size_t session, reader;
         };
@@ -197,15 +243,51 @@ class StudyReader {
                 const TrialRecord& trial = record.trials()[t];
                 if (!is_of(session, trial, index))
                     continue;
-                read_[session][t] = read_trial(record, trial, *open.keys[reader], open.validations,
-                                               {lookup, surface.geometry.get(), surface.coarse.get(),
-                                                field ? &*field : nullptr, surface.scale},
-                                               options_, t < 1);
+                read_[session].trials[t] = read_trial(record, trial, *open.keys[reader], open.validations,
+                                                      {lookup, surface.geometry.get(), surface.coarse.get(),
+                                                       field ? &*field : nullptr, surface.scale,
+                                                       light_of(light, record.header(), trial)},
+                                                      options_, t < 1);
                 const std::scoped_lock lock(progress_mutex);
                 progress_(what, ++done, trials);
             }
         });
-        add_evidence(index);
+    }
+
+    /// Of a sculpture's stimuli by the hash of their frames.
+    using LightOfStimuli = std::map<ContentHash, LightScores>;
+
+    /// Each from the first session that has it. A file that cannot be read is as good as none.
+    LightOfStimuli load_light(int index, const SurfaceLookup* lookup) {
+        LightOfStimuli light;
+        for (std::size_t session = 0; session < open_.size() && lookup; ++session) {
+            const SessionRecord& record = open_[session].record();
+            const SessionHeader& header = record.header();
+            for (const RecordedStimulus& stimulus : header.stimuli) {
+                const auto own = static_cast<std::size_t>(stimulus.condition.sculpture);
+                const std::filesystem::path file =
+                    record.directory() / light_file(header, stimulus.condition);
+                if (open_[session].sculptures[own] != index || light.contains(stimulus.frames_sha256) ||
+                    !std::filesystem::exists(file))
+                    continue;
+                try {
+                    light.emplace(stimulus.frames_sha256, LightScores(read_light_pictures(
+                                                              file, header.display.screen.image_px,
+                                                              static_cast<int>(header.poses.angles.size()))));
+                } catch (const InputError& error) {
+                    results().remarks.push_back(
+                        fmt::format("The light of a stimulus is left out: {}", error.what()));
+                }
+            }
+        }
+        return light;
+    }
+
+    static const LightScores* light_of(const LightOfStimuli& light, const SessionHeader& header,
+                                       const TrialRecord& trial) {
+        const RecordedStimulus* const stimulus = stimulus_of(header, trial.trial.condition);
+        const auto found = stimulus ? light.find(stimulus->frames_sha256) : light.end();
+        return found == light.end() ? nullptr : &found->second;
     }
 
     /// Fixations of all sessions together tell where on the sculpture gaze was.
@@ -218,11 +300,11 @@ class StudyReader {
         std::vector<MeasuredPlace> places;
         const SessionHeader* header = nullptr;
         for (std::size_t session = 0; session < open_.size(); ++session) {
-            for (std::size_t t = 0; t < read_[session].size(); ++t) {
+            for (std::size_t t = 0; t < read_[session].trials.size(); ++t) {
                 if (!is_of(session, open_[session].record().trials()[t], index))
                     continue;
                 header = &open_[session].record().header();
-                const std::optional<double>& accuracy = read_[session][t].trial.quality.accuracy_deg;
+                const std::optional<double>& accuracy = read_[session].trials[t].trial.quality.accuracy_deg;
                 const double sigma_deg =
                     GazeCone(sculpture.screen, Degrees{accuracy.value_or(0.0)}, 1).sigma().value;
                 if (!(sigma_deg > 0.0))
@@ -230,7 +312,7 @@ class StudyReader {
                 const glm::dvec2 px_per_deg = surface.scale->mm_per_deg *
                                               glm::dvec2(sculpture.screen.screen_px) /
                                               sculpture.screen.screen_mm;
-                for (StudyFixation& fixation : read_[session][t].fixations) {
+                for (StudyFixation& fixation : read_[session].trials[t].fixations) {
                     if (!fixation.counted() && fixation.why != NotCounted::not_on_surface)
                         continue;
                     fixations.push_back(&fixation);
@@ -262,13 +344,11 @@ class StudyReader {
         surface.scale = surface_scale(sculpture.camera, sculpture.axis_point, sculpture.screen);
         const SurfaceLookup* lookup = nullptr;
         std::string fault;
-        const SessionHeader* header = nullptr;
         for (std::size_t session = 0; session < open_.size() && !lookup; ++session) {
             const std::vector<int>& own = open_[session].sculptures;
             const auto found = std::find(own.begin(), own.end(), index);
             if (found == own.end())
                 continue;
-            header = &open_[session].record().header();
             try {
                 lookup =
                     surface_for_(open_[session].record(), session, static_cast<int>(found - own.begin()));
@@ -311,24 +391,34 @@ class StudyReader {
                 surface.coarse_geometry = std::make_unique<SurfaceGeometry>(surface.coarse->mesh());
             }
             surface.areas_mm2 = surface.geometry->vertex_areas_mm2();
-            progress_(fmt::format("exposure of {}", sculpture.id), 0, 1);
-            Exposure exposure = exposure_of(*maps, header->animation, header->poses);
-            if (surface.scale) {
-                const ScreenGeometry& screen = sculpture.screen;
-                const double px_mm = screen.screen_mm.y / screen.screen_px.y;
-                for (ExposureRow& row :
-                     exposure_rows({exposure, *sculpture.mesh, surface.scale->mm_per_unit, px_mm * px_mm},
-                                   index, sculpture.part_names))
-                    results().exposures.push_back(std::move(row));
-            }
-            sculpture.seconds_visible = std::move(exposure.seconds_visible);
-            surface.pixel_seconds = std::move(exposure.pixel_seconds);
-            progress_(fmt::format("exposure of {}", sculpture.id), 1, 1);
         }
         if (sculpture.remark.empty() && !sculpture.head)
             sculpture.remark =
                 fmt::format("{} has no part \"head\": there is no fraction of it.", sculpture.id);
         return lookup;
+    }
+
+    void find_exposure(int index, const SurfaceLookup* lookup) {
+        StudySculpture& sculpture = results().sculptures[static_cast<std::size_t>(index)];
+        SculptureSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
+        const auto* maps = dynamic_cast<const CoordinateMaps*>(lookup);
+        if (!maps)
+            return;
+        const SessionHeader& header =
+            open_[shown_in_[static_cast<std::size_t>(index)].first].record().header();
+        progress_(fmt::format("exposure of {}", sculpture.id), 0, 1);
+        Exposure exposure = exposure_of(*maps, header.animation, header.poses);
+        if (surface.scale) {
+            const ScreenGeometry& screen = sculpture.screen;
+            const double px_mm = screen.screen_mm.y / screen.screen_px.y;
+            for (ExposureRow& row :
+                 exposure_rows({exposure, *sculpture.mesh, surface.scale->mm_per_unit, px_mm * px_mm}, index,
+                               sculpture.part_names))
+                results().exposures.push_back(std::move(row));
+        }
+        sculpture.seconds_visible = std::move(exposure.seconds_visible);
+        surface.pixel_seconds = std::move(exposure.pixel_seconds);
+        progress_(fmt::format("exposure of {}", sculpture.id), 1, 1);
     }
 
     /// Everything in the order of sessions and trials, however it was read.
@@ -339,7 +429,7 @@ class StudyReader {
             for (std::size_t t = 0; t < trials.size(); ++t) {
                 if (!trials[t].counts)
                     continue;
-                ReadTrial& read = read_[session][t];
+                ReadTrial& read = read_[session].trials[t];
                 const int index = static_cast<int>(results().trials.size());
                 read.trial.session = static_cast<int>(session);
                 read.trial.sculpture =
@@ -380,8 +470,8 @@ class StudyReader {
     const StudyProgress& progress_;
     std::vector<OpenSession> open_;
     std::vector<std::pair<std::size_t, int>>
-        shown_in_;                             ///< by sculpture: a session that has it, and its index
-    std::vector<std::vector<ReadTrial>> read_; ///< by session and its trials
+        shown_in_;                  ///< by sculpture: a session that has it, and its index
+    std::vector<ReadSession> read_; ///< by session
     ReadStudy study_;
 };
 
@@ -403,6 +493,20 @@ std::optional<SurfaceScale> surface_scale(const Camera& camera, const glm::dvec3
     scale.mm_per_unit = screen.image_px.y * mm_per_px / (2.0 * std::tan(0.5 * fov) * scale.axis_depth);
     scale.mm_per_deg = screen.viewing_distance_mm * std::tan(to_radians(Degrees{1.0}).value);
     return scale;
+}
+
+std::vector<ReadSession> read_sessions(std::span<const std::filesystem::path> sessions,
+                                       const SurfaceFor& surface_for, const StudyOptions& options,
+                                       const StudyProgress& progress) {
+    return StudyReader(sessions, surface_for, options, progress).read_alone();
+}
+
+ReadStudy join_sessions(std::vector<ReadSession> read, const SurfaceFor& surface_for,
+                        const StudyOptions& options, const StudyProgress& progress) {
+    std::vector<std::filesystem::path> sessions;
+    for (const ReadSession& one : read)
+        sessions.push_back(one.session);
+    return StudyReader(sessions, surface_for, options, progress).join(std::move(read));
 }
 
 ReadStudy read_study(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,

@@ -14,6 +14,7 @@
 #include "experiment/study/study_groups.h"
 #include "experiment/study/study_options.h"
 #include "experiment/study/surface_fixations.h"
+#include "experiment/study/trial_reader.h"
 #include "experiment/surface/hat_smoother.h"
 #include "experiment/surface/surface_geometry.h"
 
@@ -54,6 +55,25 @@ struct ReadStudy {
     std::vector<SculptureSurface> surfaces; ///< by sculpture
     LevelLists levels; ///< tasks, sculptures, materials and blocks as protocols have them
 };
+
+/// What is read from a session's samples: nearly all the work of a study, and none of it concerns others.
+struct ReadSession {
+    std::filesystem::path session; ///< absolute
+    std::string state;             ///< of the recording: another text if it went on since
+    std::string events;            ///< see StudySession
+    std::vector<ReadTrial> trials; ///< as the session has them; those that do not count are empty
+};
+
+/// Reads the samples of some of a study's sessions, for join_sessions(). Throws as read_study does.
+std::vector<ReadSession> read_sessions(std::span<const std::filesystem::path> sessions,
+                                       const SurfaceFor& surface_for, const StudyOptions& options,
+                                       const StudyProgress& progress);
+
+/// The study of sessions that were read by read_sessions() with the same options, here or elsewhere: the same
+/// as read_study() of them, to the bit. They must lie where they lay. Throws InputError if one has gone on
+/// since, and as read_study does.
+ReadStudy join_sessions(std::vector<ReadSession> read, const SurfaceFor& surface_for,
+                        const StudyOptions& options, const StudyProgress& progress);
 
 /// Reads all trials that count. Sculpture after sculpture, so that only one's maps are in memory; within one,
 /// sessions on all processors. The result does not depend on how many. Throws InputError if a folder is no

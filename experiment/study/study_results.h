@@ -52,7 +52,14 @@ struct StudySession {
     std::vector<StudyKey> form; ///< what the observer filled in
     std::string events;         ///< a sentence: whose fixations, saccades and blinks these are
     bool is_complete = false;
-    int trials = 0; ///< that count, before exclusions of this analysis
+    int trials = 0;              ///< that count, before exclusions of this analysis
+    std::vector<StudyKey> setup; ///< items of the reporting guideline that the record knows
+};
+
+/// What an article has to report: see reporting.h.
+struct ReportingItem {
+    std::string topic, item, value;
+    bool is_recorded = false; ///< else the value says what to add
 };
 
 /// A sculpture with all sessions that showed the same mesh.
@@ -121,6 +128,17 @@ struct StudyFixation {
     /// Root mean square distance of the rest of the cone from its middle: the tracker's error along the
     /// surface, however obliquely that is seen.
     std::optional<double> cone_mm;
+    /// Of its samples, in deg^2: means of the products of gaze's and its surface point's ways on the screen
+    /// from their means, and of the squares of the point's; both 0 where it is not known.
+    double gaze_with_surface_deg2 = 0.0, surface_way_deg2 = 0.0;
+    double surface_deg_s = 0.0; ///< mean speed of the surface point on the screen
+    /// Lightness at its samples (LightScores), means; nothing without pictures of the stimulus's light.
+    struct Light {
+        double met = 0.0;      ///< of what gaze met
+        double at_place = 0.0; ///< at the fixation's mean place on the screen, over the whole animation
+        double at_point = 0.0; ///< of its point of the surface, over all the time that this is visible
+    };
+    std::optional<Light> light;
     std::optional<double> lut_mm; ///< distance of the point that the map gave from the line of sight
     bool counted() const { return why == NotCounted::counted; }
 };
@@ -241,6 +259,7 @@ struct HeadFractionRow {
     std::optional<Interval> pooled_interval; ///< Wilson's, as if fixations were independent
     std::optional<double> planted; ///< of simulated observers: the fraction that they mean to look at
     int observers = 0, trials = 0, fixations = 0;
+    std::vector<double> of_observers{}; ///< their own fractions by count, those who have any
 };
 
 /// Figure 5: the distribution of a group's fixations on one sculpture.
@@ -330,6 +349,33 @@ struct MapReliabilityRow {
     int observers = 0, fixations = 0;
 };
 
+/// Whether a factor, or two of them together, have an effect on trials: see factor_effects.h.
+struct FactorEffectRow {
+    std::string measure; ///< "head fraction", "log WSS"
+    std::string effect;  ///< a column, or two with a colon between: their interaction
+    std::optional<double> statistic, p, p_holm;
+    std::optional<double> least_p; ///< that so many observers can give
+    int observers = 0;
+    std::string absent;
+};
+
+/// Whether gaze goes with the surface or stays on the screen while a fixation lasts: see gaze_motion.h.
+struct GazeMotionRow {
+    std::vector<StudyKey> keys;   ///< a level of a column; empty: all
+    Estimate surface_gain;        ///< 1: gaze goes with the surface; 0: it stays on the screen
+    Estimate surface_speed_deg_s; ///< of the surface under these fixations, mean
+    int observers = 0, fixations = 0;
+};
+
+/// Whether fixations are drawn by light: see light_at_gaze.h.
+struct LightAtGazeRow {
+    std::vector<StudyKey> keys; ///< a level of a column; empty: all
+    Estimate lightness;         ///< of what gaze met, in standard deviations of the object's
+    Estimate over_place;        ///< more than the same place of the screen has over the animation
+    Estimate over_point;        ///< more than the same point of the surface has while it is visible
+    int observers = 0, fixations = 0;
+};
+
 /// What a presentation shows of a part of a sculpture.
 struct ExposureRow {
     int sculpture = 0;
@@ -383,8 +429,12 @@ struct StudyResults {
     std::vector<MapPredictionRow> predictions;
     std::vector<MapReliabilityRow> reliabilities;
     std::vector<ExposureRow> exposures;
+    std::vector<FactorEffectRow> effects;
+    std::vector<GazeMotionRow> motions;
+    std::vector<LightAtGazeRow> lights;
     std::vector<TimeCourseRow> time_course;
     std::vector<StudyQuality> session_quality; ///< by session
+    std::vector<ReportingItem> reporting;
     std::vector<StudyTrace> traces;
 };
 

@@ -7,7 +7,7 @@
 #include "experiment/base/json_text.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/record/tables/export_tables.h"
-#include "experiment/statistics/point_spread.h"
+#include "experiment/study/mixed_models.h"
 #include "experiment/study/study_layouts.h"
 
 namespace overt {
@@ -15,27 +15,6 @@ namespace overt {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-TrialSummaryRow summary_of(const StudyResults& results, const StudyTrial& trial) {
-    const StudySculpture& sculpture = results.sculptures[static_cast<std::size_t>(trial.sculpture)];
-    TrialSummaryRow row{trial, 0, 0, sculpture.head.has_value(), 0.0, 0.0, {}};
-    std::vector<glm::dvec3> points;
-    for (std::size_t i = trial.first_fixation; i < trial.first_fixation + trial.fixations; ++i) {
-        const StudyFixation& fixation = results.fixations[i];
-        if (!fixation.counted())
-            continue;
-        ++row.counted;
-        row.counted_s += fixation.duration_s;
-        if (fixation.part && fixation.part == sculpture.head) {
-            ++row.on_head;
-            row.head_s += fixation.duration_s;
-        }
-        points.push_back(fixation.position);
-    }
-    if (points.size() >= 2 && sculpture.mm_per_unit)
-        row.wss_mm2 = point_spread(points)->wss() * *sculpture.mm_per_unit * *sculpture.mm_per_unit;
-    return row;
-}
 
 class Tables {
   public:
@@ -150,7 +129,7 @@ void write_study_tables(const StudyResults& results, const std::filesystem::path
     });
     tables.write(study_trials_layout(results), [&](const auto& take) {
         for (const StudyTrial& trial : results.trials)
-            take(summary_of(results, trial));
+            take(trial_summary(results, trial));
     });
     tables.write_all(head_fractions_layout(results), results.head_fractions);
     tables.write_all(distributions_layout(results), results.distributions);
@@ -158,6 +137,12 @@ void write_study_tables(const StudyResults& results, const std::filesystem::path
     tables.write_all(time_course_layout(results), results.time_course);
     tables.write_all(study_maps_layout(results), results.maps);
     // A table without a row would look like a result.
+    if (!results.effects.empty())
+        tables.write_all(factor_effects_layout(results), results.effects);
+    if (!results.motions.empty())
+        tables.write_all(gaze_motion_layout(results), results.motions);
+    if (!results.lights.empty())
+        tables.write_all(light_at_gaze_layout(results), results.lights);
     if (!results.exposures.empty())
         tables.write_all(exposure_layout(results), results.exposures);
     if (!results.predictions.empty())
@@ -184,16 +169,31 @@ void write_study_tables(const StudyResults& results, const std::filesystem::path
             take(QualityRow{results.sessions[i], nullptr, results.session_quality[i]});
         }
     });
+    tables.write_all(reporting_layout(), results.reporting);
+    write_mixed_models(results, folder, format);
     write_whole_file(folder / "dictionary.json", json_text(tables.dictionary()));
     write_whole_file(folder / "study.json", study_json(results));
 }
 
 bool is_study_table(const std::string& file) {
-    static const std::vector<std::string> names{
-        "fixations",           "trials", "figure4_head_fraction", "figure5_distribution", "table1_pairs",
-        "time_course",         "maps",   "map_predictions",       "map_reliability",      "exposure",
-        "difference_clusters", "quality"};
-    if (file == "dictionary.json" || file == "study.json")
+    static const std::vector<std::string> names{"fixations",
+                                                "trials",
+                                                "figure4_head_fraction",
+                                                "figure5_distribution",
+                                                "table1_pairs",
+                                                "time_course",
+                                                "maps",
+                                                "map_predictions",
+                                                "map_reliability",
+                                                "factor_effects",
+                                                "gaze_motion",
+                                                "light_at_gaze",
+                                                "exposure",
+                                                "difference_clusters",
+                                                "quality",
+                                                "reporting"};
+    if (file == "dictionary.json" || file == "study.json" || file == "mixed_models.R" ||
+        file == "mixed_models_coefficients.csv" || file == "mixed_models_tests.csv")
         return true;
     const std::size_t dot = file.find('.');
     return dot != std::string::npos &&

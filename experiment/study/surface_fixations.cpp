@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include "experiment/maps/coordinate_maps.h"
 
@@ -138,6 +139,87 @@ std::optional<double> lut_error_mm(const PlacedSample& sample, const FixationCon
     return off_px * lines.pixel_width_at(seen.z) * context.scale->mm_per_unit;
 }
 
+/// How gaze and the fixation's point of the surface move on the screen: see StudyFixation.
+void find_motion(StudyFixation& fixation, std::span<const PlacedSample* const> lit,
+                 const FixationContext& context) {
+    const auto* maps = dynamic_cast<const CoordinateMaps*>(context.lookup);
+    if (!maps || !context.screen || lit.size() < 2)
+        return;
+    const double deg_per_px = 1.0 / context.screen->px_per_deg_at_centre();
+    std::vector<glm::dvec2> points;
+    PoseIndex pose{-1};
+    glm::dvec2 gaze_mean{0.0}, point_mean{0.0};
+    double way_deg = 0.0;
+    for (const PlacedSample* sample : lit) {
+        if (!points.empty() && sample->pose == pose) {
+            points.push_back(points.back());
+        } else {
+            pose = sample->pose;
+            const glm::dvec2 point(maps->sight_lines(pose).project(fixation.position));
+            way_deg += points.empty() ? 0.0 : glm::distance(point, points.back()) * deg_per_px;
+            points.push_back(point);
+        }
+        point_mean += points.back();
+        gaze_mean += glm::dvec2(sample->gaze.x_px, sample->gaze.y_px);
+    }
+    const auto count = static_cast<double>(lit.size());
+    point_mean /= count;
+    gaze_mean /= count;
+    for (std::size_t i = 0; i < lit.size(); ++i) {
+        const glm::dvec2 gaze = (glm::dvec2(lit[i]->gaze.x_px, lit[i]->gaze.y_px) - gaze_mean) * deg_per_px;
+        const glm::dvec2 point = (points[i] - point_mean) * deg_per_px;
+        fixation.gaze_with_surface_deg2 += glm::dot(gaze, point) / count;
+        fixation.surface_way_deg2 += glm::dot(point, point) / count;
+    }
+    if (fixation.duration_s > 0.0)
+        fixation.surface_deg_s = way_deg / fixation.duration_s;
+}
+
+/// The mean over the animation of what a pose gives, each for as long as a presentation shows it.
+template <class ScoreOf>
+std::optional<double> mean_over_poses(std::span<const double> pose_seconds, const ScoreOf& score_of) {
+    double sum = 0.0, seconds = 0.0;
+    for (std::size_t pose = 0; pose < pose_seconds.size(); ++pose) {
+        if (!(pose_seconds[pose] > 0.0))
+            continue;
+        if (const std::optional<double> score = score_of(PoseIndex{static_cast<int>(pose)})) {
+            sum += pose_seconds[pose] * *score;
+            seconds += pose_seconds[pose];
+        }
+    }
+    return seconds > 0.0 ? std::optional(sum / seconds) : std::nullopt;
+}
+
+/// How bright what gaze met was, and how bright the same place of the screen and the same point of the
+/// surface are at other times: see StudyFixation::Light.
+void find_light(StudyFixation& fixation, std::span<const PlacedSample* const> placed,
+                const FixationContext& context) {
+    const auto* maps = dynamic_cast<const CoordinateMaps*>(context.lookup);
+    if (!maps || !context.screen || !context.light)
+        return;
+    double sum = 0.0;
+    int met = 0;
+    for (const PlacedSample* sample : placed) {
+        if (!sample->is_on_surface)
+            continue;
+        if (const auto score =
+                context.light->at(sample->pose, context.screen->image_from_screen(sample->gaze))) {
+            sum += *score;
+            ++met;
+        }
+    }
+    const glm::dvec2 place = context.screen->image_from_screen(fixation.place);
+    const auto at_place =
+        mean_over_poses(context.pose_seconds, [&](PoseIndex pose) { return context.light->at(pose, place); });
+    const auto at_point = mean_over_poses(context.pose_seconds, [&](PoseIndex pose) -> std::optional<double> {
+        const glm::dvec2 seen(maps->sight_lines(pose).project(fixation.position));
+        const auto score = context.light->at(pose, seen);
+        return score && maps->is_visible(pose, fixation.position) ? score : std::nullopt;
+    });
+    if (met > 0 && at_place && at_point)
+        fixation.light = {sum / met, *at_place, *at_point};
+}
+
 } // namespace
 
 std::pair<std::size_t, std::size_t> samples_between(std::span<const PlacedSample> samples, TrackerTime from,
@@ -202,6 +284,8 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
             if (context.cone && context.lookup)
                 find_cone(fixation, middle, context);
             fixation.lut_mm = lut_error_mm(middle, context);
+            find_motion(fixation, lit, context);
+            find_light(fixation, placed, context);
         }
     }
     if (fixation.onset_s < 0.0)

@@ -9,6 +9,7 @@
 #include "experiment/analysis/gaze_cone.h"
 #include "experiment/clock_map.h"
 #include "experiment/gaze_event.h"
+#include "experiment/maps/light_pictures.h"
 #include "experiment/study/placed_samples.h"
 #include "experiment/study/study_options.h"
 #include "experiment/surface/coarse_surface.h"
@@ -43,6 +44,8 @@ struct FixationContext {
     const SurfaceLookup* lookup = nullptr;  ///< for the gaze cone; may be null
     const GazeCone* cone = nullptr;         ///< the same
     const ScreenGeometry* screen = nullptr; ///< for the error of the look-up; null: it is not reckoned
+    const LightScores* light = nullptr;     ///< of the stimulus; null: not known
+    std::span<const double> pose_seconds{}; ///< how long a presentation shows each pose, by PoseIndex
 };
 
 /// A fixation of the events with the samples that are its own. Those that ended before the onset, or began

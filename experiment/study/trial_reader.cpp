@@ -120,7 +120,7 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
 
     if (ledger)
         of.turns = turns_of(*ledger, onset, header.poses.angles);
-    const std::optional<ClockMap> clock_map = record.clock_map(trial.sitting);
+    const std::optional<ClockMap> clock_map = record.clock_map(trial);
     if (with_trace)
         read.trace = trace_of(placed.samples, events, clock_map, onset, of.presentation_s,
                               of.quality.rate_hz.value_or(0.0));
@@ -132,6 +132,7 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
         cone.emplace(header.display.screen,
                      Degrees{of.quality.accuracy_deg.value_or(GazeCone::usual_accuracy.value)},
                      cone_directions);
+    const std::vector<double> pose_seconds = seconds_of_poses(header.animation, header.poses);
     const FixationContext context{options,
                                   placed.samples,
                                   clock_map,
@@ -145,7 +146,9 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                                   surface.field,
                                   surface.lookup,
                                   cone ? &*cone : nullptr,
-                                  &header.display.screen};
+                                  &header.display.screen,
+                                  surface.light,
+                                  pose_seconds};
     for (const GazeEvent& event : events) {
         if (event.kind != GazeEvent::Kind::fixation)
             continue;

@@ -30,6 +30,7 @@ struct TrialSurface {
     const CoarseSurface* coarse = nullptr; ///< null without a mesh or a scale; so is the field on it
     GeodesicField* field = nullptr;
     std::optional<SurfaceScale> scale;
+    const LightScores* light = nullptr; ///< of the trial's stimulus; null: not known
 };
 
 /// `validations` by their times. Throws RecordError.

@@ -63,22 +63,47 @@ void EuclideanKernel::for_each_near(const glm::dvec3& place, double radius, cons
     }
 }
 
+double EuclideanKernel::spread(const glm::dvec3& place, double sigma_mm,
+                               std::vector<std::pair<std::uint32_t, double>>& nodes) const {
+    OVERT_EXPECTS(sigma_mm > 0.0);
+    nodes.clear();
+    const std::span<const double> areas = geometry_.node_areas_mm2();
+    double sum = 0.0;
+    for_each_near(place, reach_sigmas * sigma_mm, [&](std::uint32_t node, double squared) {
+        const double value = std::exp(-0.5 * squared / (sigma_mm * sigma_mm));
+        nodes.emplace_back(node, value);
+        sum += value * areas[node];
+    });
+    return sum;
+}
+
+std::vector<double> EuclideanKernel::leaked_shares(const SurfacePlace& place,
+                                                   std::span<const double> sigmas_mm) const {
+    std::vector<double> shares;
+    if (sigmas_mm.empty())
+        return shares;
+    GeodesicField field(geometry_);
+    field.spread_from(place, leak_sigmas * std::ranges::max(sigmas_mm));
+    const std::span<const double> areas = geometry_.node_areas_mm2();
+    std::vector<std::pair<std::uint32_t, double>> nodes;
+    for (const double sigma_mm : sigmas_mm) {
+        const double sum = spread(geometry_.position_mm(place), sigma_mm, nodes);
+        double leaked = 0.0;
+        for (const auto& [node, value] : nodes)
+            leaked += field.to_node(node) < leak_sigmas * sigma_mm ? 0.0 : value * areas[node];
+        shares.push_back(sum > 0.0 ? leaked / sum : 0.0);
+    }
+    return shares;
+}
+
 EuclideanKernel::Map EuclideanKernel::map(std::span<const SurfaceWeight> weights) const {
     GeodesicField field(geometry_);
     const std::span<const double> areas = geometry_.node_areas_mm2();
     std::vector<double> density(geometry_.node_count(), 0.0);
-    std::vector<std::pair<std::uint32_t, double>> spread;
+    std::vector<std::pair<std::uint32_t, double>> nodes;
     double whole = 0.0, leaked = 0.0;
     for (const SurfaceWeight& weight : weights) {
-        OVERT_EXPECTS(weight.sigma_mm > 0.0);
-        spread.clear();
-        double sum = 0.0;
-        for_each_near(geometry_.position_mm(weight.place), reach_sigmas * weight.sigma_mm,
-                      [&](std::uint32_t node, double squared) {
-                          const double value = std::exp(-0.5 * squared / (weight.sigma_mm * weight.sigma_mm));
-                          spread.emplace_back(node, value);
-                          sum += value * areas[node];
-                      });
+        const double sum = spread(geometry_.position_mm(weight.place), weight.sigma_mm, nodes);
         whole += weight.weight;
         if (sum <= 0.0) {
             const glm::uvec3& corners = geometry_.corners(weight.place.triangle);
@@ -89,7 +114,7 @@ EuclideanKernel::Map EuclideanKernel::map(std::span<const SurfaceWeight> weights
             continue;
         }
         field.spread_from(weight.place, leak_sigmas * weight.sigma_mm);
-        for (const auto& [node, value] : spread) {
+        for (const auto& [node, value] : nodes) {
             density[node] += weight.weight * value / sum;
             if (field.to_node(node) == GeodesicField::unreached)
                 leaked += weight.weight * value * areas[node] / sum;

@@ -1,7 +1,9 @@
 /// The Gaussian in space on the vertices of a mesh, as most published maps have it, and what of it leaks.
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "experiment/surface/surface_geometry.h"
@@ -29,7 +31,14 @@ class EuclideanKernel {
     /// Sigmas above 0.
     Map map(std::span<const SurfaceWeight> weights) const;
 
+    /// The leaked share of a weight at one place with each of these sigmas, above 0: distances along the
+    /// surface, which take nearly all the time, are found once.
+    std::vector<double> leaked_shares(const SurfacePlace& place, std::span<const double> sigmas_mm) const;
+
   private:
+    /// The nodes about a place with the Gaussian's values there; gives its integral over their areas.
+    double spread(const glm::dvec3& place, double sigma_mm,
+                  std::vector<std::pair<std::uint32_t, double>>& nodes) const;
     template <class Visit>
     void for_each_near(const glm::dvec3& place, double radius, const Visit& visit) const;
 

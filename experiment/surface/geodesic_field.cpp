@@ -85,6 +85,10 @@ void GeodesicField::offer_around(std::uint32_t node) {
 }
 
 void GeodesicField::spread_from(const SurfacePlace& source, double reach_mm) {
+    spread_until(source, reach_mm, {});
+}
+
+void GeodesicField::spread_until(const SurfacePlace& source, double reach_mm, const IsEnough& is_enough) {
     source_ = source;
     reach_mm_ = reach_mm;
     ++run_;
@@ -102,6 +106,8 @@ void GeodesicField::spread_from(const SurfacePlace& source, double reach_mm) {
             continue;
         known_in_[nearest.node] = run_;
         reached_.push_back(nearest.node);
+        if (is_enough && is_enough(nearest.node, nearest.distance))
+            return;
         offer_around(nearest.node);
     }
 }

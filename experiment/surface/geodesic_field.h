@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -30,6 +31,11 @@ class GeodesicField {
     /// Distances from a place, of all nodes nearer than `reach_mm`; the others, and those on other pieces of
     /// the surface, are unreached.
     void spread_from(const SurfacePlace& source, double reach_mm = unreached);
+
+    /// The same until `is_enough` says so, which is told of each node with its distance, the nearest first:
+    /// the other nodes are unreached then.
+    using IsEnough = std::function<bool(std::uint32_t node, double distance)>;
+    void spread_until(const SurfacePlace& source, double reach_mm, const IsEnough& is_enough);
 
     /// Millimetres along the surface, or unreached.
     double to_node(std::uint32_t node) const { return is_known(node) ? distances_[node] : unreached; }

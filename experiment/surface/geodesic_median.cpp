@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "experiment/base/error.h"
@@ -51,6 +54,27 @@ std::vector<std::size_t> spread_out(std::span<const glm::dvec3> positions, std::
     return chosen;
 }
 
+/// Which places have a node at a corner of their triangle.
+class Corners {
+  public:
+    using OfNode = std::pair<std::uint32_t, std::size_t>; ///< the node and the place's index
+
+    Corners(const SurfaceGeometry& geometry, std::span<const SurfaceWeight> weights) {
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            for (int k = 0; k < 3; ++k)
+                all_.emplace_back(geometry.corners(weights[i].place.triangle)[k], i);
+        }
+        std::ranges::sort(all_);
+    }
+    std::span<const OfNode> at(std::uint32_t node) const {
+        const auto found = std::ranges::equal_range(all_, node, {}, &OfNode::first);
+        return {found.begin(), found.end()};
+    }
+
+  private:
+    std::vector<OfNode> all_;
+};
+
 } // namespace
 
 GeodesicMedian geodesic_median(GeodesicField& field, std::span<const SurfaceWeight> weights,
@@ -76,36 +100,55 @@ GeodesicMedian geodesic_median(GeodesicField& field, std::span<const SurfaceWeig
     }
     // Beyond that a way is counted as this long: it leads around, and how far around says little.
     const double reach = std::max(1e-3, 6.0 * widest);
+    const Corners corners(geometry, weights);
     double straight_sum = 0.0;
-    const auto sum_from = [&](std::size_t candidate) {
+    // Given up as soon as it cannot be below `most`.
+    const auto sum_from = [&](std::size_t candidate, double most) -> std::optional<GeodesicMedian> {
         GeodesicMedian median{candidate, 0.0, 0.0};
-        // Nearly always all places lie nearer than this, and the rest of the surface need not be gone over.
-        field.spread_from(weights[candidate].place, std::min(2.5 * widest + 1e-3, reach));
-        const auto is_reached_from_here = [&](const SurfaceWeight& weight) {
-            return field.to(weight.place) < GeodesicField::unreached;
-        };
-        if (!std::ranges::all_of(weights, is_reached_from_here))
-            field.spread_from(weights[candidate].place, reach);
         straight_sum = 0.0;
+        std::vector<double> straight;
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            straight.push_back(weights[i].weight * glm::distance(positions[i], positions[candidate]) / whole);
+            straight_sum += straight.back();
+        }
+        if (straight_sum >= most)
+            return std::nullopt;
+        // No way is shorter than the straight one, nor, as long as no corner of its place is reached, than
+        // what has been gone over.
+        std::vector<int> left(weights.size(), 3);
+        std::size_t open = weights.size();
+        double least = 0.0, untouched = 1.0;
+        const SurfacePlace& source = weights[candidate].place;
+        field.spread_until(source, reach, [&](std::uint32_t node, double distance) {
+            for (const auto& [corner, i] : corners.at(node)) {
+                if (left[i] == 3) {
+                    untouched -= weights[i].weight / whole;
+                    least += straight[i];
+                }
+                open -= --left[i] == 0;
+            }
+            return open == 0 || least + untouched * distance >= most;
+        });
+        if (open > 0 && least + untouched * reach >= most)
+            return std::nullopt;
         for (std::size_t i = 0; i < weights.size(); ++i) {
             const double way = field.to(weights[i].place);
             const bool is_reached = way < GeodesicField::unreached;
             median.mean_distance_mm += weights[i].weight * (is_reached ? way : reach) / whole;
             if (!is_reached)
                 median.unreached_share += weights[i].weight / whole;
-            straight_sum += weights[i].weight * glm::distance(positions[i], positions[candidate]) / whole;
         }
         return median;
     };
-    GeodesicMedian best = sum_from(nearest);
+    GeodesicMedian best = *sum_from(nearest, GeodesicField::unreached);
     if (best.mean_distance_mm <= (1.0 + tolerance) * straight_sum + 1e-9)
         return best;
     for (const std::size_t candidate : spread_out(positions, nearest)) {
         if (candidate == nearest || weights[candidate].weight <= 0.0)
             continue;
-        const GeodesicMedian other = sum_from(candidate);
-        if (other.mean_distance_mm < best.mean_distance_mm)
-            best = other;
+        const std::optional<GeodesicMedian> other = sum_from(candidate, best.mean_distance_mm);
+        if (other && other->mean_distance_mm < best.mean_distance_mm)
+            best = *other;
     }
     return best;
 }

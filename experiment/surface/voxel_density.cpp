@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
 
@@ -17,11 +19,23 @@ VoxelDensity::VoxelDensity(const Bounds& bounds, double sigma, double cell, glm:
                    static_cast<std::size_t>(cells_.z));
 }
 
+namespace {
+
+glm::ivec3 cells_of_half_a_sigma(const Bounds& bounds, double sigma) {
+    const glm::dvec3 cells =
+        glm::ceil((bounds.extent() + 2.0 * VoxelDensity::usual_truncation * sigma) / (0.5 * sigma)) + 1.0;
+    if (!(cells.x * cells.y * cells.z <= VoxelDensity::most_cells))
+        throw InputError(
+            fmt::format("a kernel this narrow takes a grid of {:.0f} x {:.0f} x {:.0f} voxels, "
+                        "more than {:.0f} in all: give a wider --sigma, or a kernel on the surface",
+                        cells.x, cells.y, cells.z, VoxelDensity::most_cells));
+    return glm::ivec3(cells);
+}
+
+} // namespace
+
 VoxelDensity::VoxelDensity(const Bounds& bounds, double sigma)
-    : VoxelDensity(bounds, sigma, 0.5 * sigma,
-                   glm::ivec3(glm::ceil((bounds.extent() + 2.0 * usual_truncation * sigma) / (0.5 * sigma))) +
-                       1,
-                   usual_truncation) {}
+    : VoxelDensity(bounds, sigma, 0.5 * sigma, cells_of_half_a_sigma(bounds, sigma), usual_truncation) {}
 
 VoxelDensity::VoxelDensity(const Bounds& bounds, double sigma, int cells, double truncation)
     : VoxelDensity(

@@ -17,9 +17,11 @@ class VoxelDensity {
   public:
     /// Where the kernel is cut off, in sigmas, unless said otherwise; scipy.ndimage.gaussian_filter's, too.
     static constexpr double usual_truncation = 4.0;
+    /// A gigabyte of numbers.
+    static constexpr double most_cells = 134217728.0;
 
     /// Covers `bounds` and what of the kernel goes beyond with cubes of sigma / 2. `sigma` > 0, in the unit
-    /// of the bounds.
+    /// of the bounds. Throws InputError if these would be more than most_cells.
     VoxelDensity(const Bounds& bounds, double sigma);
     /// With that many cubes along the longest side of the box and its margin (8 … 1024), however wide they
     /// are.

@@ -1,5 +1,6 @@
 /// `overt analyze` on whole sessions of simulated observers, whose truth is known.
 #include <filesystem>
+#include <regex>
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -120,11 +121,21 @@ TEST_CASE("where simulated observers mean to look comes back as head fractions",
             continue;
         const std::string text = text_of(file.path());
         INFO(file.path());
-        CHECK(text.find("nan") == std::string::npos);
-        CHECK(text.find("inf\t") == std::string::npos);
+        // As a word of its own: "luminance" has the letters, too.
+        CHECK_FALSE(std::regex_search(text, std::regex(R"(\b(nan|inf)\b)")));
     }
     const TsvFile maps(out / "maps.tsv");
     CHECK(maps.size() == 24); // by duration and by count
+    // The light that fixations met, over all and in each level of the three columns.
+    const TsvFile lights(out / "light_at_gaze.tsv");
+    REQUIRE(lights.size() == 1 + 3 + 2 + 2);
+    for (std::size_t row = 0; row < lights.size(); ++row) {
+        CHECK(lights.text(row, "observers") == "3");
+        CHECK(std::abs(lights.number(row, "lightness")) < 3.0);
+        // Simulated observers do not mind the light.
+        CHECK(std::abs(lights.number(row, "over_place")) < 0.5);
+        CHECK(std::abs(lights.number(row, "over_point")) < 0.5);
+    }
     const TsvFile trials(out / "trials.tsv");
     CHECK(trials.size() == 3 * small_trials);
     // Maps keep what fixations put into them: ms of a trial.
@@ -160,6 +171,22 @@ TEST_CASE("where simulated observers mean to look comes back as head fractions",
         CHECK(wrong.err.find("colour") != std::string::npos);
         CHECK(wrong.err.find("material") != std::string::npos);
         CHECK(study.analyze(by / "x", {"--sigma", "-2deg"}).exit_code == 2);
+        const ProgramRun compared = study.analyze(by / "x", {"--compare", "task,material"});
+        CHECK(compared.exit_code == 2);
+        CHECK(compared.err.find("takes one of the columns of --by, which are task, sculpture, material") !=
+              std::string::npos);
+    }
+    SECTION("sessions without the light of their stimuli have no table of it") {
+        for (const std::string& session : study.sessions) {
+            for (const auto& file : fs::directory_iterator(fs::path(session) / "stimuli")) {
+                if (file.path().extension() == ".exr")
+                    fs::remove(file.path());
+            }
+        }
+        const fs::path dark = study.experiment.folder().path() / "dark";
+        REQUIRE(study.analyze(dark).exit_code == 0);
+        CHECK_FALSE(fs::exists(dark / "light_at_gaze.tsv"));
+        CHECK(text_of(dark / "fixations.tsv") == text_of(out / "fixations.tsv"));
     }
     SECTION("a session whose maps are gone is said, not counted, and does not end the analysis") {
         fs::remove_all(fs::path(study.sessions[0]) / "maps");

@@ -105,19 +105,39 @@ TEST_CASE("a study says what it lacks and reckons what it can", "[session]") {
         const ProgramRun run = analysis_of(study.experiment, study.sessions, folder / "rest", {"--json"});
         CHECK(nlohmann::json::parse(run.out).at("counted_fixations") > 50);
     }
-    SECTION("on one processor everything is the same to the byte") {
+    SECTION("on one processor, or in shards, everything is the same to the byte") {
         analysis_of(study.experiment, study.sessions, folder / "all");
         {
             const OneProcessor one;
             analysis_of(study.experiment, study.sessions, folder / "alone");
         }
+        const std::string parts = (folder / "parts").string();
+        for (const std::string which : {"2/2", "1/2"}) {
+            std::vector<std::string> arguments{"analyze", "--shard", which, "--out", parts};
+            arguments.insert(arguments.end(), study.sessions.begin(), study.sessions.end());
+            REQUIRE(study.experiment.overt(arguments).exit_code == 0);
+        }
+        const std::string first = parts + "/shard_1_of_2", second = parts + "/shard_2_of_2";
+        analysis_of(study.experiment, {second, first}, folder / "joined");
+        const auto refused = [&](const std::vector<std::string>& arguments) {
+            const ProgramRun run = study.experiment.overt(arguments);
+            CHECK(run.exit_code == 2);
+            return run.err;
+        };
+        CHECK(refused({"analyze", first, "--out", parts + "/x"}).find("missing: shard 2/2") !=
+              std::string::npos);
+        CHECK(refused({"analyze", first, study.sessions[1], "--out", parts + "/x"}).find("is a shard and") !=
+              std::string::npos);
+        CHECK(refused({"analyze", first, second, "--sigma", "2deg", "--out", parts + "/x"})
+                  .find("--sigma 1deg") != std::string::npos);
         int compared = 0;
         for (const fs::directory_entry& file : fs::recursive_directory_iterator(folder / "all")) {
             if (!file.is_regular_file() || file.path().extension() == ".pdf")
                 continue; // these have the time of their making
             INFO(file.path());
-            CHECK(text_of(file.path()) ==
-                  text_of(folder / "alone" / fs::relative(file.path(), folder / "all")));
+            for (const char* const other : {"alone", "joined"})
+                CHECK(text_of(file.path()) ==
+                      text_of(folder / other / fs::relative(file.path(), folder / "all")));
             ++compared;
         }
         CHECK(compared > 10);

@@ -162,7 +162,8 @@ inline StudyResults made_up_study() {
                      .planted = {},
                      .observers = 3,
                      .trials = 6,
-                     .fixations = 40});
+                     .fixations = 40,
+                     .of_observers = {0.2, 0.25 + 0.05 * group, 0.45}});
             }
         }
         study.head_fractions.push_back({.keys = {{"task", task}},
@@ -212,6 +213,15 @@ inline StudyResults made_up_study() {
     MapReliabilityRow reliability;
     reliability.reliability = Estimate::of(0.8, Interval{0.6, 0.9});
     study.reliabilities.push_back(reliability);
+    study.effects.push_back({"head fraction", "task", 0.4, 0.002, 0.004, 0.0002, 12, {}});
+    study.effects.push_back({"log WSS", "task:material", {}, {}, {}, {}, 0, "there is one level alone"});
+    study.motions.push_back({{}, Estimate::of(0.9, Interval{0.7, 1.1}), Estimate::of(1.6), 3, 70});
+    study.motions.push_back(
+        {{{"material", "smooth"}}, Estimate::of(-0.1, Interval{-0.3, 0.1}), Estimate::of(1.5), 3, 30});
+    study.motions.push_back(
+        {{{"material", "rough"}}, Estimate::none("no counted fixation saw the surface move"), {}, 0, 0});
+    study.reporting.push_back({"1 eye tracker", "eyes measured", "right <i>", true});
+    study.reporting.push_back({"4 recording environment", "room", "not recorded: describe both", false});
     study.exposures.push_back({0, "all", 31400.0, 1.0, 0.35, 4.0, 1.0, 0.5, 1.0});
     study.exposures.push_back({0, "head", 3140.0, 0.1, 0.2, 5.0, 0.12, std::nullopt, 0.4});
     for (int trial = 0; trial < 4; ++trial)

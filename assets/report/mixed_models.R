@@ -1,0 +1,105 @@
+#!/usr/bin/env Rscript
+# Mixed models of this study, from the table of trials beside this file: needs R with lme4 (Debian: r-cran-lme4).
+#
+#   Rscript mixed_models.R
+#
+# 1. Fixations on the head among all counted ones of a trial: binomial, logit link.
+# 2. Logarithm of the mean within-cluster sum of squares (WSS, mm^2) of a trial: normal.
+#
+# Fixed effects: the factors below and their interactions in pairs (sum contrasts, so that a main effect is one over
+# the mean of the other factors). Random intercepts: of observers, of sculptures, and of each observer at each level of
+# a factor (observer:task); without the last a difference that observers have among themselves would pass for one
+# of the factor (Barr, Levy, Scheepers and Tily 2013, Journal of Memory and Language 68, 255-278). The binomial model
+# also has one of each trial, for the fixations of a trial depend on each other. Terms are tested by the likelihood
+# ratio of the models with and without them (chi-squared; for main effects, both without interactions). With few
+# observers chi-squared is too small a yardstick: hold p against factor_effects, whose permutations need no model.
+# Writes mixed_models_coefficients.csv and mixed_models_tests.csv beside the table, and what was left out, and why,
+# to the terminal.
+
+factors <- strsplit("{{FACTORS}}", ",", fixed = TRUE)[[1]]
+table_file <- "{{TABLE}}"
+
+arguments <- commandArgs(trailingOnly = FALSE)
+script <- sub("^--file=", "", grep("^--file=", arguments, value = TRUE))
+folder <- if (length(script) > 0) dirname(script[1]) else "."
+
+if (!requireNamespace("lme4", quietly = TRUE)) {
+  message("lme4 is not installed: install.packages(\"lme4\"), or on Debian apt install r-cran-lme4.")
+  quit(status = 1)
+}
+suppressPackageStartupMessages(library(lme4))
+
+path <- file.path(folder, table_file)
+if (!grepl("\\.(csv|tsv)$", table_file) || !file.exists(path)) {
+  message(path, ": there is no such table; this script reads csv and tsv (overt analyze --format csv).")
+  quit(status = 1)
+}
+trials <- read.table(path, header = TRUE, sep = if (grepl("\\.tsv$", path)) "\t" else ",", quote = "\"",
+                     comment.char = "", na.strings = "n/a", check.names = FALSE,
+                     colClasses = c(observer = "character"))
+trials <- trials[trials$excluded == 0, ]
+for (column in c("observer", "sculpture", intersect(factors, names(trials))))
+  trials[[column]] <- factor(trials[[column]])
+trials$trial_of_all <- factor(seq_len(nrow(trials)))
+
+say <- function(...) cat(sprintf(...), "\n", sep = "")
+quoted <- function(names) paste0("`", names, "`")
+
+fit_all <- function(what, response, data, is_binomial) {
+  data <- droplevels(data)
+  used <- Filter(function(name) name %in% names(data) && nlevels(data[[name]]) > 1, factors)
+  left_out <- setdiff(factors, used)
+  if (length(left_out) > 0) say("%s: %s has a single level, and is left out.", what, paste(left_out, collapse = ", "))
+  groups <- setdiff(Filter(function(name) nlevels(data[[name]]) > 1, c("observer", "sculpture")), used)
+  if (!"observer" %in% groups || nrow(data) < 10) {
+    say("%s: there are too few observers or trials (%d) for a model.", what, nrow(data))
+    return(NULL)
+  }
+  random <- quoted(c(groups, if (is_binomial) "trial_of_all"))
+  for (name in used) {
+    # What differs between observers alone is in their own intercept; what each trial has alone, in its noise.
+    cells <- nlevels(interaction(data$observer, data[[name]], drop = TRUE))
+    if (cells > nlevels(data$observer) && cells < nrow(data)) random <- c(random, paste0("observer:", quoted(name)))
+    contrasts(data[[name]]) <- contr.sum(nlevels(data[[name]]))
+  }
+  random <- paste0("(1 | ", random, ")", collapse = " + ")
+  fit <- function(fixed) {
+    formula <- as.formula(paste(response, "~", if (length(fixed) > 0) paste(fixed, collapse = " + ") else "1", "+", random))
+    control <- if (is_binomial) glmerControl(optimizer = "bobyqa", optCtrl = list(maxfun = 1e5), calc.derivs = FALSE)
+               else lmerControl(optimizer = "bobyqa", calc.derivs = FALSE)
+    suppressMessages(if (is_binomial) glmer(formula, data, family = binomial, control = control)
+                     else lmer(formula, data, REML = FALSE, control = control))
+  }
+  main <- quoted(used)
+  interactions <- if (length(used) > 1) combn(main, 2, paste, collapse = ":") else character(0)
+  full <- fit(c(main, interactions))
+  if (isSingular(full)) say("%s: a random effect is estimated as 0 (singular fit).", what)
+  rows <- summary(full)$coefficients
+  coefficients <- data.frame(model = what, term = rownames(rows), estimate = rows[, 1], standard_error = rows[, 2],
+                             row.names = NULL)
+  compare <- function(term, with, without) {
+    difference <- max(2 * as.numeric(logLik(with) - logLik(without)), 0)
+    df <- attr(logLik(with), "df") - attr(logLik(without), "df")
+    data.frame(model = what, term = gsub("`", "", term), chi_squared = difference, df = df,
+               p = if (df > 0) pchisq(difference, df, lower.tail = FALSE) else NA)
+  }
+  tests <- NULL
+  additive <- if (length(interactions) > 0) fit(main) else full
+  for (term in main) tests <- rbind(tests, compare(term, additive, fit(setdiff(main, term))))
+  for (term in interactions) tests <- rbind(tests, compare(term, full, fit(c(main, setdiff(interactions, term)))))
+  say("%s: %d trials, %d observers; random intercepts %s.", what, nrow(data), nlevels(data$observer),
+      gsub("`", "", random))
+  print(tests, row.names = FALSE)
+  list(coefficients = coefficients, tests = tests)
+}
+
+head <- trials[!is.na(trials$on_head) & trials$fixations > 0, ]
+spread <- trials[!is.na(trials$wss_mm2) & trials$wss_mm2 > 0, ]
+models <- list(fit_all("head fraction", "cbind(on_head, fixations - on_head)", head, TRUE),
+               fit_all("log WSS", "log(wss_mm2)", spread, FALSE))
+models <- Filter(Negate(is.null), models)
+for (what in c("coefficients", "tests")) {
+  rows <- do.call(rbind, lapply(models, `[[`, what))
+  if (!is.null(rows))
+    write.csv(rows, file.path(folder, paste0("mixed_models_", what, ".csv")), row.names = FALSE, na = "n/a")
+}

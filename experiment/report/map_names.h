@@ -1,0 +1,49 @@
+/// What files of maps are called.
+#pragma once
+
+#include <cctype>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "experiment/study/study_results.h"
+
+namespace overt {
+
+/// "task free, material rough"; "all" without keys.
+inline std::string words_of_keys(const std::vector<StudyKey>& keys) {
+    std::string words;
+    for (const StudyKey& key : keys)
+        words += fmt::format("{}{} {}", words.empty() ? "" : ", ", key.column, key.value);
+    return words.empty() ? "all" : words;
+}
+
+/// A cell of a comma-separated table, in quotes (RFC 4180).
+inline std::string in_quotes(std::string_view text) {
+    std::string cell = "\"";
+    for (const char c : text)
+        cell += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return cell + '"';
+}
+
+/// Letters and digits, each other sign as an underscore; names that are alike then are numbered.
+class FileNames {
+  public:
+    std::string of(std::string_view text) {
+        std::string wanted;
+        for (const char c : text)
+            wanted += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+        std::string name = wanted;
+        for (int n = 2; !taken_.insert(name).second; ++n)
+            name = fmt::format("{}_{}", wanted, n);
+        return name;
+    }
+
+  private:
+    std::set<std::string> taken_;
+};
+
+} // namespace overt

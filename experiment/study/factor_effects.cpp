@@ -1,0 +1,228 @@
+#include "experiment/study/factor_effects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "experiment/statistics/factor_tests.h"
+#include "experiment/study/trial_summary.h"
+
+namespace overt {
+
+namespace {
+
+/// A trial that has a number.
+struct TrialValue {
+    const StudyTrial* trial;
+    std::string observer;
+    double value;
+};
+
+using Values = std::vector<TrialValue>;
+using Cell = std::vector<std::string>;
+
+Cell cell_of(const TrialValue& one, const std::vector<std::string>& columns) {
+    Cell cell;
+    for (const std::string& column : columns)
+        cell.push_back(one.trial->key(column));
+    return cell;
+}
+
+/// Takes off the mean over all trials that are alike in these columns; gives the largest of these means.
+double centre(Values& values, const std::vector<std::string>& columns) {
+    std::map<Cell, std::pair<double, int>> sums;
+    std::vector<std::pair<double, int>*> own;
+    for (const TrialValue& one : values) {
+        own.push_back(&sums[cell_of(one, columns)]);
+        own.back()->first += one.value;
+        ++own.back()->second;
+    }
+    double largest = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double mean = own[i]->first / own[i]->second;
+        values[i].value -= mean;
+        largest = std::max(largest, std::abs(mean));
+    }
+    return largest;
+}
+
+/// Without what the sum of two functions, of the one columns and of the others, tells.
+void take_off_additive_part(Values& values, const std::vector<std::string>& one,
+                            const std::vector<std::string>& other) {
+    double size = 0.0;
+    for (const TrialValue& value : values)
+        size = std::max(size, std::abs(value.value));
+    // Designs that are nearly balanced need a few rounds.
+    for (int round = 0; round < 200; ++round) {
+        const double left = std::max(centre(values, one), centre(values, other));
+        if (left <= 1e-12 * size)
+            return;
+    }
+}
+
+/// Trials of whom there are others that are alike in these columns and have another level of `column`.
+Values with_other_levels(const Values& values, const std::vector<std::string>& columns,
+                         const std::string& column) {
+    std::map<Cell, std::set<std::string>> levels;
+    for (const TrialValue& one : values)
+        levels[cell_of(one, columns)].insert(one.trial->key(column));
+    Values found;
+    std::ranges::copy_if(values, std::back_inserter(found),
+                         [&](const TrialValue& one) { return levels.at(cell_of(one, columns)).size() > 1; });
+    return found;
+}
+
+std::vector<LevelMeans> observer_level_means(const Values& values, std::size_t levels,
+                                             const std::function<std::size_t(const StudyTrial&)>& level_of) {
+    std::map<std::string, std::vector<std::pair<double, int>>> sums;
+    for (const TrialValue& one : values) {
+        auto& own = sums.try_emplace(one.observer, levels).first->second;
+        auto& [sum, count] = own[level_of(*one.trial)];
+        sum += one.value;
+        ++count;
+    }
+    std::vector<LevelMeans> means;
+    for (const auto& [observer, own] : sums) {
+        LevelMeans& mean = means.emplace_back(levels);
+        for (std::size_t i = 0; i < levels; ++i) {
+            if (own[i].second > 0)
+                mean[i] = own[i].first / own[i].second;
+        }
+    }
+    return means;
+}
+
+std::size_t place_in(const std::vector<std::string>& levels, const std::string& level) {
+    return static_cast<std::size_t>(std::ranges::find(levels, level) - levels.begin());
+}
+
+std::vector<std::string> without(std::vector<std::string> columns, const std::string& one) {
+    std::erase(columns, one);
+    return columns;
+}
+
+std::vector<std::string> with(std::vector<std::string> columns, const std::string& one) {
+    columns.push_back(one);
+    return columns;
+}
+
+class EffectTests {
+  public:
+    EffectTests(const StudyResults& results, const LevelLists& lists, const StudyOptions& options)
+        : results_(results), lists_(lists), options_(options), columns_(tested_columns(options.by)) {}
+
+    std::vector<FactorEffectRow> rows_of(const std::string& measure, const Values& values) const {
+        std::vector<FactorEffectRow> rows;
+        for (const std::string& column : columns_)
+            rows.push_back(main_effect(column, values));
+        for (std::size_t a = 0; a < columns_.size(); ++a) {
+            for (std::size_t b = a + 1; b < columns_.size(); ++b)
+                rows.push_back(interaction(columns_[a], columns_[b], values));
+        }
+        std::vector<double> p;
+        for (FactorEffectRow& row : rows) {
+            row.measure = measure;
+            if (row.p)
+                p.push_back(*row.p);
+        }
+        const std::vector<double> corrected = holm(p);
+        std::size_t next = 0;
+        for (FactorEffectRow& row : rows) {
+            if (row.p)
+                row.p_holm = corrected[next++];
+        }
+        return rows;
+    }
+
+  private:
+    /// All that is held alike when a column is tested.
+    std::vector<std::string> beside(const std::string& column) const {
+        return with(without(columns_, column), "sculpture");
+    }
+    std::vector<std::string> levels(const std::string& column) const {
+        return levels_of(results_, column, lists_);
+    }
+
+    static FactorEffectRow row_of(std::string effect, const std::optional<FactorTest>& test,
+                                  const char* absent) {
+        FactorEffectRow row;
+        row.effect = std::move(effect);
+        if (!test) {
+            row.absent = absent;
+            return row;
+        }
+        row.statistic = test->statistic;
+        row.p = test->test.p;
+        row.least_p = test->least_p;
+        row.observers = test->observers;
+        return row;
+    }
+
+    FactorEffectRow main_effect(const std::string& column, const Values& values) const {
+        const std::vector<std::string> own = levels(column);
+        if (own.size() < 2)
+            return row_of(column, std::nullopt, "there is one level alone");
+        Values compared = with_other_levels(values, beside(column), column);
+        if (compared.empty())
+            return row_of(column, std::nullopt, "no two levels were measured with all else alike");
+        centre(compared, beside(column));
+        const auto means = observer_level_means(
+            compared, own.size(), [&](const StudyTrial& trial) { return place_in(own, trial.key(column)); });
+        return row_of(column, level_exchange_test(means, options_.permutation()),
+                      "fewer than two observers have numbers in two levels");
+    }
+
+    FactorEffectRow interaction(const std::string& a, const std::string& b, Values values) const {
+        const std::string effect = fmt::format("{}:{}", a, b);
+        const std::vector<std::string> in_a = levels(a), in_b = levels(b);
+        if (in_a.size() < 2 || in_b.size() < 2)
+            return row_of(effect, std::nullopt, "one of both has one level alone");
+        const std::vector<std::string> others = without(beside(a), b);
+        take_off_additive_part(values, with(others, a), with(others, b));
+        const auto means =
+            observer_level_means(values, in_a.size() * in_b.size(), [&](const StudyTrial& trial) {
+                return place_in(in_a, trial.key(a)) * in_b.size() + place_in(in_b, trial.key(b));
+            });
+        return row_of(effect, interaction_flip_test(means, in_b.size(), options_.permutation()),
+                      "fewer than two observers have numbers in all combinations of both");
+    }
+
+    const StudyResults& results_;
+    const LevelLists& lists_;
+    const StudyOptions& options_;
+    std::vector<std::string> columns_;
+};
+
+} // namespace
+
+std::vector<std::string> tested_columns(const std::vector<std::string>& by) {
+    return without(without(by, "sculpture"), "observer");
+}
+
+std::vector<FactorEffectRow> factor_effects(const StudyResults& results, const LevelLists& levels,
+                                            const StudyOptions& options) {
+    Values heads, spreads;
+    for (std::size_t i = 0; i < results.trials.size(); ++i) {
+        const StudyTrial& trial = results.trials[i];
+        if (trial.excluded)
+            continue;
+        const TrialSummaryRow summary = trial_summary(results, trial);
+        const std::string& observer = observer_of(results, static_cast<int>(i));
+        if (summary.has_head.value_or(false) && summary.counted > 0)
+            heads.push_back({&trial, observer, static_cast<double>(summary.on_head) / summary.counted});
+        if (summary.wss_mm2.value_or(0.0) > 0.0)
+            spreads.push_back({&trial, observer, std::log(*summary.wss_mm2)});
+    }
+    const EffectTests tests(results, levels, options);
+    std::vector<FactorEffectRow> rows = tests.rows_of("head fraction", heads);
+    std::ranges::copy(tests.rows_of("log WSS", spreads), std::back_inserter(rows));
+    return rows;
+}
+
+} // namespace overt

@@ -1,0 +1,52 @@
+#include "experiment/study/gaze_motion.h"
+
+namespace overt {
+
+namespace {
+
+GazeMotionRow motion_of(const StudyResults& results, const StudyGroup& group, const StudyOptions& options) {
+    GazeMotionRow row;
+    row.keys = group.keys;
+    std::vector<double> gains, speeds;
+    for (const auto& [observer, trials] : by_observer(results, group.trials)) {
+        double products = 0.0, squares = 0.0, ways = 0.0, seconds = 0.0;
+        for (const int trial : trials) {
+            for_each_counted(results, trial, [&](const StudyFixation& fixation) {
+                if (!(fixation.surface_way_deg2 > 0.0))
+                    return;
+                products += fixation.duration_s * fixation.gaze_with_surface_deg2;
+                squares += fixation.duration_s * fixation.surface_way_deg2;
+                ways += fixation.duration_s * fixation.surface_deg_s;
+                seconds += fixation.duration_s;
+                ++row.fixations;
+            });
+        }
+        if (!(squares > 0.0))
+            continue;
+        gains.push_back(products / squares);
+        speeds.push_back(ways / seconds);
+    }
+    row.observers = static_cast<int>(gains.size());
+    const std::string absent = "no counted fixation saw the surface move";
+    row.surface_gain = estimated_mean(gains, options.bootstrap(), absent);
+    row.surface_speed_deg_s = estimated_mean(speeds, options.bootstrap(), absent);
+    return row;
+}
+
+} // namespace
+
+std::vector<GazeMotionRow> gaze_motions(const StudyResults& results, const LevelLists& levels,
+                                        const StudyOptions& options) {
+    std::vector<GazeMotionRow> rows;
+    for (const StudyGroup& all : make_groups(results, {}, levels))
+        rows.push_back(motion_of(results, all, options));
+    for (const std::string& column : options.by) {
+        if (column == "observer")
+            continue;
+        for (const StudyGroup& level : make_groups(results, {column}, levels))
+            rows.push_back(motion_of(results, level, options));
+    }
+    return rows;
+}
+
+} // namespace overt

@@ -1,0 +1,23 @@
+/// Is gaze fixed on the object or on the screen while a fixation lasts?
+#pragma once
+
+#include <vector>
+
+#include "experiment/study/study_groups.h"
+#include "experiment/study/study_options.h"
+
+namespace overt {
+
+/// The gain of gaze along the motion of the surface: of each observer the sum over counted fixations of the
+/// products of gaze's way and the surface point's way on the screen (both from their means over the fixation,
+/// weighted by duration), divided by that of the squares of the point's way. It is the slope of the line
+/// through 0 that tells gaze's way from the surface's. 1: gaze pursues the place it looks at; 0: it stays on
+/// the screen, as it would on a highlight that stays while the surface turns beneath it. Noise of the tracker
+/// makes the gain uncertain and not smaller, for it is in gaze alone; the surface point is that of the whole
+/// fixation.
+///
+/// Rows for all trials and for each level of each column of `--by` but the observer: means over observers.
+std::vector<GazeMotionRow> gaze_motions(const StudyResults& results, const LevelLists& levels,
+                                        const StudyOptions& options);
+
+} // namespace overt
