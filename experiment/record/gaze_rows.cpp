@@ -45,11 +45,12 @@ SQLite::Database& with_tables(SQLite::Database& database) {
 
 GazeRows::GazeRows(SQLite::Database& database)
     : database_(with_tables(database)), insert_sample_(database, "INSERT INTO sample VALUES (?,?,?,?,?,?,?)"),
-      insert_event_(database, "INSERT INTO gaze_event VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)") {}
+      insert_event_(database, "INSERT INTO gaze_event VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"),
+      insert_detail_(database, "INSERT INTO sample_detail VALUES (?,?,?,?,?,?,?,?)") {}
 
 void GazeRows::begin_trial(std::int64_t trial_id) {
     trial_id_ = trial_id;
-    samples_ = events_ = 0;
+    samples_ = events_ = details_ = 0;
 }
 
 void GazeRows::sample(const GazeSample& sample) {
@@ -66,6 +67,75 @@ void GazeRows::event(const GazeEvent& event) {
                   static_cast<std::int64_t>(event.duration.count()), x_of(event.place), y_of(event.place),
                   x_of(event.arrival), y_of(event.arrival), event.pupil, event.amplitude_deg,
                   event.peak_velocity_deg_s, event.text);
+}
+
+void GazeRows::detail(const SampleDetail& detail) {
+    const auto mm = [&](int axis) {
+        return detail.eye_mm ? Pixels(shortest_decimal((*detail.eye_mm)[axis])) : std::nullopt;
+    };
+    run_statement(
+        insert_detail_, trial_id_, details_++, microseconds(detail.sampled_at), static_cast<int>(detail.eye),
+        detail.confidence ? Pixels(shortest_decimal(*detail.confidence)) : std::nullopt, mm(0), mm(1), mm(2));
+}
+
+void GazeRows::calibration(int sitting, const RecordedCalibration& calibration) {
+    SQLite::Statement insert(database_, "INSERT INTO calibration (sitting, at_ns, trial, method, mean_deg, "
+                                        "max_deg, within_limits) VALUES (?,?,?,?,?,?,?)");
+    const ValidationResult& found = calibration.validation;
+    run_statement(insert, sitting, calibration.at,
+                  calibration.trial < 0 ? std::nullopt : std::optional(calibration.trial), calibration.method,
+                  found.mean_error.value, found.max_error.value, calibration.is_within_limits ? 1 : 0);
+    const std::int64_t id = database_.getLastInsertRowid();
+    SQLite::Statement insert_target(
+        database_,
+        "INSERT INTO validated_target (sitting, calibration, eye, x_px, y_px, gaze_x_px, gaze_y_px, "
+        "error_deg, rms_s2s_deg, sd_deg) VALUES (?,?,?,?,?,?,?,?,?,?)");
+    const auto degrees = [](const std::optional<Degrees>& angle) {
+        return angle ? std::optional(angle->value) : std::nullopt;
+    };
+    for (const ValidatedTarget& target : found.targets)
+        run_statement(insert_target, sitting, id, static_cast<int>(target.eye), target.target.x_px,
+                      target.target.y_px, x_of(target.gaze), y_of(target.gaze),
+                      target.gaze ? std::optional(target.error.value) : std::nullopt, degrees(target.rms_s2s),
+                      degrees(target.sd));
+}
+
+std::vector<RecordedCalibration> read_calibrations(const SQLite::Database& database, int sitting) {
+    std::vector<RecordedCalibration> all;
+    Query row(database, "SELECT id, at_ns, trial, method, mean_deg, max_deg, within_limits FROM calibration "
+                        "WHERE sitting = ? ORDER BY id");
+    row.bind(1, sitting);
+    while (row.step()) {
+        RecordedCalibration calibration;
+        const std::int64_t id = row.integer();
+        calibration.at = row.session_time();
+        calibration.trial = row.optional_small().value_or(-1);
+        calibration.method = row.text();
+        calibration.validation.mean_error = {row.real()};
+        calibration.validation.max_error = {row.real()};
+        calibration.is_within_limits = row.integer() != 0;
+        Query of(database,
+                 "SELECT eye, x_px, y_px, gaze_x_px, gaze_y_px, error_deg, rms_s2s_deg, sd_deg FROM "
+                 "validated_target WHERE calibration = ? ORDER BY id");
+        of.bind(1, id);
+        while (of.step()) {
+            ValidatedTarget target;
+            target.eye = of.small() == 0 ? Eye::left : Eye::right;
+            target.target.x_px = of.real();
+            target.target.y_px = of.real();
+            target.gaze = read_place(of);
+            target.error = {of.optional_real().value_or(0.0)};
+            const auto degrees = [&]() -> std::optional<Degrees> {
+                const std::optional<double> value = of.optional_real();
+                return value ? std::optional(Degrees{*value}) : std::nullopt;
+            };
+            target.rms_s2s = degrees();
+            target.sd = degrees();
+            calibration.validation.targets.push_back(target);
+        }
+        all.push_back(std::move(calibration));
+    }
+    return all;
 }
 
 void GazeRows::line_left_out(int sitting, const std::string& detail) {

@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "experiment/events/event_settings.h"
 #include "experiment/gaze_event.h"
+#include "experiment/ports/recorded_calibration.h"
+#include "experiment/ports/tracker_items.h"
 
 namespace overt {
 
@@ -28,6 +31,9 @@ class GazeRows {
     void begin_trial(std::int64_t trial_id);
     void sample(const GazeSample& sample);
     void event(const GazeEvent& event);
+    void detail(const SampleDetail& detail);
+    /// Of a sitting; not of the trial that was begun.
+    void calibration(int sitting, const RecordedCalibration& calibration);
     /// Notes a line of the sitting's file that could not be read: an event outside of trials, at the
     /// session's begin, for nobody knows when it was.
     void line_left_out(int sitting, const std::string& detail);
@@ -37,13 +43,16 @@ class GazeRows {
 
   private:
     SQLite::Database& database_;
-    SQLite::Statement insert_sample_, insert_event_;
-    std::int64_t trial_id_ = 0, samples_ = 0, events_ = 0, outside_events_ = 0;
+    SQLite::Statement insert_sample_, insert_event_, insert_detail_;
+    std::int64_t trial_id_ = 0, samples_ = 0, events_ = 0, outside_events_ = 0, details_ = 0;
 };
 
 /// In the order in which they were written. Throws SQLite::Exception.
 void read_gaze_events(const SQLite::Database& database, std::int64_t trial_id,
                       const std::function<void(const GazeEvent&)>& take);
+
+/// In the order in which they were recorded; none of a session of earlier programs. Throws SQLite::Exception.
+std::vector<RecordedCalibration> read_calibrations(const SQLite::Database& database, int sitting);
 
 /// Nothing if the program did not detect events of the sitting itself. Throws SQLite::Exception.
 std::optional<EventDetection> read_event_detection(const SQLite::Database& database, int sitting);

@@ -44,7 +44,12 @@ constexpr RowColumn<SessionHeader> session_columns[] = {
     column<&Header::tracker, &TrackerDescription::name>("tracker_name", "name of the eye tracker"),
     column<&Header::tracker, &TrackerDescription::sample_rate_hz>("tracker_rate_hz",
                                                                   "its samples to a second, nominal"),
-    column<&Header::tracker, &TrackerDescription::eye>("tracker_eye", "`left` or `right`"),
+    column<&Header::tracker, &TrackerDescription::eye>(
+        "tracker_eye", "`left` or `right`; of both, the one that is analysed"),
+    column<&Header::tracker, &TrackerDescription::both_eyes>("tracker_both_eyes", "1 if both are measured",
+                                                             "0"),
+    column<&Header::tracker, &TrackerDescription::model>(
+        "tracker_model", "what the device says of itself; empty if nothing", "''"),
     column<&Header::display, &Display::screen, &Screen::screen_px, 0>("screen_width_px", "of the screen"),
     column<&Header::display, &Display::screen, &Screen::screen_px, 1>("screen_height_px", "of the screen"),
     column<&Header::display, &Display::screen, &Screen::screen_mm, 0>("screen_width_mm",

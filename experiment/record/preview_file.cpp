@@ -6,10 +6,21 @@
 
 namespace overt {
 
+namespace {
+
+std::string stimulus_file(const SessionHeader& header, const Condition& condition, std::string_view ending) {
+    return fmt::format("stimuli/{}_{}{}", header.sculptures[static_cast<std::size_t>(condition.sculpture)].id,
+                       header.materials[static_cast<std::size_t>(condition.material)].id, ending);
+}
+
+} // namespace
+
 std::string preview_file(const SessionHeader& header, const Condition& condition) {
-    return fmt::format("stimuli/{}_{}.png",
-                       header.sculptures[static_cast<std::size_t>(condition.sculpture)].id,
-                       header.materials[static_cast<std::size_t>(condition.material)].id);
+    return stimulus_file(header, condition, ".png");
+}
+
+std::string light_file(const SessionHeader& header, const Condition& condition) {
+    return stimulus_file(header, condition, "_light.exr");
 }
 
 const RecordedStimulus* stimulus_of(const SessionHeader& header, const Condition& condition) {

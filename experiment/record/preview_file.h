@@ -1,4 +1,4 @@
-/// A stimulus of a session, and where the session keeps a picture of it.
+/// A stimulus of a session, and where the session keeps pictures of it.
 #pragma once
 
 #include <string>
@@ -9,6 +9,9 @@ namespace overt {
 
 /// Where in a session's folder animation frame 0 of a stimulus lies, as an 8-bit sRGB PNG to look at.
 std::string preview_file(const SessionHeader& header, const Condition& condition);
+
+/// Where it keeps how bright the stimulus is in each pose (light_pictures.h), if it knows.
+std::string light_file(const SessionHeader& header, const Condition& condition);
 
 /// What the header says of it; null in recordings that were made elsewhere, which have no stimuli.
 const RecordedStimulus* stimulus_of(const SessionHeader& header, const Condition& condition);

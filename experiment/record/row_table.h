@@ -23,6 +23,7 @@ template <class Enum> inline constexpr std::array<const char*, 2> stored_words{}
 // How values of each type stand in a table: there and back.
 inline std::int64_t stored(std::int64_t value) { return value; }
 inline int stored(int value) { return value; }
+inline int stored(bool value) { return value ? 1 : 0; }
 inline double stored(double value) { return value; }
 inline const std::string& stored(const std::string& value) { return value; }
 inline double stored(Degrees value) { return value.value; }
@@ -34,6 +35,7 @@ requires std::is_enum_v<Enum>
 const char* stored(Enum value) { return stored_words<Enum>[value == Enum{} ? 0 : 1]; }
 
 inline void read_into(int& value, Query& row) { value = row.small(); }
+inline void read_into(bool& value, Query& row) { value = row.small() != 0; }
 inline void read_into(double& value, Query& row) { value = row.real(); }
 inline void read_into(std::string& value, Query& row) { value = row.text(); }
 inline void read_into(Degrees& value, Query& row) { value.value = row.real(); }

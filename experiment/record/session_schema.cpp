@@ -132,6 +132,22 @@ CREATE TABLE IF NOT EXISTS gaze_event (
     amplitude_deg REAL, peak_velocity_deg_s REAL, text TEXT NOT NULL,
     PRIMARY KEY (trial_id, n)
 ) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS sample_detail (
+    trial_id INTEGER NOT NULL, n INTEGER NOT NULL, tracker_us INTEGER NOT NULL, eye INTEGER NOT NULL,
+    confidence REAL, eye_x_mm REAL, eye_y_mm REAL, eye_z_mm REAL,
+    PRIMARY KEY (trial_id, n)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS calibration (
+    id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting, at_ns INTEGER NOT NULL,
+    trial INTEGER, method TEXT NOT NULL, mean_deg REAL NOT NULL, max_deg REAL NOT NULL,
+    within_limits INTEGER NOT NULL CHECK (within_limits IN (0, 1))
+) STRICT;
+CREATE TABLE IF NOT EXISTS validated_target (
+    id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting,
+    calibration INTEGER NOT NULL REFERENCES calibration, eye INTEGER NOT NULL,
+    x_px REAL NOT NULL, y_px REAL NOT NULL, gaze_x_px REAL, gaze_y_px REAL, error_deg REAL,
+    rms_s2s_deg REAL, sd_deg REAL
+) STRICT;
 CREATE TABLE IF NOT EXISTS event_detection (
     sitting INTEGER PRIMARY KEY REFERENCES sitting, name TEXT NOT NULL, version INTEGER NOT NULL,
     parameters TEXT NOT NULL
@@ -144,12 +160,28 @@ CREATE TABLE IF NOT EXISTS gaze_source (
 ) STRICT;
 )sql";
 
+const char* const device_tables_sql = R"sql(
+CREATE TABLE IF NOT EXISTS button_change (
+    id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting, at_ns INTEGER NOT NULL,
+    uncertainty_ns INTEGER NOT NULL, trial INTEGER, attempt_id INTEGER, box TEXT NOT NULL,
+    used_by TEXT NOT NULL CHECK (used_by IN ('observer', 'operator')), button INTEGER NOT NULL,
+    name TEXT NOT NULL, is_down INTEGER NOT NULL CHECK (is_down IN (0, 1)), device_us INTEGER,
+    meaning TEXT NOT NULL
+) STRICT;
+CREATE TABLE IF NOT EXISTS marker (
+    id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting, at_ns INTEGER NOT NULL,
+    trial INTEGER, attempt_id INTEGER, output TEXT NOT NULL, text TEXT NOT NULL, code INTEGER NOT NULL,
+    is_sent INTEGER NOT NULL CHECK (is_sent IN (0, 1)), not_before_ns INTEGER NOT NULL,
+    not_after_ns INTEGER NOT NULL, planned_refresh INTEGER, shown_refresh INTEGER
+) STRICT;
+)sql";
+
 void make_session_tables(SQLite::Database& database) {
     for (const std::string& sql :
          {create_sql(session_table()), create_sql(characterisation_table()), create_sql(sculpture_table())})
         database.exec(sql);
-    for (const char* const sql :
-         {session_schema_sql, box_tables_sql, observer_tables_sql, ledger_tables_sql, gaze_tables_sql})
+    for (const char* const sql : {session_schema_sql, box_tables_sql, observer_tables_sql, ledger_tables_sql,
+                                  gaze_tables_sql, device_tables_sql})
         database.exec(sql);
 }
 

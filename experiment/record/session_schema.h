@@ -36,6 +36,9 @@ extern const char* const ledger_tables_sql;
 /// The same for the tables of what a tracker said besides samples, or the program said of them.
 extern const char* const gaze_tables_sql;
 
+/// The same for the tables of response boxes and of markers.
+extern const char* const device_tables_sql;
+
 /// Makes all of them in an empty database. Throws SQLite::Exception.
 void make_session_tables(SQLite::Database& database);
 

@@ -108,6 +108,7 @@ class SittingExport {
         std::function<void(std::size_t most, const std::function<void(std::span<const GazeSample>)>&)>;
     void write_screen(TrackerTime at, const std::vector<GazeEvent>& said);
     void write_validations();
+    void write_validation(const RecordedCalibration& calibration, Eye eye);
     void write(AscTrial& lines, const ReadSamples& read, AscExportCounts& counts);
 
     const SessionRecord& record_;
@@ -152,29 +153,45 @@ void SittingExport::write_screen(TrackerTime at, const std::vector<GazeEvent>& s
 }
 
 /// All of a sitting stand at its begin, with their own times: in the form in which readers look for
-/// calibrations and validations. The session knows the errors, but not those of each target: their number is
+/// calibrations and validations. Of validations whose targets the session does not know, their number is
 /// given as 0, for MNE reads as many lines of targets as it says.
 void SittingExport::write_validations() {
     if (!clock_map_)
         return;
+    std::vector<RecordedCalibration> all = record_.calibrations(sitting_);
+    if (all.empty())
+        record_.read_events([&](const RecordedEvent& event) {
+            if (const auto validation = event.sitting == sitting_ ? validation_of(event) : std::nullopt)
+                all.push_back({event.at, -1, {}, *validation});
+        });
     const AscLayout& layout = writer_.layout();
-    record_.read_events([&](const RecordedEvent& event) {
-        const auto validation = event.sitting == sitting_ ? validation_of(event) : std::nullopt;
-        if (!validation)
-            return;
-        const TrackerTime at = clock_map_->to_other(event.at);
-        for (const bool left : {true, false}) {
-            if (left ? !layout.has_left : !layout.has_right)
-                continue;
-            const char* const eye = left ? "LEFT" : "RIGHT";
-            writer_.message(at, "!CAL ");
-            writer_.line(fmt::format(">>>>>>> CALIBRATION (HV0,{}) FOR {}: <<<<<<<<<",
-                                     ascii_of(record_.header().tracker.name), eye));
-            writer_.message(at, fmt::format("!CAL VALIDATION HV0 {} {}  ERROR {:.2f} avg. {:.2f} max",
-                                            left ? "L" : "R", eye, validation->mean_error.value,
-                                            validation->max_error.value));
-        }
-    });
+    for (const RecordedCalibration& calibration : all)
+        for (const Eye eye : {Eye::left, Eye::right})
+            if (eye == Eye::left ? layout.has_left : layout.has_right)
+                write_validation(calibration, eye);
+}
+
+void SittingExport::write_validation(const RecordedCalibration& calibration, Eye eye) {
+    const TrackerTime at = clock_map_->to_other(calibration.at);
+    const ValidationOfEye found = validation_of_eye(calibration.validation, eye);
+    const char letter = eye == Eye::left ? 'L' : 'R';
+    const char* const word = eye == Eye::left ? "LEFT" : "RIGHT";
+    const std::size_t count = found.targets.size();
+    writer_.message(at, "!CAL ");
+    writer_.line(fmt::format(">>>>>>> CALIBRATION (HV{},{}) FOR {}: <<<<<<<<<", count,
+                             ascii_of(record_.header().tracker.name), word));
+    writer_.message(at, fmt::format("!CAL VALIDATION HV{} {} {}  ERROR {:.2f} avg. {:.2f} max", count, letter,
+                                    word, found.mean_error.value, found.max_error.value));
+    for (std::size_t i = 0; i < count; ++i) {
+        const ValidatedTarget& target = found.targets[i];
+        const std::string place = fmt::format("VALIDATE {} {}POINT {} {}  at {:.0f},{:.0f}", letter, count, i,
+                                              word, target.target.x_px, target.target.y_px);
+        writer_.message(at, target.gaze
+                                ? fmt::format("{}  OFFSET {:.2f} deg.  {:.1f},{:.1f} pix.", place,
+                                              target.error.value, target.gaze->x_px - target.target.x_px,
+                                              target.gaze->y_px - target.target.y_px)
+                                : place + "  MISSING");
+    }
 }
 
 void SittingExport::write(AscTrial& lines, const ReadSamples& read, AscExportCounts& counts) {

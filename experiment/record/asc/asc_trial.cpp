@@ -186,6 +186,15 @@ void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
         if (const std::string answer = answer_text(trial); !answer.empty())
             add(span->second, answer);
     }
+    if (clock_map)
+        for (const RecordedButton& button : record.button_changes())
+            if (button.attempt_id == trial.id) {
+                GazeEvent event;
+                event.kind = Kind::button;
+                event.start = event.end = at(button.at);
+                event.text = fmt::format("{} {}", button.button, button.is_down ? 1 : 0);
+                lines_.push_back(line_of(std::move(event)));
+            }
     std::stable_sort(lines_.begin(), lines_.end(),
                      [](const Line& a, const Line& b) { return a.place < b.place; });
 

@@ -35,12 +35,13 @@ template <class List> Levels levels_of(const List& list) {
 
 /// An attempt at a trial, or a screen that it got to.
 struct BidsEvent {
-    std::reference_wrapper<const TrialRecord> attempt;
+    const TrialRecord* attempt;
     std::string_view what;
     SessionTime from, to; ///< the same where something else ended it
     std::optional<SessionDuration> response_time = {};
     std::string stimulus_file = {};
     const TrialOutcome* outcome = nullptr; ///< of the attempt itself, once it has one
+    std::string value = {}, device = {};   ///< of a button or a marker
 };
 
 /// `header` must outlive it.
@@ -68,7 +69,9 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
               {{"trial", "an attempt at a trial, from its begin to the answer"},
                {"question", "the screen with the question"},
                {"presentation", "the animated stimulus"},
-               {"response", "the screen during the answer"}}},
+               {"response", "the screen during the answer"},
+               {"button", "a button of a response box was pressed"},
+               {"marker", "another device was told of an event"}}},
              [](auto& to, auto& row) { to.word(row.what); }},
             {{"response_time", "From the onset of the response screen to the end of the answer", "s", {}},
              [](auto& to, auto& row) { row.response_time ? to.seconds(*row.response_time) : to.missing(); }},
@@ -84,9 +87,9 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
                            : to.missing();
              }},
             {{"trial", "Position of the trial in the observer's order, from 1", "", {}},
-             [](auto& to, auto& row) { to.integer(row.attempt.get().trial.index + 1); }},
+             [](auto& to, auto& row) { to.integer(row.attempt->trial.index + 1); }},
             {{"attempt", "Which attempt at this trial, from 1", "", {}},
-             [](auto& to, auto& row) { to.integer(row.attempt.get().attempt); }},
+             [](auto& to, auto& row) { to.integer(row.attempt->attempt); }},
             {{"status",
               "How the attempt ended",
               "",
@@ -94,38 +97,35 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
                {"aborted", "broken off, or failed and to come again"},
                {"interrupted", "cut off when the program was killed, and the session went on later"},
                {"open", "cut off when the program was killed"}}},
-             [](auto& to, auto& row) { to.word(name_of(row.attempt.get().status)); }},
+             [](auto& to, auto& row) { to.word(name_of(row.attempt->status)); }},
             {{"counts",
               "Whether this is the attempt that counts",
               "",
               {{"yes", "completed"},
                {"no", "not completed, or its block was begun again later: the attempt there counts"}}},
-             [](auto& to, auto& row) { to.word(row.attempt.get().counts ? "yes" : "no"); }},
+             [](auto& to, auto& row) { to.word(row.attempt->counts ? "yes" : "no"); }},
             {{"block", "The block that the trial is of, where there are blocks", "", blocks},
              [&header](auto& to, auto& row) {
-                 const std::string* const block = item_of(header.blocks, row.attempt.get().trial.block);
+                 const std::string* const block = item_of(header.blocks, row.attempt->trial.block);
                  block ? to.text(*block) : to.missing();
              }},
             {{"task", "Which task the trial was of", "", tasks},
-             [&header](auto& to, auto& row) {
-                 to.text(item(header.tasks, row.attempt.get().trial.task).id);
-             }},
+             [&header](auto& to, auto& row) { to.text(item(header.tasks, row.attempt->trial.task).id); }},
             {{"question", "The question as it was asked", "", {}},
              [&header](auto& to, auto& row) {
-                 to.text(item(header.tasks, row.attempt.get().trial.task).question);
+                 to.text(item(header.tasks, row.attempt->trial.task).question);
              }},
             {{"sculpture", "Which sculpture was shown", "", levels_of(header.sculptures)},
              [&header](auto& to, auto& row) {
-                 to.text(item(header.sculptures, row.attempt.get().trial.condition.sculpture).id);
+                 to.text(item(header.sculptures, row.attempt->trial.condition.sculpture).id);
              }},
             {{"material", "In which material it was shown", "", levels_of(header.materials)},
              [&header](auto& to, auto& row) {
-                 to.text(item(header.materials, row.attempt.get().trial.condition.material).id);
+                 to.text(item(header.materials, row.attempt->trial.condition.material).id);
              }},
             {{"frames", "How the frames that were shown had been made", "", {}},
              [&header](auto& to, auto& row) {
-                 const RecordedStimulus* const stimulus =
-                     stimulus_of(header, row.attempt.get().trial.condition);
+                 const RecordedStimulus* const stimulus = stimulus_of(header, row.attempt->trial.condition);
                  stimulus ? to.text(stimulus->source) : to.missing();
              }},
             {{"missed_refreshes", "Refreshes of the display that went by with an old picture", "", {}},
@@ -137,6 +137,10 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
                  row.outcome&& row.outcome->drift ? to.fixed(row.outcome->drift->value, angle_decimals)
                                                   : to.missing();
              }},
+            {{"value", "Of a button, its name; of a marker, its code, or its text where it has none", "", {}},
+             [](auto& to, auto& row) { row.device.empty() ? to.missing() : to.text(row.value); }},
+            {{"device", "The response box, or the output of markers, as the protocol calls it", "", {}},
+             [](auto& to, auto& row) { row.device.empty() ? to.missing() : to.text(row.device); }},
             {{"answer", "The answer, where it was taken down", "", {}},
              [](auto& to, auto& row) { row.outcome ? to.text(row.outcome->answer) : to.missing(); }},
         }};
@@ -164,15 +168,15 @@ void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTim
                 const StimulusFile& stimulus_file) {
     const TrialOutcome& outcome = trial.outcome;
     const auto was = [&](SessionTime time) { return trial.reached(time); };
-    to.push_back({.attempt = trial,
+    to.push_back({.attempt = &trial,
                   .what = "trial",
                   .from = trial.started,
                   .to = end,
                   .outcome = trial.has_outcome() ? &outcome : nullptr});
     if (was(outcome.task_screen_onset))
-        to.push_back({trial, "question", outcome.task_screen_onset, outcome.task_screen_onset});
+        to.push_back({&trial, "question", outcome.task_screen_onset, outcome.task_screen_onset});
     if (was(outcome.presentation_onset))
-        to.push_back({trial,
+        to.push_back({&trial,
                       "presentation",
                       outcome.presentation_onset,
                       outcome.presentation_end,
@@ -182,8 +186,30 @@ void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTim
         std::optional<SessionDuration> response_time;
         if (was(outcome.responded_at))
             response_time = outcome.responded_at - outcome.response_screen_onset;
-        to.push_back({trial, "response", outcome.response_screen_onset, outcome.responded_at, response_time});
+        to.push_back(
+            {&trial, "response", outcome.response_screen_onset, outcome.responded_at, response_time});
     }
+}
+
+/// Presses of buttons in an attempt, and markers of it that were sent.
+void add_devices(std::vector<BidsEvent>& to, const TrialRecord& trial,
+                 const std::vector<RecordedButton>& buttons, const std::vector<RecordedMarker>& markers) {
+    for (const RecordedButton& button : buttons)
+        if (button.attempt_id == trial.id && button.is_down)
+            to.push_back({.attempt = &trial,
+                          .what = "button",
+                          .from = button.at,
+                          .to = button.at,
+                          .value = button.name,
+                          .device = button.box});
+    for (const RecordedMarker& marker : markers)
+        if (marker.attempt_id == trial.id && marker.is_sent)
+            to.push_back({.attempt = &trial,
+                          .what = "marker",
+                          .from = marker.at,
+                          .to = marker.at,
+                          .value = marker.code ? fmt::format("{}", marker.code) : marker.text,
+                          .device = marker.output});
 }
 
 /// To the micrometre, as the nearest number to what is written: 0.3929, and not 0.39289999999999997.
@@ -219,9 +245,14 @@ void write_bids_events(const SessionRecord& record, int run, std::optional<Sessi
     TableWriter writer(stem.string() + ".tsv", layout.table(), TableFormat::tsv, Packing::none,
                        TableWriter::Header::names);
     std::vector<BidsEvent> events;
-    for (const TrialRecord& trial : record.trials())
-        if (trial.sitting == run)
-            add_events(events, trial, end_of(record, trial, clock_map), stimulus_file);
+    const std::vector<RecordedButton> buttons = record.button_changes();
+    const std::vector<RecordedMarker> markers = record.markers();
+    for (const TrialRecord& trial : record.trials()) {
+        if (trial.sitting != run)
+            continue;
+        add_events(events, trial, end_of(record, trial, clock_map), stimulus_file);
+        add_devices(events, trial, buttons, markers);
+    }
     std::stable_sort(events.begin(), events.end(),
                      [](const BidsEvent& a, const BidsEvent& b) { return a.from < b.from; });
     for (const BidsEvent& event : events)

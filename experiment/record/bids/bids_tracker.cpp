@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "experiment/record/asc/asc_words.h"
@@ -16,6 +17,7 @@ struct Calibrations {
     int count = 0;
     std::optional<ValidationResult> validation; ///< the last
     std::string type;                           ///< such as HV9
+    std::vector<ScreenPoint> targets;           ///< of the last validation
 };
 
 /// The number before a word: 0.31 of "ERROR 0.31 avg.".
@@ -51,6 +53,16 @@ void take_line(Calibrations& calibrations, const GazeEvent& event, std::string_v
 
 Calibrations calibrations_of(const SessionRecord& record, int run, Eye eye, bool is_imported) {
     Calibrations calibrations;
+    if (const std::vector<RecordedCalibration> all = record.calibrations(run); !all.empty()) {
+        calibrations.count = static_cast<int>(all.size());
+        const ValidationOfEye last = validation_of_eye(all.back().validation, eye);
+        calibrations.validation = {last.mean_error, last.max_error};
+        for (const ValidatedTarget& target : last.targets)
+            calibrations.targets.push_back(target.target);
+        if (!last.targets.empty())
+            calibrations.type = fmt::format("HV{}", last.targets.size());
+        return calibrations;
+    }
     if (!is_imported) {
         record.read_events([&](const RecordedEvent& event) {
             if (const auto validation = event.sitting == run ? validation_of(event) : std::nullopt) {
@@ -94,6 +106,12 @@ nlohmann::ordered_json bids_tracker(const SessionRecord& record, int run, Eye ey
     }
     if (!calibrations.type.empty())
         json["CalibrationType"] = calibrations.type;
+    if (!calibrations.targets.empty()) {
+        json["CalibrationUnit"] = "pixel";
+        json["CalibrationPosition"] = nlohmann::ordered_json::array();
+        for (const ScreenPoint target : calibrations.targets)
+            json["CalibrationPosition"].push_back({target.x_px, target.y_px});
+    }
     json["TaskName"] = bids_task_name(header);
     return json;
 }

@@ -1,5 +1,6 @@
 #include "experiment/record/read/recorded_validation.h"
 
+#include <algorithm>
 #include <charconv>
 #include <string_view>
 
@@ -27,6 +28,27 @@ std::optional<ValidationResult> validation_of(const RecordedEvent& event) {
     const auto mean = degrees_after(event.detail, "mean error "),
                max = degrees_after(event.detail, "largest ");
     return mean && max ? std::optional(ValidationResult{*mean, *max}) : std::nullopt;
+}
+
+ValidationOfEye validation_of_eye(const ValidationResult& validation, Eye eye) {
+    ValidationOfEye found{validation.mean_error, validation.max_error, {}};
+    double sum_deg = 0.0, max_deg = 0.0;
+    int measured = 0;
+    for (const ValidatedTarget& target : validation.targets) {
+        if (target.eye != eye)
+            continue;
+        found.targets.push_back(target);
+        if (target.gaze) {
+            sum_deg += target.error.value;
+            max_deg = std::max(max_deg, target.error.value);
+            ++measured;
+        }
+    }
+    if (measured > 0) {
+        found.mean_error = {sum_deg / measured};
+        found.max_error = {max_deg};
+    }
+    return found;
 }
 
 } // namespace overt

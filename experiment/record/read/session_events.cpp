@@ -86,19 +86,19 @@ SessionRecord::EventOrigin SessionRecord::find_event_origin(int sitting) const {
     using From = EventOrigin::From;
     const bool is_imported = gaze_source(sitting).has_value();
     return reading_session(file_, [&]() -> EventOrigin {
-        if (is_imported) {
+        if (!is_imported && has_table(*database_, "event_detection"))
+            if (const auto detection = read_event_detection(*database_, sitting))
+                return {From::recording, *detection};
+        if (has_table(*database_, "gaze_event")) {
             Query row(*database_,
                       "SELECT EXISTS (SELECT * FROM gaze_event JOIN trial USING (trial_id) WHERE sitting = ? "
                       "AND kind IN ('fixation', 'saccade', 'blink'))");
             row.bind(1, sitting);
             if (row.step() && row.integer() != 0)
                 return {From::tracker, {}};
-            if (!detects_imports_)
-                return {};
-        } else if (has_table(*database_, "event_detection")) {
-            if (const auto detection = read_event_detection(*database_, sitting))
-                return {From::recording, *detection};
         }
+        if (is_imported && !detects_imports_)
+            return {};
         Query samples(*database_,
                       "SELECT EXISTS (SELECT * FROM sample JOIN trial USING (trial_id) WHERE sitting = ?)");
         samples.bind(1, sitting);

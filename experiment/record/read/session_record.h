@@ -18,7 +18,10 @@
 #include "experiment/gaze_event.h"
 #include "experiment/ports/observer_field.h"
 #include "experiment/ports/recorded_answer.h"
+#include "experiment/ports/recorded_button.h"
+#include "experiment/ports/recorded_calibration.h"
 #include "experiment/ports/recorded_consent.h"
+#include "experiment/ports/recorded_marker.h"
 #include "experiment/ports/session_history.h"
 #include "experiment/ports/trial_outcome.h"
 #include "experiment/record/recorded_box.h"
@@ -50,6 +53,10 @@ struct TrialRecord {
     TrialOutcome outcome; ///< meaningless while open, or interrupted; its times: see reached()
     std::int64_t lost_flips = 0;
     std::int64_t lost_samples = 0;
+    /// The response box at which the observer answered, and how exactly the time of the answer is known;
+    /// empty and nothing of a keyboard, and of sessions of earlier programs.
+    std::string response_box = {};
+    std::optional<SessionDuration> response_uncertainty = {};
 
     /// It came to its end, in order or not.
     bool has_outcome() const { return status == Status::completed || status == Status::aborted; }
@@ -158,6 +165,11 @@ class SessionRecord {
     /// The same one by one, so that memory does not grow with the session.
     void read_events(const std::function<void(const RecordedEvent&)>& take) const;
 
+    /// What buttons of response boxes did, and what became of markers at their outputs, in the order in which
+    /// they were written. Sessions of earlier programs have none.
+    std::vector<RecordedButton> button_changes() const;
+    std::vector<RecordedMarker> markers() const;
+
     /// Each time that somebody agreed to take part, or did not.
     std::vector<RecordedConsent> consents() const;
 
@@ -172,9 +184,13 @@ class SessionRecord {
 
     /// Readings of both clocks in one sitting: between sittings the tracker may have been restarted.
     std::vector<ClockPair> clock_pairs(int sitting) const;
+    /// Set-ups of the eye tracker; none in sessions of programs that did not record them.
+    std::vector<RecordedCalibration> calibrations(int sitting) const;
 
     /// Nothing if that sitting read the clocks never.
     std::optional<ClockMap> clock_map(int sitting) const;
+    /// The same for a trial's samples: of the run of the tracker's clock that its presentation was in.
+    std::optional<ClockMap> clock_map(const TrialRecord& trial) const;
 
     /// What each sitting's display was sent through, by sitting. Sessions of earlier programs say nothing.
     std::vector<std::pair<int, RecordedBox>> display_boxes() const;

@@ -66,9 +66,23 @@ std::vector<ClockPair> SessionRecord::clock_pairs(int sitting) const {
     });
 }
 
+std::vector<RecordedCalibration> SessionRecord::calibrations(int sitting) const {
+    return reading_session(file_, [&] {
+        return has_table(*database_, "calibration") ? read_calibrations(*database_, sitting)
+                                                    : std::vector<RecordedCalibration>();
+    });
+}
+
 std::optional<ClockMap> SessionRecord::clock_map(int sitting) const {
     const std::vector<ClockPair> pairs = clock_pairs(sitting);
     return pairs.empty() ? std::nullopt : std::optional<ClockMap>(ClockMap(pairs));
+}
+
+std::optional<ClockMap> SessionRecord::clock_map(const TrialRecord& trial) const {
+    const std::optional<ClockMap> of_sitting = clock_map(trial.sitting);
+    const SessionTime onset = trial.outcome.presentation_onset;
+    return of_sitting ? std::optional(of_sitting->at(trial.reached(onset) ? onset : trial.started))
+                      : std::nullopt;
 }
 
 std::vector<std::pair<int, RecordedBox>> SessionRecord::display_boxes() const {

@@ -1,5 +1,7 @@
 #include "experiment/record/read/trial_rows.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "experiment/record/sql.h"
@@ -56,6 +58,25 @@ TrialRecord read_trial(Query& row) {
     return record;
 }
 
+/// An answer has the time of the press that gave it.
+void add_response_boxes(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
+    if (!has_table(database, "button_change"))
+        return;
+    for (Query row(database, "SELECT trial.trial_id, box, uncertainty_ns FROM trial JOIN button_change "
+                             "ON attempt_id = trial.trial_id AND at_ns = responded_ns "
+                             "WHERE is_down = 1 AND used_by = 'observer' AND meaning <> ''");
+         row.step();) {
+        const std::int64_t id = row.integer();
+        const auto trial = std::ranges::find(trials, id, &TrialRecord::id);
+        std::string box = row.text();
+        const SessionDuration uncertainty(row.integer());
+        if (trial == trials.end())
+            continue;
+        trial->response_box = std::move(box);
+        trial->response_uncertainty = uncertainty;
+    }
+}
+
 } // namespace
 
 std::string_view name_of(TrialOutcome::Afterwards afterwards) {
@@ -67,7 +88,7 @@ std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
     // Screens without a time are before every session: see TrialRecord::reached. Sessions of earlier programs
     // know of nothing that was completed and does not count.
     const bool tells_fates = has_column(database, "trial", "comes_again");
-    return read_rows(
+    std::vector<TrialRecord> trials = read_rows(
         database,
         fmt::format(
             "SELECT trial_id, sitting, trial, attempt, task, sculpture, material, status, started_ns, "
@@ -78,6 +99,8 @@ std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
             tells_fates ? "failure, comes_again, trial_id IN (SELECT attempt_id FROM superseded)"
                         : "NULL, NULL, 0"),
         read_trial);
+    add_response_boxes(database, trials);
+    return trials;
 }
 
 std::string_view name_of(TrialRecord::Status status) {

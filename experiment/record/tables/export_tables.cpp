@@ -30,8 +30,8 @@ ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& sha
     : trials(trials_layout(shared, header)), flips(ledger_layout(shared, header)),
       samples(samples_layout(shared, header, cone_accuracy)), gaze_events(gaze_events_layout(event_origins)),
       events(events_layout()), responses(responses_layout(shared, header)),
-      stimuli(stimuli_layout(shared, header)), display_box(display_box_layout()),
-      participants(participants_layout(participant)) {
+      stimuli(stimuli_layout(shared, header)), display_box(display_box_layout()), buttons(buttons_layout()),
+      markers(markers_layout()), participants(participants_layout(participant)) {
     const std::vector<LeadingColumn> leading{
         {{"observer", "Label of the observer", "", {}}, header.schedule.observer.label},
         {{"session", "Which session of this observer, from 1", "", {}},
@@ -45,11 +45,14 @@ ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& sha
     responses.lead_with(leading);
     stimuli.lead_with(leading);
     display_box.lead_with(leading);
+    buttons.lead_with(leading);
+    markers.lead_with(leading);
 }
 
 std::vector<const Table*> ExportTables::all() const {
-    return {&trials.table(),    &flips.table(),   &samples.table(),     &gaze_events.table(), &events.table(),
-            &responses.table(), &stimuli.table(), &display_box.table(), &participants.table()};
+    return {&trials.table(),  &flips.table(),     &samples.table(),     &gaze_events.table(),
+            &events.table(),  &responses.table(), &stimuli.table(),     &display_box.table(),
+            &buttons.table(), &markers.table(),   &participants.table()};
 }
 
 nlohmann::ordered_json describe_columns(const std::vector<TableColumn>& columns, TableFormat format) {

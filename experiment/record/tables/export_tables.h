@@ -37,6 +37,8 @@ class ExportTables {
     RowLayout<TrialRecord> responses;
     RowLayout<RecordedStimulus> stimuli;
     RowLayout<DisplayBoxRow> display_box;
+    RowLayout<RecordedButton> buttons;
+    RowLayout<RecordedMarker> markers;
     RowLayout<ParticipantRow> participants;
 
     std::vector<const Table*> all() const;

@@ -116,7 +116,7 @@ RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins) {
 
 void write_gaze_events(TableWriter& writer, const RowLayout<GazeEventRow>& layout,
                        const SessionRecord& record, const TrialRecord& trial) {
-    const std::optional<ClockMap> clock_map = record.clock_map(trial.sitting);
+    const std::optional<ClockMap> clock_map = record.clock_map(trial);
     const SessionRecord::EventOrigin::From origin = record.event_origin(trial.sitting).from;
     record.read_gaze_events(trial, [&](const GazeEvent& event) {
         layout.write(writer, {{event}, trial.trial.index + 1, clock_map, origin});

@@ -13,6 +13,9 @@ RowLayout<RecordedEvent> events_layout();
 /// `header` must outlive it.
 RowLayout<RecordedStimulus> stimuli_layout(const SharedColumns& shared, const SessionHeader& header);
 
+RowLayout<RecordedButton> buttons_layout();
+RowLayout<RecordedMarker> markers_layout();
+
 struct DisplayBoxRow {
     int sitting;
     const RecordedBox& box;

@@ -40,6 +40,8 @@ class TableExport {
           responses_(directory, tables_.responses.table(), format_),
           stimuli_(directory, tables_.stimuli.table(), format_),
           display_box_(directory, tables_.display_box.table(), format_),
+          buttons_(directory, tables_.buttons.table(), format_),
+          markers_(directory, tables_.markers.table(), format_),
           participants_(directory, tables_.participants.table(), format_), directory_(directory),
           sample_rows_(tables_.samples, record, format_, options.cone_accuracy) {}
 
@@ -61,7 +63,7 @@ class TableExport {
     const ParticipantRow participant_;
     const ExportTables tables_;
     TableWriter trials_, flips_, samples_, gaze_events_, events_, responses_, stimuli_, display_box_,
-        participants_;
+        buttons_, markers_, participants_;
     const fs::path directory_;
     SampleRows sample_rows_;
     TableExportCounts counts_;
@@ -103,6 +105,10 @@ void TableExport::write_what_belongs_to_no_trial() {
     tables_.participants.write(participants_, participant_);
     for (const RecordedStimulus& stimulus : header_.stimuli)
         tables_.stimuli.write(stimuli_, stimulus);
+    for (const RecordedButton& button : record_.button_changes())
+        tables_.buttons.write(buttons_, button);
+    for (const RecordedMarker& marker : record_.markers())
+        tables_.markers.write(markers_, marker);
     for (const auto& [sitting, box] : record_.display_boxes()) {
         const auto readings = record_.box_clock_readings(sitting);
         tables_.display_box.write(
@@ -113,7 +119,7 @@ void TableExport::write_what_belongs_to_no_trial() {
 
 void TableExport::close() {
     for (TableWriter* writer : {&trials_, &flips_, &samples_, &gaze_events_, &events_, &responses_, &stimuli_,
-                                &display_box_, &participants_}) {
+                                &display_box_, &buttons_, &markers_, &participants_}) {
         counts_.rows += writer->rows();
         counts_.bytes += writer->bytes();
         writer->close();

@@ -194,6 +194,14 @@ RowLayout<TrialRecord> responses_layout(const SharedColumns& shared, const Sessi
              }},
             {{"answer", "The answer, where the response panel took it down", "", {}},
              [](auto& to, auto& row) { to.text(row.outcome.answer); }},
+            {{"response_box", "The response box at which it was answered; n/a of a keyboard", "", {}},
+             [](auto& to, auto& row) {
+                 row.response_box.empty() ? to.missing() : to.text(row.response_box);
+             }},
+            {{"response_uncertainty_s", "So far at most responded_s is off, of a response box", "s", {}},
+             [](auto& to, auto& row) {
+                 row.response_uncertainty ? to.seconds(*row.response_uncertainty) : to.missing();
+             }},
         }};
 }
 

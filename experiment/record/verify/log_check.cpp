@@ -93,6 +93,9 @@ class LogFrames {
         return static_cast<std::size_t>(last - frame_.rbegin());
     }
     bool is_all_zeros() const { return last_zeros() == frame_.size(); }
+    /// Zeros from before the end of the first salt on: the writing ended within the frame's first bytes, or
+    /// before it. What is of an earlier use of the log's space has salts there.
+    bool has_no_salts() const { return last_zeros() > frame_.size() - 12; }
 
     std::int64_t number() const { return number_; }
     std::size_t first_byte() const {
@@ -123,7 +126,7 @@ std::optional<LogFinding> judge_rest(LogFrames& frames) {
     const std::int64_t number = frames.number();
     const std::size_t first = frames.first_byte(), last = frames.last_byte();
     bool belongs_to_log = frames.has_salts(1);
-    bool ends_in_zeros = belongs_to_log ? frames.last_zeros() >= sector_bytes : frames.is_all_zeros();
+    bool ends_in_zeros = belongs_to_log ? frames.last_zeros() >= sector_bytes : frames.has_no_salts();
     const bool is_one_salt_off = frames.has_salts(1) && !frames.has_salts(2);
     bool has_commit = frames.has_salts(2) && frames.is_commit();
     while (frames.next()) {

@@ -11,7 +11,11 @@
 #include "experiment/flip_report.h"
 #include "experiment/ports/observer_field.h"
 #include "experiment/ports/recorded_answer.h"
+#include "experiment/ports/recorded_button.h"
+#include "experiment/ports/recorded_calibration.h"
 #include "experiment/ports/recorded_consent.h"
+#include "experiment/ports/recorded_marker.h"
+#include "experiment/ports/tracker_items.h"
 #include "experiment/ports/trial_outcome.h"
 #include "experiment/record/recorded_box.h"
 #include "experiment/record/session_header.h"
@@ -21,6 +25,12 @@ namespace overt {
 struct SampleRow {
     int trial = -1;
     GazeSample sample;
+};
+
+/// What the tracker says besides samples.
+struct TrackerItemRow {
+    int trial = -1;
+    TrackerItem item;
 };
 
 /// A SessionEvent that owns its words.
@@ -44,12 +54,13 @@ struct TrialFinish {
 /// What is too large or too rare for the ring itself, which carries a pointer to it, so that the order holds.
 struct RowMessage {
     std::variant<EventRow, TrialStart, TrialFinish, RecordedMap, RecordedBox, std::vector<BoxClockPair>,
-                 std::vector<RecordedObserverField>, RecordedConsent, RecordedAnswer>
+                 std::vector<RecordedObserverField>, RecordedConsent, RecordedAnswer, RecordedCalibration,
+                 std::vector<RecordedButton>, std::vector<RecordedMarker>>
         content;
     std::promise<void> written;
 };
 
 /// What the ring carries.
-using Row = std::variant<FlipRecord, MissedRefresh, SampleRow, ClockPair, RowMessage*>;
+using Row = std::variant<FlipRecord, MissedRefresh, SampleRow, TrackerItemRow, ClockPair, RowMessage*>;
 
 } // namespace overt

@@ -62,7 +62,7 @@ RowWriter::RowWriter(const std::filesystem::path& session_file, const Sitting& s
           "presentation_end_ns = ?, response_screen_onset_ns = ?, responded_ns = ?, shown_refreshes = ?, "
           "missed_refreshes = ?, drift_deg = ?, answer = ?, lost_flips = ?, lost_samples = ?, "
           "failure = ?, comes_again = ? WHERE trial_id = ?"),
-      outside_counts_(counts_so_far(0)), seals_(database_) {
+      outside_counts_(counts_so_far(0)), seals_(database_), gaze_rows_(database_) {
     begin_sitting(sitting);
     checkpoint();
 } catch (const SQLite::Exception& reason) {
@@ -97,7 +97,7 @@ void RowWriter::begin_sitting(const Sitting& sitting) {
                   resumed ? std::optional(std::string(name_of(resumed->policy))) : std::nullopt,
                   sitting.program_version, sitting.program_sha256);
     if (sitting.detection)
-        events_.emplace(database_, sitting_, *sitting.detection);
+        events_.emplace(gaze_rows_, sitting_, *sitting.detection);
     if (resumed) {
         SQLite::Statement supersede(database_, "INSERT OR IGNORE INTO superseded VALUES (?,?,?)");
         for (const std::int64_t attempt_id : resumed->superseded)
@@ -172,6 +172,58 @@ void RowWriter::write(const SampleRow& row) {
                   shortest_decimal(sample.pupil_area));
     if (events_ && row.trial == open_trial_)
         events_->sample(sample);
+}
+
+/// Outside of attempts nothing is kept: a trial's rows are what its seal covers.
+void RowWriter::write(const TrackerItemRow& row) {
+    if (row.trial < 0 || row.trial != open_trial_)
+        return;
+    begin();
+    if (const auto* detail = std::get_if<SampleDetail>(&row.item))
+        gaze_rows_.detail(*detail);
+    else if (const std::optional<GazeEvent> event = gaze_event_of(row.item))
+        gaze_rows_.event(*event);
+}
+
+void RowWriter::write(const RecordedCalibration& calibration) {
+    begin();
+    gaze_rows_.calibration(sitting_, calibration);
+}
+
+std::optional<std::int64_t> RowWriter::attempt_of(int trial) const {
+    return trial >= 0 && trial == open_trial_ ? std::optional(trial_counts_.trial_id) : std::nullopt;
+}
+
+void RowWriter::write(const std::vector<RecordedButton>& buttons) {
+    begin();
+    database_.exec(device_tables_sql);
+    SQLite::Statement insert(
+        database_, "INSERT INTO button_change (sitting, at_ns, uncertainty_ns, trial, attempt_id, box, "
+                   "used_by, button, name, is_down, device_us, meaning) "
+                   "VALUES (?,?,?,?,?,?,?,?,?,?,?,?)");
+    for (const RecordedButton& button : buttons)
+        run_statement(insert, sitting_, button.at, static_cast<std::int64_t>(button.uncertainty.count()),
+                      button.trial < 0 ? std::nullopt : std::optional(button.trial), attempt_of(button.trial),
+                      button.box, std::string(button.is_operators ? "operator" : "observer"), button.button,
+                      button.name, button.is_down ? 1 : 0,
+                      button.device_time
+                          ? std::optional<std::int64_t>(button.device_time->time_since_epoch().count())
+                          : std::nullopt,
+                      button.meaning);
+}
+
+void RowWriter::write(const std::vector<RecordedMarker>& markers) {
+    begin();
+    database_.exec(device_tables_sql);
+    SQLite::Statement insert(
+        database_, "INSERT INTO marker (sitting, at_ns, trial, attempt_id, output, text, code, is_sent, "
+                   "not_before_ns, not_after_ns, planned_refresh, shown_refresh) "
+                   "VALUES (?,?,?,?,?,?,?,?,?,?,?,?)");
+    for (const RecordedMarker& marker : markers)
+        run_statement(insert, sitting_, marker.at,
+                      marker.trial < 0 ? std::nullopt : std::optional(marker.trial), attempt_of(marker.trial),
+                      marker.output, marker.text, marker.code, marker.is_sent ? 1 : 0, marker.not_before,
+                      marker.not_after, marker.planned_refresh, marker.shown_refresh);
 }
 
 void RowWriter::write(const ClockPair& pair) {
@@ -262,8 +314,9 @@ void RowWriter::write(const TrialStart& start) {
         1 + number(database_, "SELECT COUNT(*) FROM trial WHERE trial = ?1", trial.index);
     run_statement(insert_trial_, trial_counts_.trial_id, sitting_, trial.index, attempt, trial.task,
                   trial.condition.sculpture, trial.condition.material, start.at);
+    gaze_rows_.begin_trial(trial_counts_.trial_id);
     if (events_)
-        events_->begin_trial(trial_counts_.trial_id);
+        events_->begin_trial();
 }
 
 void RowWriter::write(const TrialFinish& finish) {

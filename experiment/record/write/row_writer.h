@@ -28,6 +28,10 @@ class RowWriter {
     void write(const FlipRecord& flip);
     void write(const MissedRefresh& refresh);
     void write(const SampleRow& row);
+    void write(const TrackerItemRow& row);
+    void write(const std::vector<RecordedButton>& buttons);
+    void write(const std::vector<RecordedMarker>& markers);
+    void write(const RecordedCalibration& calibration);
     void write(const ClockPair& pair);
     void write(const EventRow& event);
     void write(const RecordedMap& map);
@@ -55,6 +59,8 @@ class RowWriter {
     void close();
 
   private:
+    /// Of what happened in a trial: the attempt that is running or ended last; nothing outside of trials.
+    std::optional<std::int64_t> attempt_of(int trial) const;
     struct Counts {
         std::int64_t trial_id = 0;
         std::int64_t flips = 0;
@@ -82,6 +88,7 @@ class RowWriter {
     Counts trial_counts_;
     Counts outside_counts_; ///< of rows that belong to no started trial: trial_id 0
     SealWriter seals_;
+    GazeRows gaze_rows_;                  ///< all but samples
     std::optional<SittingEvents> events_; ///< nothing: nobody looks for them
     bool in_transaction_ = false;
     bool needs_seal_ = false;

@@ -29,6 +29,16 @@ void SessionStore::sample(int trial, const GazeSample& sample) noexcept {
     writer_->push(Row(SampleRow{trial, sample}));
 }
 
+void SessionStore::tracker_item(int trial, const TrackerItem& item) noexcept {
+    writer_->push(Row(TrackerItemRow{trial, item}));
+}
+
+void SessionStore::calibration(const RecordedCalibration& calibration) { writer_->send(calibration); }
+
+void SessionStore::buttons(const std::vector<RecordedButton>& buttons) { writer_->send(buttons); }
+
+void SessionStore::markers(const std::vector<RecordedMarker>& markers) { writer_->send(markers); }
+
 void SessionStore::clock_pair(const ClockPair& pair) noexcept { writer_->push(Row(pair)); }
 
 void SessionStore::event(const SessionEvent& event) {

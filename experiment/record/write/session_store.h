@@ -62,8 +62,12 @@ class SessionStore final : public SessionLog {
     void flip(const FlipRecord& flip) noexcept override;
     void missed(const MissedRefresh& refresh) noexcept override;
     void sample(int trial, const GazeSample& sample) noexcept override;
+    void tracker_item(int trial, const TrackerItem& item) noexcept override;
     void clock_pair(const ClockPair& pair) noexcept override;
     void event(const SessionEvent& event) override;
+    void calibration(const RecordedCalibration& calibration) override;
+    void buttons(const std::vector<RecordedButton>& buttons) override;
+    void markers(const std::vector<RecordedMarker>& markers) override;
     void consent(const RecordedConsent& consent) override;
     void answer_recorded(const RecordedAnswer& answer) override;
     void observer_fields(const std::vector<RecordedObserverField>& fields) override;

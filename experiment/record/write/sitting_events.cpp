@@ -2,14 +2,13 @@
 
 namespace overt {
 
-SittingEvents::SittingEvents(SQLite::Database& database, int sitting, const SittingDetection& detection)
-    : rows_(database), detector_(detection.settings, GazeAngles(detection.screen), *this) {
+SittingEvents::SittingEvents(GazeRows& rows, int sitting, const SittingDetection& detection)
+    : rows_(rows), detector_(detection.settings, GazeAngles(detection.screen), *this) {
     rows_.detection(sitting, detection_by(detection.settings));
 }
 
-void SittingEvents::begin_trial(std::int64_t trial_id) {
+void SittingEvents::begin_trial() {
     finish_trial();
-    rows_.begin_trial(trial_id);
     in_trial_ = true;
 }
 

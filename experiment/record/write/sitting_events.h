@@ -14,11 +14,11 @@ namespace overt {
 /// Within the caller's transactions. All throw SQLite::Exception.
 class SittingEvents final : private EventListener {
   public:
-    /// Notes who detects. The database must outlive this.
-    SittingEvents(SQLite::Database& database, int sitting, const SittingDetection& detection);
+    /// Notes who detects. `rows` must outlive this.
+    SittingEvents(GazeRows& rows, int sitting, const SittingDetection& detection);
 
-    /// What follows belongs to this attempt, which has no rows yet.
-    void begin_trial(std::int64_t trial_id);
+    /// What follows belongs to the attempt that the rows were begun for.
+    void begin_trial();
     /// Nothing is made of samples outside of attempts.
     void sample(const GazeSample& sample);
     /// Writes what is open: the attempt's rows are complete.
@@ -27,7 +27,7 @@ class SittingEvents final : private EventListener {
   private:
     void detected(const GazeEvent& event) override { rows_.event(event); }
 
-    GazeRows rows_;
+    GazeRows& rows_;
     EventDetector detector_;
     bool in_trial_ = false;
 };

@@ -87,3 +87,67 @@ TEST_CASE("faults by chance are a function of seed and trial, and one share move
     std::erase_if(with_late, [](const DisplayFault& fault) { return fault.kind == Kind::late; });
     CHECK(with_late == first);
 }
+
+TEST_CASE("a fault file says what goes wrong with the eye tracker", "[unit]") {
+    using Tracker = TrackerFault::Kind;
+    Diagnostics diagnostics;
+    const auto faults = read_fault_text(R"([tracker]
+granted_rate_hz = 250
+[[tracker-fault]]
+kind = "stall"
+trial = 2
+attempt = 3
+at_s = 0.5
+s = 2
+[[tracker-fault]]
+kind = "clock-jump"
+at_s = 1
+ms = -40
+[[tracker-fault]]
+kind = "unplug"
+trial = 1
+at_s = 0
+refusals = 2
+[[tracker-fault]]
+kind = "calibration"
+number = 2
+)",
+                                        "faults.toml", diagnostics);
+    CHECK(diagnostics.print() == "");
+    REQUIRE(faults.has_value());
+    CHECK(faults->is_clean()); // of the display
+    CHECK(faults->tracker.granted_rate_hz == 250.0);
+    CHECK(faults->tracker.given ==
+          std::vector<TrackerFault>{{.kind = Tracker::stall, .trial = 1, .attempt = 3, .at_s = 0.5, .s = 2.0},
+                                    {.kind = Tracker::clock_jump, .at_s = 1.0, .ms = -40.0},
+                                    {.kind = Tracker::unplug, .trial = 0, .refusals = 2},
+                                    {.kind = Tracker::calibration, .number = 2}});
+    CHECK(TrackerFaults{}.are_none());
+    CHECK_FALSE(faults->tracker.are_none());
+}
+
+TEST_CASE("keys that an eye tracker's fault does not have, or lacks, are found", "[unit]") {
+    Diagnostics diagnostics;
+    CHECK_FALSE(read_fault_text(R"([[tracker-fault]]
+kind = "gap"
+ms = 4
+[[tracker-fault]]
+kind = "calibration"
+trial = 2
+[[tracker-fault]]
+kind = "repeat"
+refusals = 1
+[[tracker-fault]]
+kind = "silence"
+)",
+                                "faults.toml", diagnostics));
+    const std::string said = diagnostics.print();
+    CAPTURE(said);
+    for (const char* const expected :
+         {"faults.toml:3:6: error: an eye tracker's fault of kind \"gap\" has no \"ms\"",
+          "faults.toml:1:1: error: an eye tracker's fault of kind \"gap\" needs \"s\"",
+          "faults.toml:6:9: error: an eye tracker's fault of kind \"calibration\" has no \"trial\"",
+          "faults.toml:9:12: error: an eye tracker's fault of kind \"repeat\" has no \"refusals\"",
+          "\"silence\""})
+        CHECK(said.find(expected) != std::string::npos);
+}

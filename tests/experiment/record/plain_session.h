@@ -8,6 +8,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "experiment/base/error.h"
 #include "experiment/design/schedule.h"
 #include "experiment/session/session.h"
 #include "tests/experiment/protocol/protocol_fixtures.h"
@@ -29,7 +30,7 @@ class PlainPresenter final : public Presenter {
     DisplayTiming timing() const override { return {120.0, VblankSource::virtual_display}; }
     void load_frames(const Condition& condition) override { loaded.push_back(condition); }
     FlipReport show(const Screen& screen) override {
-        if (screen.kind == Screen::Kind::text || screen.kind == Screen::Kind::form) {
+        if (screen.kind != Screen::Kind::blank && screen.kind != Screen::Kind::target) {
             texts.push_back(screen.text);
             screens.push_back(screen);
         }
@@ -64,37 +65,73 @@ class BlinkingTracker final : public EyeTracker {
   public:
     TrackerDescription description() const override { return {"blinking", 1000.0, Eye::left}; }
     bool measures_gaze() const noexcept override { return is_there; }
-    ValidationResult calibrate() override {
+    enum class Step { set_up, drift_check, start };
+    SetupOutcome set_up(SetupStage&) override {
         ++calibrations;
-        return {};
+        fail(Step::set_up);
+        if (set_ups.empty())
+            return {SetupOutcome::Kind::done, ValidationResult{}, "tracker", {}};
+        SetupOutcome next = set_ups.front();
+        set_ups.erase(set_ups.begin());
+        return next;
     }
-    std::optional<Degrees> drift_check(ScreenPoint) override {
+    DriftOutcome drift_check(ScreenPoint) override {
         ++drift_checks;
-        return drift;
+        fail(Step::drift_check);
+        if (set_ups_wanted > 0) {
+            --set_ups_wanted;
+            return {DriftOutcome::Kind::set_up_wanted, {}};
+        }
+        return drift ? DriftOutcome{DriftOutcome::Kind::measured, *drift} : DriftOutcome{};
     }
-    ClockPair read_clocks() noexcept override {
+    std::optional<ClockPair> read_clocks() noexcept override {
         ++clock_readings;
-        return {};
+        return reads ? std::optional(reads(clock_readings)) : ClockPair{};
     }
-    void start_recording() override { ++recording_; }
+    void start_recording() override {
+        ++recording_;
+        fail(Step::start);
+    }
     void stop_recording() override { held_ = late; }
-    std::size_t poll(std::span<GazeSample> into) noexcept override {
+    std::size_t poll(std::span<TrackerItem> into) noexcept override {
         if (held_ > 0) {
             const std::size_t count = std::min(into.size(), held_);
-            std::fill_n(into.begin(), count, GazeSample{});
+            for (TrackerItem& item : into.first(count))
+                item = GazeSample{.sampled_at = tracker_time(++samples_), .gaze = {}};
             held_ -= count;
             arrived += static_cast<int>(count);
             return count;
         }
         ++arrived;
-        into[0] = {};
+        GazeSample sample{.sampled_at =
+                              doubles ? tracker_time(samples_ += arrived % 2) : tracker_time(++samples_),
+                          .gaze = {}};
         if (std::find(blind.begin(), blind.end(), recording_) == blind.end())
-            into[0].gaze = ScreenPoint{1.0, 2.0};
+            sample.gaze = ScreenPoint{1.0, 2.0};
+        into[0] = sample;
         return 1;
     }
-    bool lost() const noexcept override { return false; }
+
+    RecordingState recording_state() const noexcept override {
+        return says ? says(recording_) : RecordingState::running;
+    }
+    void reconnect() override {
+        ++reconnections;
+        if (reconnections <= refused_reconnections)
+            throw DeviceError("it is still not there");
+        says = {};
+    }
+    void mark(const TrackerMark& mark) noexcept override { marks.emplace_back(mark.at, mark.text); }
 
     std::vector<int> blind;
+    std::vector<SetupOutcome> set_ups;                 ///< what each calibration gives; then all is well
+    std::function<RecordingState(int recording)> says; ///< of the recording under way, by its number from 0
+    std::vector<std::pair<SessionTime, std::string>> marks;
+    std::optional<Step> fails_at;                ///< once, as a tracker that is gone
+    bool doubles = false;                        ///< gives every other sample twice
+    std::function<ClockPair(int reading)> reads; ///< what each reading of the clocks gives
+    int set_ups_wanted = 0;                      ///< by so many drift checks
+    int reconnections = 0, refused_reconnections = 0;
     std::optional<Degrees> drift = Degrees{0.1}; ///< that each drift check finds
     std::size_t late = 0;                        ///< samples that arrive only when the recording has ended
     int calibrations = 0, drift_checks = 0, clock_readings = 0;
@@ -102,6 +139,13 @@ class BlinkingTracker final : public EyeTracker {
     bool is_there = true;
 
   private:
+    void fail(Step at) {
+        if (fails_at != at)
+            return;
+        fails_at.reset();
+        throw DeviceError("it is gone");
+    }
+    std::int64_t samples_ = 0;
     int recording_ = -1;
     std::size_t held_ = 0;
 };
@@ -158,6 +202,7 @@ class NotingLog final : public SessionLog {
     void missed(const MissedRefresh&) noexcept override {}
     void sample(int, const GazeSample&) noexcept override { ++samples; }
     void clock_pair(const ClockPair&) noexcept override {}
+    void calibration(const RecordedCalibration& calibration) override { calibrations.push_back(calibration); }
     void event(const SessionEvent& event) override {
         kinds.emplace_back(event.kind);
         details.push_back(event.detail);
@@ -187,6 +232,7 @@ class NotingLog final : public SessionLog {
     std::vector<bool> completed;
     std::vector<TrialOutcome> outcomes;
     std::vector<RecordedConsent> consents;
+    std::vector<RecordedCalibration> calibrations;
     std::vector<RecordedObserverField> fields;
 };
 

@@ -85,12 +85,18 @@ inline void write_killed_session(const std::filesystem::path& session) {
         };
         SessionStore store(file, patient());
         const SessionHeader header = example_header();
+        // Calibrations come at any time, and each is rows of two tables.
+        RecordedCalibration calibration;
+        calibration.method = "tracker";
+        calibration.validation.targets.resize(9);
+        store.calibration(calibration);
         for (std::size_t trial = 0; trial < 2; ++trial) {
             write_rows(store, header.schedule.trials[trial], 400);
             store.trial_finished(header.schedule.trials[trial], outcome_at(static_cast<int>(trial) * 10000));
         }
         // A reader before that would keep what the log has of earlier trials in it.
         wait_until([&] { return std::filesystem::file_size(log) == 0; });
+        store.calibration(calibration);
         write_rows(store, header.schedule.trials[2], 300);
         wait_until([&] {
             const SessionRecord record(session);

@@ -28,6 +28,21 @@ TEST_CASE("half of the kernel leaks to a second sheet that is near", "[unit]") {
     CHECK(mass_of(map.density, geometry) == Approx(1.0));
 }
 
+TEST_CASE("what leaks of several kernels at one place is what leaks of each alone", "[unit]") {
+    Mesh mesh = flat_square(40.0, 60);
+    add_part(mesh, flat_square(40.0, 60, 7.0), "lid");
+    const SurfaceGeometry geometry(mesh);
+    const EuclideanKernel kernel(geometry);
+    const SurfacePlace place{3600, {0.3, 0.3, 0.4}};
+    const std::vector<double> sigmas{6.0, 2.0, 3.5}, shares = kernel.leaked_shares(place, sigmas);
+    REQUIRE(shares.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i)
+        CHECK(shares[i] ==
+              Approx(kernel.map(std::vector{SurfaceWeight{place, 1.0, sigmas[i]}}).leaked_share));
+    CHECK(shares[0] > shares[2]);
+    CHECK(shares[2] > shares[1]);
+}
+
 TEST_CASE("where no vertex is near, the weight goes to the corners of its triangle", "[unit]") {
     const Mesh mesh = flat_square(40.0, 2);
     const SurfaceGeometry geometry(mesh);

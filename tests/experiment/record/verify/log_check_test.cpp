@@ -82,6 +82,14 @@ TEST_CASE("zeros to the log's end are what a failure of power leaves, zeros befo
         CAPTURE(from);
         CHECK(session.kind_of(bytes) == Kind::cut_off);
     }
+    // Within a frame's own header, too: a sector's border can lie there.
+    for (std::size_t byte = 0; byte <= 24; ++byte) {
+        std::string bytes = session.bytes;
+        const std::size_t from = session.begin_of(session.frames - 2) + byte;
+        std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(from), bytes.end(), '\0');
+        CAPTURE(byte);
+        CHECK(session.kind_of(bytes) == Kind::cut_off);
+    }
     // What is not of the tail.
     std::string bytes = session.bytes;
     std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(session.begin_of(1)), session.frame_bytes, '\0');
