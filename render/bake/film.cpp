@@ -46,8 +46,8 @@ glm::dvec3 xyz_of(const Bins& light) {
     return xyz_of_light(std::span<const float, spectral_bins>(light.value.data(), spectral_bins));
 }
 
-/// Alpha on the side of 1/2 that the map of triangles asks for. Just below is 1/2 - 2^-12, which a half float
-/// can hold.
+/// Alpha on the side of 1/2 that the map of triangles asks for. Just below is 1/2 - 2^-12, which even a half
+/// float can hold.
 float lawful(float alpha, bool is_covered) {
     return is_covered ? std::max(alpha, 0.5f) : std::min(alpha, 0.5f - 0x1p-12f);
 }

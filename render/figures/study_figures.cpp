@@ -79,6 +79,12 @@ bool head_fractions(const StudyResults& results, const std::filesystem::path& fo
                 pen.text({x - half, 66.0}, column, 7.5);
             }
             pen.box({x - half, y}, {2.0 * half, axes.floor() - y}, figure_colour(factor));
+            // Each observer is a point, side by side in their order.
+            const auto observers = static_cast<double>(row.of_observers.size());
+            for (std::size_t o = 0; o < row.of_observers.size(); ++o)
+                pen.dot({x + half * 1.6 * ((static_cast<double>(o) + 0.5) / observers - 0.5),
+                         axes.up(row.of_observers[o])},
+                        0.45, figure_ink, 0.55);
             if (row.by_count.interval)
                 whisker(pen, x, axes.up(std::max(0.0, row.by_count.interval->low)),
                         axes.up(std::min(1.0, row.by_count.interval->high)));

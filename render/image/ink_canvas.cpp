@@ -42,6 +42,22 @@ void InkCanvas::outline(const InkBox& box, double strength, double line_px, doub
     cairo_stroke(cairo());
 }
 
+void InkCanvas::line(glm::dvec2 from, glm::dvec2 to, double strength, double line_px) {
+    cairo_set_source_rgba(cairo(), 0.0, 0.0, 0.0, strength);
+    cairo_set_line_width(cairo(), line_px);
+    cairo_move_to(cairo(), from.x, from.y);
+    cairo_line_to(cairo(), to.x, to.y);
+    cairo_stroke(cairo());
+}
+
+void InkCanvas::ring(glm::dvec2 middle, double radius, double strength, double line_px) {
+    cairo_set_source_rgba(cairo(), 0.0, 0.0, 0.0, strength);
+    cairo_set_line_width(cairo(), line_px);
+    cairo_new_path(cairo());
+    cairo_arc(cairo(), middle.x, middle.y, radius, 0.0, 2.0 * std::numbers::pi);
+    cairo_stroke(cairo());
+}
+
 void InkCanvas::takes_away(bool now) {
     cairo_set_operator(cairo(), now ? CAIRO_OPERATOR_DEST_OUT : CAIRO_OPERATOR_OVER);
 }

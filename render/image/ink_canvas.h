@@ -27,6 +27,9 @@ class InkCanvas {
     void fill(const InkBox& box, double strength, double radius = 0.0);
     void outline(const InkBox& box, double strength, double line_px, double radius = 0.0);
 
+    void line(glm::dvec2 from, glm::dvec2 to, double strength, double line_px);
+    void ring(glm::dvec2 middle, double radius, double strength, double line_px);
+
     /// Whether what follows takes ink away, instead of putting it on.
     void takes_away(bool now);
 

@@ -7,13 +7,11 @@
 #include "experiment/base/error.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "render/presenter/screen_text.h"
+#include "render/presenter/setup_screens.h"
 
 namespace overt {
 
 namespace {
-
-/// 0.6 degrees: the disc of the fixation target (Thaler et al. 2013).
-constexpr double fixation_target_deg = 0.6;
 
 /// Long enough for a recorder that samples at 1 kHz.
 constexpr double onset_pulse_ms = 5.0;
@@ -65,6 +63,7 @@ PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, 
             bytes[i] = black[i % 4];
     }
     background_.upload(bytes);
+    put_tags();
     if (encoder_.leaves_last_step()) {
         last_step_.emplace(context, display_);
         signal_.emplace(context, geometry.screen_px, last_step_->format());
@@ -170,27 +169,47 @@ void PagePresenter::put_patch(bool white) noexcept {
              patch_->place.origin_px, patch_->place.size_px);
 }
 
+/// They stand on the background, and so on every screen and beside every frame.
+void PagePresenter::put_tags() {
+    for (const TagPlace& tag : gaze_tags_of(geometry_, display_)) {
+        LinearImage picture(tag.size_px);
+        const int module_px = tag.size_px.x / tag_modules;
+        for (int y = 0; y < tag.size_px.y; ++y) {
+            for (int x = 0; x < tag.size_px.x; ++x) {
+                const float light = is_white_module(tag.id, x / module_px, y / module_px)
+                                        ? static_cast<float>(display_.tags_light)
+                                        : 0.0f;
+                picture.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(tag.size_px.x) +
+                               static_cast<std::size_t>(x)] = glm::vec4(light, light, light, 1.0f);
+            }
+        }
+        put_on(background_target_, picture, tag.origin_px);
+    }
+}
+
 void PagePresenter::put_picture(const LinearImage& picture, glm::ivec2 origin) {
+    put_on(picture_target_, picture, origin);
+}
+
+void PagePresenter::put_on(const Framebuffer& target, const LinearImage& picture, glm::ivec2 origin) {
     const ScreenPatch patch = encoder_.patch_of(origin, picture.size_px);
     std::vector<std::byte> bytes(bytes_in(patch.size_px, encoder_.format()));
     encoder_.encode(picture, origin, bytes);
     Texture2D encoded(*context_, patch.size_px, encoder_.format());
     encoded.upload(bytes);
     const Framebuffer source(*context_, {&encoded}, false);
-    blit(context_->gl(), source, {0, 0}, picture_target_, patch.origin_px, patch.size_px);
+    blit(context_->gl(), source, {0, 0}, target, patch.origin_px, patch.size_px);
 }
 
 FlipReport PagePresenter::show(const Screen& screen) {
     clear_picture();
-    const double px_per_deg = geometry_.px_per_deg_at_centre();
     const float background = static_cast<float>(display_.background),
                 grey = static_cast<float>(screens_.text_grey);
     PlacedPicture placed;
-    if (screen.kind == Screen::Kind::text || screen.kind == Screen::Kind::form) {
+    if (screen.kind != Screen::Kind::blank && screen.kind != Screen::Kind::target) {
         placed = draw_screen(screen, geometry_, screens_, display_.background);
-    } else if (screen.kind == Screen::Kind::drift_target) {
-        placed.picture = draw_fixation_target(fixation_target_deg * px_per_deg, grey, background);
-        placed.origin_px = centred_origin_px(geometry_.screen_px, placed.picture.size_px);
+    } else if (screen.kind == Screen::Kind::target) {
+        placed = draw_target(screen, geometry_, grey, background);
     }
     if (!placed.picture.pixels.empty()) {
         // It stands on the background already.

@@ -7,6 +7,7 @@
 
 #include "experiment/ports/presenter.h"
 #include "experiment/screen_geometry.h"
+#include "experiment/stimulus/gaze_tags.h"
 #include "experiment/stimulus/photodiode_patch.h"
 #include "render/image/linear_image.h"
 #include "render/presenter/frame_store.h"
@@ -32,6 +33,10 @@ class PagePresenter final : public Presenter {
     FlipReport show(const Screen& screen) override;
     void show_level(const LevelBar& bar) override;
     FlipReport flip(AnimationFrameIndex frame) noexcept override;
+    void raise_with_next_flip(std::uint16_t outputs, double pulse_ms) noexcept override {
+        if (has_t_lock(display_.output))
+            send_with_next_flip(t_lock::outputs_row, t_lock::pulse(outputs, 0.0, pulse_ms));
+    }
     bool closed() const noexcept override { return surface_->closed() || is_interrupted(); }
     std::string why_closed() const override;
 
@@ -61,7 +66,9 @@ class PagePresenter final : public Presenter {
     void check_depth() const;
     void clear_picture() noexcept;
     void put_page(int page) noexcept;
+    void put_tags();
     void put_picture(const LinearImage& picture, glm::ivec2 origin);
+    void put_on(const Framebuffer& target, const LinearImage& picture, glm::ivec2 origin);
     void make_patch();
     void put_patch(bool white) noexcept;
     void compose() noexcept;

@@ -1,4 +1,5 @@
 #include "render/presenter/screen_text.h"
+#include "render/presenter/setup_screens.h"
 
 #include <algorithm>
 #include <cmath>
@@ -216,7 +217,12 @@ PlacedPicture draw_screen(const Screen& screen, const ScreenGeometry& geometry, 
     style.line_height_px = fit_screen(screen, geometry, screens.text_height_deg).line_height_px;
     InkCanvas canvas(geometry.screen_px);
     const Middle middle(screen, geometry, style);
-    middle.put_on(canvas);
+    const bool has_marks = screen.kind == Screen::Kind::validation,
+               has_camera = screen.kind == Screen::Kind::camera;
+    if (has_marks)
+        put_validation(canvas, screen, style);
+    else if (!has_camera)
+        middle.put_on(canvas);
     const bool at_the_right = middle.begins_at_the_right();
     TextStyle plain = as_written;
     plain.centred = false;
@@ -235,6 +241,11 @@ PlacedPicture draw_screen(const Screen& screen, const ScreenGeometry& geometry, 
     if (!screen.frame.empty())
         put_frame(canvas, screen.frame, at_most(keys_size, largest_keys));
     PlacedPicture placed;
+    if (has_camera) {
+        placed.picture = canvas.tinted(static_cast<float>(screens.text_grey), static_cast<float>(background));
+        put_camera(placed.picture, screen, static_cast<float>(screens.text_grey));
+        return placed;
+    }
     placed.picture = canvas.tinted_ink(static_cast<float>(screens.text_grey), static_cast<float>(background),
                                        placed.origin_px);
     return placed;

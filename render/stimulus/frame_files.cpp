@@ -9,19 +9,21 @@
 
 namespace overt {
 
-void write_half_exr(const std::filesystem::path& file, const ChannelPicture& picture,
-                    const ImageAttributes& attributes) {
+void write_exr(const std::filesystem::path& file, const ChannelPicture& picture, ExrNumbers numbers,
+               const ImageAttributes& attributes) {
+    const bool half = numbers == ExrNumbers::half;
     constexpr float largest_half = 65504.0f;
     for (const float value : picture.values) {
-        if (!(std::abs(value) <= largest_half))
-            throw InputError(fmt::format(
-                "{}: a value of {} does not fit into half floats: lower the exposure", file.string(), value));
+        if (half && !(std::abs(value) <= largest_half))
+            throw InputError(fmt::format("{}: a value of {} does not fit into half floats: lower the "
+                                         "exposure, or leave out --half",
+                                         file.string(), value));
     }
     PictureHeader header{picture.size_px,
                          picture.channels,
-                         PixelType::float16,
+                         half ? PixelType::float16 : PixelType::float32,
                          static_cast<int>(picture.channels.size()) - 1,
-                         {{"compression", "zip"}}};
+                         {{"compression", half ? "zip" : "pxr24"}}};
     header.attributes.insert(header.attributes.end(), attributes.begin(), attributes.end());
     write_picture(file, header, PixelType::float32, picture.values.data());
 }

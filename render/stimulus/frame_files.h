@@ -15,10 +15,15 @@ struct ChannelPicture {
     std::vector<float> values;         ///< all channels of a pixel together
 };
 
-/// Writes an EXR of half floats (11 bits of precision, compression ZIP), whole or not at all. Throws
-/// RecordError, and InputError if a value is too large for half floats.
-void write_half_exr(const std::filesystem::path& file, const ChannelPicture& picture,
-                    const ImageAttributes& attributes);
+/// How an EXR's numbers are kept: floats rounded to 24 bits (16 of precision, so within half a code of 16
+/// bits everywhere between black and white; compression PXR24), or half floats (11 bits: of 65,536 codes
+/// 7,169; compression ZIP).
+enum class ExrNumbers : std::uint8_t { bits24, half };
+
+/// Writes an EXR, whole or not at all. Throws RecordError, and InputError if a value is too large for half
+/// floats.
+void write_exr(const std::filesystem::path& file, const ChannelPicture& picture, ExrNumbers numbers,
+               const ImageAttributes& attributes);
 
 /// Writes a PNG of three channels of 16 bits, likewise. Throws RecordError.
 void write_rgb16_png(const std::filesystem::path& file, glm::ivec2 size_px,

@@ -31,6 +31,17 @@ std::vector<Condition> StimulusCache::rendered_stimuli() const {
     return stimuli;
 }
 
+std::vector<Condition> StimulusCache::stimuli_with_surface() const {
+    std::vector<Condition> stimuli;
+    for (int sculpture = 0; sculpture < static_cast<int>(sculptures_.size()); ++sculpture) {
+        for (int material = 0; material < static_cast<int>(protocol_->materials.size()); ++material) {
+            if (sculptures_[static_cast<std::size_t>(sculpture)].has_mesh() || has_given_maps(sculpture))
+                stimuli.push_back({sculpture, material});
+        }
+    }
+    return stimuli;
+}
+
 void StimulusCache::require_mesh(const Condition& condition) const {
     const Sculpture& sculpture = sculpture_of(condition);
     if (!sculpture.has_mesh()) {

@@ -44,6 +44,9 @@ class StimulusCache {
     /// All stimuli that are rendered.
     std::vector<Condition> rendered_stimuli() const;
 
+    /// All stimuli whose sculpture has a mesh or ready-made maps.
+    std::vector<Condition> stimuli_with_surface() const;
+
     /// Throws InputError if a stimulus has neither a mesh to render nor [[frames]].
     void require_mesh(const Condition& condition) const;
 
@@ -73,6 +76,11 @@ class StimulusCache {
 
     /// A map's file; only for a sculpture with a mesh, or ready-made maps.
     std::filesystem::path map_file(int sculpture, PoseIndex pose) const;
+
+    /// Where the small pictures of the light of frames with this hash lie: see light_pictures.h.
+    std::filesystem::path light_file(const ContentHash& frames) const {
+        return folder_ / "light" / (frames.substr(0, 24) + ".exr");
+    }
 
     /// The box of a sculpture with ready-made maps, and where the camera stood: the field of view is 0 if the
     /// maps do not say. The maps must be there (MapMaker).

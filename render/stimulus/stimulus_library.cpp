@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/parallel.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "render/signal/display_light.h"
+#include "render/stimulus/given_maps.h"
 #include "render/stimulus/ready_made_frames.h"
 
 namespace overt {
@@ -125,6 +127,58 @@ ContentHash StimulusLibrary::frames_hash(const Condition& condition) const {
     if (light)
         hasher.add(std::string_view(light->sha256));
     return hasher.finish();
+}
+
+LightPictures StimulusLibrary::light_of(const Condition& condition) const {
+    LightPictures light;
+    light.image_px = {protocol_->view.width_px, protocol_->view.height_px};
+    light.square_px = light_square_px(light.image_px);
+    light.poses = static_cast<int>(cache_.poses().angles.size());
+    light.luminance.resize(light.squares() * static_cast<std::size_t>(light.poses));
+    light.coverage.resize(light.luminance.size());
+    const auto& measured = protocol_->display.characterisation;
+    const glm::dvec3 shares = measured ? measured->luminance_shares() : glm::dvec3(0.2126, 0.7152, 0.0722);
+    const std::vector<int> page_of = page_of_frame(condition);
+    parallel_for(light.poses, [&](int pose) {
+        const int frame = first_frame_of(cache_.poses(), {pose}).value;
+        const LinearImage picture = page(condition, page_of[static_cast<std::size_t>(frame)]);
+        const glm::ivec2 size = light.size();
+        const std::size_t begin = light.squares() * static_cast<std::size_t>(pose);
+        std::vector<double> luminance(light.squares()), coverage(light.squares());
+        std::vector<int> pixels(light.squares());
+        for (int y = 0; y < picture.size_px.y; ++y) {
+            for (int x = 0; x < picture.size_px.x; ++x) {
+                const auto square =
+                    static_cast<std::size_t>(y / light.square_px * size.x + x / light.square_px);
+                const glm::vec4& pixel = picture.at(x, y);
+                luminance[square] += glm::dot(shares, glm::dvec3(pixel));
+                coverage[square] += static_cast<double>(pixel.a);
+                ++pixels[square];
+            }
+        }
+        for (std::size_t i = 0; i < light.squares(); ++i) {
+            // Colours are multiplied by alpha.
+            light.luminance[begin + i] =
+                coverage[i] > 0.0 ? static_cast<float>(luminance[i] / coverage[i]) : 0.0f;
+            light.coverage[begin + i] = static_cast<float>(coverage[i] / std::max(pixels[i], 1));
+        }
+    });
+    return light;
+}
+
+std::optional<std::filesystem::path> StimulusLibrary::light_file(const Condition& condition,
+                                                                 bool make) const {
+    const FrameSequenceSettings* const sequence = cache_.sequence_of(condition);
+    if (sequence && !has_alpha(frame_file(*sequence, {0})))
+        return std::nullopt;
+    const std::filesystem::path file = cache_.light_file(frames_hash(condition));
+    if (!std::filesystem::exists(file)) {
+        if (!make)
+            return std::nullopt;
+        std::filesystem::create_directories(file.parent_path());
+        write_light_pictures(file, light_of(condition));
+    }
+    return file;
 }
 
 std::size_t StimulusLibrary::index_of(const Condition& condition) const {

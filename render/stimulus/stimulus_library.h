@@ -2,6 +2,7 @@
 /// to the presenter.
 #pragma once
 
+#include "experiment/maps/light_pictures.h"
 #include "render/presenter/frame_store.h"
 #include "render/stimulus/frame_maker.h"
 
@@ -49,7 +50,14 @@ class StimulusLibrary final : public FrameSource {
     /// the files' bytes.
     ContentHash frames_hash(const Condition& condition) const;
 
+    /// The file with the luminance of a stimulus in small pictures (light_pictures.h), from the cache. What
+    /// is not there is made if `make` says so, which reads all frames of the stimulus. Nothing for what is
+    /// not there, and for ready-made frames without alpha: what they show of the object is not known. Throws
+    /// InputError, RecordError.
+    std::optional<std::filesystem::path> light_file(const Condition& condition, bool make) const;
+
   private:
+    LightPictures light_of(const Condition& condition) const;
     std::size_t index_of(const Condition& condition) const;
 
     const Protocol* protocol_;

@@ -99,11 +99,16 @@ void add_output_findings(std::vector<ScreenFinding>& findings, const TimingFacts
     if (std::abs(measured_hz / mode_hz - 1.0) <= largest_rate_deviation)
         findings.push_back({Weight::good, "screen", fmt::format("its mode has {:.3f} Hz", mode_hz)});
     else
-        findings.push_back({Weight::risk, "screen",
-                            fmt::format("its mode has {:.3f} Hz, the window is shown at {:.3f}: by another "
-                                        "screen's refreshes, or a compositor's; switch other screens off, or "
-                                        "make this one the primary",
-                                        mode_hz, measured_hz)});
+        // Either rate may be the protocol's: with the wrong one every refresh would be recorded as shown in
+        // time.
+        findings.push_back(
+            {Weight::refusal, "screen",
+             fmt::format(
+                 "its mode has {:.3f} Hz, the window is shown at {:.3f}: times are told by {}; switch "
+                 "other screens and the compositor off, or make this screen the primary",
+                 mode_hz, measured_hz,
+                 facts.blanks_are_real ? "another screen's refreshes, or a compositor's"
+                                       : "a timer of the server, which does not know the screen's")});
 }
 
 } // namespace

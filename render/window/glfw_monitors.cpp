@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "render/window/monitor_choice.h"
 
 namespace overt {
 namespace {
@@ -29,14 +30,18 @@ void initialise_library() {
     }
 }
 
-std::string listed(const std::vector<GLFWmonitor*>& monitors) {
-    std::string list;
-    for (std::size_t i = 0; i < monitors.size(); ++i)
-        list += "\n  " + describe(info_of(monitors[i], static_cast<int>(i) + 1));
-    return monitors.empty() ? "\n  none" : list;
+std::vector<MonitorInfo> infos_of(const std::vector<GLFWmonitor*>& monitors) {
+    std::vector<MonitorInfo> list;
+    for (GLFWmonitor* monitor : monitors)
+        list.push_back(info_of(monitor, static_cast<int>(list.size()) + 1));
+    return list;
 }
 
-bool shows(GLFWmonitor* monitor, glm::ivec2 size_px) { return info_of(monitor, 1).size_px == size_px; }
+GLFWmonitor* monitor_as_wished(const MonitorWish& wish) {
+    const std::vector<GLFWmonitor*> monitors = all_monitors();
+    const std::vector<MonitorInfo> infos = infos_of(monitors);
+    return monitors[static_cast<std::size_t>(choose_monitor(infos, wish).number) - 1];
+}
 
 } // namespace
 
@@ -78,30 +83,11 @@ MonitorInfo info_of(GLFWmonitor* monitor, int number) {
     return info;
 }
 
-GLFWmonitor* monitor_numbered(int number) {
-    const std::vector<GLFWmonitor*> monitors = all_monitors();
-    if (number < 1 || number > static_cast<int>(monitors.size()))
-        throw InputError(fmt::format("there is no monitor {}. There are:{}", number, listed(monitors)));
-    return monitors[static_cast<std::size_t>(number) - 1];
-}
+GLFWmonitor* monitor_numbered(int number) { return monitor_as_wished({.number = number}); }
 
 GLFWmonitor* monitor_to_fill(const WindowRequest& request) {
-    const int width = request.size_px.x, height = request.size_px.y;
-    if (request.monitor) {
-        GLFWmonitor* const monitor = monitor_numbered(*request.monitor);
-        if (shows(monitor, request.size_px))
-            return monitor;
-        throw GraphicsError(
-            fmt::format("{} does not show {} x {} pixels now: set its mode, correct [display] "
-                        "width_px and height_px, or take another. There are:{}",
-                        describe(info_of(monitor, *request.monitor)), width, height, listed(all_monitors())));
-    }
-    for (GLFWmonitor* monitor : all_monitors())
-        if (shows(monitor, request.size_px))
-            return monitor;
-    throw GraphicsError(fmt::format("no monitor shows {} x {} pixels now: set its mode, or correct [display] "
-                                    "width_px and height_px. There are:{}",
-                                    width, height, listed(all_monitors())));
+    return monitor_as_wished(
+        {.number = request.monitor, .size_px = request.size_px, .refresh_hz = request.refresh_hz});
 }
 
 GLFWmonitor* monitor_under(GLFWwindow* window) {
@@ -138,10 +124,7 @@ GammaRamp ramp_of(GLFWmonitor* monitor) {
 
 std::vector<MonitorInfo> list_monitors() {
     const GlfwLibrary library;
-    std::vector<MonitorInfo> list;
-    for (GLFWmonitor* monitor : all_monitors())
-        list.push_back(info_of(monitor, static_cast<int>(list.size()) + 1));
-    return list;
+    return infos_of(all_monitors());
 }
 
 GammaRamp gamma_ramp_of(int monitor) {

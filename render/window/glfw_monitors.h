@@ -32,7 +32,7 @@ MonitorInfo info_of(GLFWmonitor* monitor, int number);
 GLFWmonitor* monitor_numbered(int number);
 
 /// The monitor that a whole screen is to fill, which must have the resolution already: a change of mode of
-/// our own might scale, and would have to be undone. Throws GraphicsError if there is none.
+/// our own might scale, and would have to be undone. Throws InputError if there is none, or no single one.
 GLFWmonitor* monitor_to_fill(const WindowRequest& request);
 
 /// The monitor under the middle of a window; the primary one if none is.

@@ -118,6 +118,10 @@ WindowContext::WindowContext(const WindowRequest& request) : state_(std::make_un
     // An operator who clicks on another screen must not make the observer's vanish.
     glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
     GLFWmonitor* monitor = request.fullscreen ? monitor_to_fill(request) : nullptr;
+    // Unless it is told a rate GLFW sets the highest one of that size, and leaves the mode the lab has
+    // chosen.
+    const GLFWvidmode* const mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+    glfwWindowHint(GLFW_REFRESH_RATE, mode && mode->refreshRate > 0 ? mode->refreshRate : GLFW_DONT_CARE);
     GLFWmonitor* const corner = request.monitor ? monitor_numbered(*request.monitor) : nullptr;
     // Put into its place before it is seen.
     if (corner && !request.fullscreen)

@@ -18,12 +18,15 @@ namespace overt {
 struct WindowRequest {
     glm::ivec2 size_px{1920, 1080};
     std::string title = "overt";
-    bool fullscreen = false; ///< on the monitor whose resolution is size_px; throws if there is none
+    bool fullscreen = false; ///< on the monitor whose resolution is size_px; throws if there is no single one
     bool visible = true;
     int bits_per_channel = 8; ///< of the framebuffer, 8 or 10; what came of it is bits_per_channel()
     /// By its number in list_monitors(), from 1: a whole screen takes this one, a window stands in its top
-    /// left corner. Left out: the first of that resolution; wherever the desktop puts a window.
+    /// left corner. Left out: the only one of that resolution, see choose_monitor(); wherever the desktop
+    /// puts a window.
     std::optional<int> monitor = {};
+    /// Tells monitors of one resolution apart. The window asks for no other rate than the monitor has now.
+    std::optional<double> refresh_hz = {};
 };
 
 /// Keys that a window reports. f1 to f12 lie together.
@@ -38,6 +41,8 @@ enum class WindowKey : std::uint8_t {
     tab,
     back_tab,
     backspace,
+    page_up,
+    page_down,
     pause,
     f1,
     f2,

@@ -28,6 +28,10 @@ WindowKey window_key_of(int key, int modifiers) noexcept {
         return (modifiers & GLFW_MOD_SHIFT) != 0 ? WindowKey::back_tab : WindowKey::tab;
     case GLFW_KEY_BACKSPACE:
         return WindowKey::backspace;
+    case GLFW_KEY_PAGE_UP:
+        return WindowKey::page_up;
+    case GLFW_KEY_PAGE_DOWN:
+        return WindowKey::page_down;
     case GLFW_KEY_PAUSE:
         return WindowKey::pause;
     default:

@@ -28,6 +28,43 @@ NamedKey key_called(const std::string& name) {
     return {static_cast<WindowKey>(static_cast<int>(WindowKey::f1) + std::stoi(name.substr(1)) - 1)};
 }
 
+std::optional<SetupKey> setup_key_of(const WindowKeyPress& press) noexcept {
+    using Kind = SetupKey::Kind;
+    if (press.key >= WindowKey::f1 && press.key <= WindowKey::f12)
+        return SetupKey{Kind::function, static_cast<char32_t>(1 + static_cast<int>(press.key) -
+                                                              static_cast<int>(WindowKey::f1))};
+    switch (press.key) {
+    case WindowKey::space:
+        return SetupKey{Kind::space};
+    case WindowKey::enter:
+        return SetupKey{Kind::enter};
+    case WindowKey::escape:
+        return SetupKey{Kind::escape};
+    case WindowKey::backspace:
+        return SetupKey{Kind::backspace};
+    case WindowKey::tab:
+    case WindowKey::back_tab:
+        return SetupKey{Kind::tab};
+    case WindowKey::up:
+        return SetupKey{Kind::up};
+    case WindowKey::down:
+        return SetupKey{Kind::down};
+    case WindowKey::left:
+        return SetupKey{Kind::left};
+    case WindowKey::right:
+        return SetupKey{Kind::right};
+    case WindowKey::page_up:
+        return SetupKey{Kind::page_up};
+    case WindowKey::page_down:
+        return SetupKey{Kind::page_down};
+    case WindowKey::character: // the space bar was a key already
+        return press.character == U' ' ? std::nullopt
+                                       : std::optional(SetupKey{Kind::character, press.character});
+    default:
+        return std::nullopt;
+    }
+}
+
 WindowResponsePanel::WindowResponsePanel(WindowContext& window, const Clock& clock,
                                          const OperatorSettings& operators, const ConsentSettings& consent,
                                          ResponsePanel* answering)
@@ -39,7 +76,7 @@ WindowResponsePanel::WindowResponsePanel(WindowContext& window, const Clock& clo
                                          {key_called(operators.skip), ResponseKey::skip},
                                          {key_called(operators.abort), ResponseKey::abort}}},
       yes_(key_called(operators.yes)), no_(key_called(operators.no)), accept_(key_called(consent.accept_key)),
-      decline_(key_called(consent.decline_key)) {}
+      decline_(key_called(consent.decline_key)), answers_(operators.keyboard_answers) {}
 
 std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPress& press) const noexcept {
     // GLFW's events carry no times of their own; this is within one polling interval of the press.
@@ -54,6 +91,9 @@ std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPres
     const auto meant = [&](ResponseKey key) {
         return std::optional(ResponsePress{key, now, press.character});
     };
+    // Where the observer has a box, what is the observer's to press is pressed there.
+    if (!answers_ && (mode_ == Mode::reading || mode_ == Mode::consent))
+        return std::nullopt;
     switch (mode_) {
     case Mode::reading:
         if (is_held)
@@ -82,6 +122,8 @@ std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPres
             return meant(ResponseKey::no);
         return is_character && !is_consent ? meant(ResponseKey::character) : std::nullopt;
     }
+    case Mode::setup: // keys are asked for by next_setup_key()
+        return std::nullopt;
     case Mode::entry:
         switch (press.key) {
         case WindowKey::character:
@@ -141,6 +183,21 @@ void WindowResponsePanel::await_entry(SessionTime since) {
     forget_presses(Mode::entry);
     if (answering_)
         answering_->await_entry(since);
+}
+
+void WindowResponsePanel::await_setup(SessionTime since) {
+    forget_presses(Mode::setup);
+    if (answering_)
+        answering_->await_setup(since);
+}
+
+std::optional<SetupKey> WindowResponsePanel::next_setup_key() {
+    window_->poll_events();
+    WindowKeyPress press{};
+    while (window_->next_key_press(press))
+        if (const std::optional<SetupKey> key = setup_key_of(press))
+            return key;
+    return answering_ ? answering_->next_setup_key() : std::nullopt;
 }
 
 std::optional<ResponsePress> WindowResponsePanel::poll() noexcept {

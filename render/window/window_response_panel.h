@@ -20,6 +20,9 @@ struct NamedKey {
 };
 NamedKey key_called(const std::string& name);
 
+/// As a tracker's set-up is told it; nothing for keys that it does not know.
+std::optional<SetupKey> setup_key_of(const WindowKeyPress& press) noexcept;
+
 class WindowResponsePanel final : public ResponsePanel {
   public:
     /// `answering`, if given, is asked for presses and answers too: a simulated observer whose session the
@@ -31,6 +34,8 @@ class WindowResponsePanel final : public ResponsePanel {
     void await_response(const Trial& trial, SessionTime since) override;
     void await_decision(bool is_consent, SessionTime since) override;
     void await_entry(SessionTime since) override;
+    void await_setup(SessionTime since) override;
+    std::optional<SetupKey> next_setup_key() override;
     std::optional<ResponsePress> poll() noexcept override;
     std::string answer() override { return answering_ ? answering_->answer() : std::string(); }
     void entered(SessionPhase phase, int trial) noexcept override {
@@ -39,7 +44,7 @@ class WindowResponsePanel final : public ResponsePanel {
     }
 
   private:
-    enum class Mode : std::uint8_t { reading, consent, confirmation, entry };
+    enum class Mode : std::uint8_t { reading, consent, confirmation, entry, setup };
     void forget_presses(Mode mode) noexcept;
     std::optional<ResponsePress> meaning_of(const WindowKeyPress& press) const noexcept;
 
@@ -48,6 +53,7 @@ class WindowResponsePanel final : public ResponsePanel {
     ResponsePanel* answering_;
     std::array<std::pair<NamedKey, ResponsePress::Key>, 6> operators_;
     NamedKey yes_, no_, accept_, decline_;
+    bool answers_ = true; ///< the keyboard answers for the observer, too
     Mode mode_ = Mode::reading;
     // The operator's presses that came while something was prepared.
     std::array<ResponsePress, 16> kept_{};

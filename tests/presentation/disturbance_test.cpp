@@ -81,6 +81,8 @@ TEST_CASE("a trial in which the machine slept or its wall clock was set says so,
     EventList log;
     Protocol protocol;
     protocol.tasks = {{"free", "Look."}};
+    protocol.sculptures.resize(1);
+    protocol.materials.resize(1);
     Schedule schedule;
     schedule.trials = {{0, 0, {}}, {1, 0, {}}, {2, 0, {}}};
     Session session(protocol, schedule, observer.scene().screen.centre(),

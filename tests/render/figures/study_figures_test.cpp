@@ -27,6 +27,25 @@ TEST_CASE("each figure is written as SVG and PDF of the stated width, the same e
     }
 }
 
+TEST_CASE("figure 4 shows each observer", "[unit]") {
+    const test::TemporaryFolder folder;
+    StudyResults study = test::made_up_study();
+    for (HeadFractionRow& row : study.head_fractions)
+        row.of_observers = {0.25, 0.5};
+    const auto dots_with = [&](const std::string& name) {
+        write_figures(study, folder.path() / name);
+        const std::string svg = read_whole_file(folder.path() / name / "figure_4.svg");
+        std::size_t curves = 0;
+        for (std::size_t at = svg.find(" C "); at != svg.npos; at = svg.find(" C ", at + 1))
+            ++curves;
+        return curves;
+    };
+    const std::size_t two = dots_with("two");
+    for (HeadFractionRow& row : study.head_fractions)
+        row.of_observers.clear();
+    CHECK(two > dots_with("none"));
+}
+
 TEST_CASE("a study without anything has no figures", "[unit]") {
     const test::TemporaryFolder folder;
     CHECK(write_figures({}, folder.path() / "figures").empty());

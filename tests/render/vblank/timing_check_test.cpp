@@ -133,7 +133,14 @@ TEST_CASE("a good screen has no risk, and each thing that may spoil its times is
 
     facts = good_facts();
     facts.output.refresh_hz = 60.0; // the window is shown with another screen's refreshes
-    CHECK(finding_of(facts, "screen").weight == Weight::risk);
+    CHECK(finding_of(facts, "screen").weight == Weight::refusal);
+    CHECK_THAT(finding_of(facts, "screen").finding, Catch::Matchers::Contains("another screen's"));
+    facts.blanks_are_real = false; // the server's own 60 Hz, by which a protocol of 60 Hz misses nothing
+    facts.measured = summarise_refreshes(watched(60.0, 600, VblankSource::present_count, 0.02));
+    facts.output.refresh_hz = 120.0;
+    CHECK(finding_of(facts, "measured refresh", 60.0).weight == Weight::good);
+    CHECK(finding_of(facts, "screen", 60.0).weight == Weight::refusal);
+    CHECK_THAT(finding_of(facts, "screen", 60.0).finding, Catch::Matchers::Contains("a timer of the server"));
 
     facts = good_facts();
     facts.measured.interval_sd_ms = 1.0;
