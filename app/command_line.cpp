@@ -13,10 +13,12 @@
 #include "app/cli/command_options.h"
 #include "app/cli/this_program.h"
 #include "app/display/display_commands.h"
+#include "app/manual/manual_commands.h"
 #include "app/power/power_command.h"
 #include "app/record/record_commands.h"
 #include "app/session/session_commands.h"
 #include "app/stimuli/stimulus_commands.h"
+#include "app/tracker/tracker_commands.h"
 #include "experiment/base/diagnostics.h"
 
 namespace overt {
@@ -59,14 +61,15 @@ std::optional<int> answer_to_no_command(const CLI::App& app, int argc, char** ar
 
 int run_command_line(int argc, char** argv) {
     CLI::App app(synopsis, "overt");
-    app.set_version_flag("--version", "overt " + this_build().version);
+    app.set_version_flag("--version", version_text());
     app.require_subcommand(1);
     app.footer(exit_codes);
     app.get_formatter()->column_width(34);
     ChosenCommand chosen;
-    for (const auto add_commands : {add_check_commands, add_session_commands, add_record_commands,
-                                    add_analyze_command, add_replicate_command, add_power_command,
-                                    add_stimulus_commands, add_display_commands, add_bench_commands})
+    for (const auto add_commands :
+         {add_check_commands, add_session_commands, add_record_commands, add_analyze_command,
+          add_replicate_command, add_power_command, add_stimulus_commands, add_tracker_commands,
+          add_display_commands, add_bench_commands, add_manual_commands})
         add_commands(app, chosen);
 
     if (const std::optional<int> answer = answer_to_no_command(app, argc, argv))

@@ -9,6 +9,8 @@ namespace overt::build {
 inline constexpr const char* version = \"${VERSION}\";
 inline constexpr const char* compiler = \"${COMPILER}\";
 inline constexpr const char* flags = \"${FLAGS}\";
+inline constexpr const char* type = \"${TYPE}\";
+inline constexpr const char* libraries = \"${LIBRARIES}\";
 inline constexpr const char* commit = \"${commit}\";
 } // namespace overt::build
 ")

@@ -24,6 +24,9 @@ pkg_check_modules(PORTAUDIO REQUIRED IMPORTED_TARGET portaudio-2.0)
 # Their -pthread would be a flag that the precompiled headers were not compiled with.
 set_property(TARGET PkgConfig::PANGO PkgConfig::PORTAUDIO PROPERTY INTERFACE_COMPILE_OPTIONS "")
 pkg_check_modules(SNDFILE REQUIRED IMPORTED_TARGET sndfile)
+pkg_check_modules(ZMQ REQUIRED IMPORTED_TARGET libzmq) # the language of Pupil Capture
+pkg_check_modules(HIDAPI REQUIRED IMPORTED_TARGET hidapi-hidraw) # eye trackers and button boxes without a driver of the kernel's
+pkg_check_modules(LIBUSB REQUIRED IMPORTED_TARGET libusb-1.0) # serial chips without a driver of the kernel's
 find_package(SQLiteCpp REQUIRED)
 # Draws the maps in report.html; r111, with its licence in the page.
 find_file(OVERT_THREE_JS three.min.js PATHS /usr/share/javascript/three REQUIRED)

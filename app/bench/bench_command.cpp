@@ -36,7 +36,9 @@ constexpr Benchmark benchmarks[] = {
      bench_events},
     {"analyze", "a study of given sessions, its time and memory; blurring, its speed and exactness",
      bench_analyze},
-    {"power", "simulated studies of 12 observers, how many a minute on one core", bench_power}};
+    {"power", "simulated studies of 12 observers, how many a minute on one core", bench_power},
+    {"tracker", "an eye tracker at 2000 Hz beside a presentation, its samples, processor time and refreshes",
+     bench_tracker}};
 
 void add_bench(CLI::App& app, ChosenCommand& chosen) {
     const auto given = std::make_shared<BenchOptions>();
@@ -84,6 +86,9 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
                     "samples; from 384 on they have targets")
         ->type_name("PX")
         ->check(CLI::Range(16, 2048))
+        ->capture_default_str();
+    command.add_option("--seconds", options.seconds, "tracker: of real time, once without and once with it")
+        ->check(CLI::Range(0.5, 3600.0))
         ->capture_default_str();
     add_context_option(command, options.context);
     command.add_flag("--json", options.json, "Print JSON");

@@ -39,5 +39,7 @@ BenchFigures bench_events(const BenchOptions& options);
 BenchFigures bench_analyze(const BenchOptions& options);
 /// Simulated studies of 12 observers: how many a minute on one core.
 BenchFigures bench_power(const BenchOptions& options);
+/// An eye tracker at 2000 Hz: samples lost or doubled, processor time, refreshes missed beside it.
+BenchFigures bench_tracker(const BenchOptions& options);
 
 } // namespace overt

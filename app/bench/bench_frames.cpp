@@ -47,12 +47,15 @@ std::vector<float> figure_rgba(int size_px, int frame) {
 struct FileKind {
     const char* name;
     const char* extension;
+    const char* compression; ///< of EXR
     PixelType type;
+    std::size_t value_bytes;
     FrameEncoding encoding;
 };
 
-const FileKind kinds[] = {{"half-float EXR", "exr", PixelType::float16, FrameEncoding::linear},
-                          {"16-bit PNG", "png", PixelType::bits16, FrameEncoding::srgb}};
+const FileKind kinds[] = {{"24-bit EXR", "exr", "pxr24", PixelType::float32, 4, FrameEncoding::linear},
+                          {"half-float EXR", "exr", "zip", PixelType::float16, 2, FrameEncoding::linear},
+                          {"16-bit PNG", "png", "zip", PixelType::bits16, 2, FrameEncoding::srgb}};
 
 std::filesystem::path file_of(const std::filesystem::path& folder, const FileKind& kind, int frame) {
     return folder / fmt::format("frame_{:04}.{}", frame, kind.extension);
@@ -61,7 +64,7 @@ std::filesystem::path file_of(const std::filesystem::path& folder, const FileKin
 void write_frames(const std::filesystem::path& folder, const FileKind& kind, int size_px) {
     parallel_for(frames, [&](int frame) {
         const PictureHeader header{
-            glm::ivec2(size_px), {"R", "G", "B", "A"}, kind.type, 3, {{"compression", "zip"}}};
+            glm::ivec2(size_px), {"R", "G", "B", "A"}, kind.type, 3, {{"compression", kind.compression}}};
         write_picture(file_of(folder, kind, frame), header, PixelType::float32,
                       figure_rgba(size_px, frame).data());
     });
@@ -79,7 +82,7 @@ void read_by_library_alone(const std::filesystem::path& folder, const FileKind& 
         thread_local std::vector<char> pixels;
         PictureFile picture(file_of(folder, kind, frame), "picture");
         const PictureHeader& header = picture.header();
-        pixels.resize(sizeof(std::uint16_t) * header.channels.size() *
+        pixels.resize(kind.value_bytes * header.channels.size() *
                       static_cast<std::size_t>(header.size_px.x * header.size_px.y));
         picture.read(header.channel_count(), PixelType::other, pixels.data());
     });

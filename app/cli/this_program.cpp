@@ -10,6 +10,13 @@ namespace overt {
 
 ProgramBuild this_build() { return {build::version, build::compiler, build::flags, build::commit}; }
 
+std::string version_text() {
+    return fmt::format("overt {}\ncommit     {}\nbuild      {}\ncompiler   {}\nflags      {}\nlibraries  {}",
+                       build::version, *build::commit ? build::commit : "not known",
+                       *build::type ? build::type : "no type", build::compiler, build::flags,
+                       build::libraries);
+}
+
 SessionManifest::Program this_program() {
     static const ContentHash sha256 = hash_of_file("/proc/self/exe");
     return {"overt", build::version, sha256};

@@ -10,6 +10,7 @@
 #include "devices/link/serial_port.h"
 #include "experiment/base/error.h"
 #include "experiment/base/random.h"
+#include "render/window/monitor_choice.h"
 #include "render/window/screen_check.h"
 #include "render/window/window_system.h"
 
@@ -80,17 +81,6 @@ void show_still(const OpenDisplay& display, const std::vector<std::byte>& bytes,
     display.clock().wait_until(display.clock().now() + std::chrono::milliseconds(200));
 }
 
-MonitorInfo monitor_chosen(const std::optional<int>& number) {
-    const std::vector<MonitorInfo> monitors = list_monitors();
-    const std::size_t index = static_cast<std::size_t>(number.value_or(1)) - 1;
-    if (index < monitors.size())
-        return monitors[index];
-    std::string list;
-    for (const MonitorInfo& monitor : monitors)
-        list += "\n  " + describe(monitor);
-    throw InputError(fmt::format("there is no monitor {}. There are:{}", number.value_or(1), list));
-}
-
 BenchFigures figures_of(const VideoLineReport& report) {
     BenchFigures figures;
     for (const LineVerdict& line : report.lines)
@@ -111,7 +101,8 @@ int run_display_hardware_check(const DisplayHardwareOptions& options) {
     const auto box = find_display_plus_plus(serial_ports(),
                                             options.port.empty() ? std::nullopt : std::optional(options.port),
                                             serial_port_opener(clock), clock, settings);
-    const MonitorInfo monitor = monitor_chosen(options.monitor);
+    const std::vector<MonitorInfo> monitors = list_monitors();
+    const MonitorInfo& monitor = choose_monitor(monitors, {.number = options.monitor});
     OpenDisplay display({.context = ContextKind::window,
                          .size_px = monitor.size_px,
                          .title = "overt display verify",

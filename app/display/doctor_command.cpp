@@ -9,7 +9,10 @@
 #include "app/display/display_commands.h"
 #include "app/display/photodiode_doctor.h"
 #include "app/display/screen_doctor.h"
+#include "app/display/tracker_doctor.h"
 #include "app/rig/answer_equipment.h"
+#include "app/rig/button_boxes.h"
+#include "app/rig/marker_outputs.h"
 #include "devices/display_box/display_plus_plus_search.h"
 #include "devices/display_box/switch_record.h"
 #include "devices/host/clocks.h"
@@ -107,6 +110,12 @@ std::vector<Line> examine() {
     }
     add_screens(lines);
     add_instruments(lines);
+    for (TrackerFinding& tracker : examine_trackers())
+        lines.push_back({std::move(tracker.what), std::move(tracker.finding)});
+    for (const std::string& box : button_box_overview())
+        lines.push_back({"response box", box});
+    for (const std::string& output : marker_overview())
+        lines.push_back({"marker output", output});
     for (const std::string& sound : sound_overview())
         lines.push_back({"sound device", sound});
     lines.push_back({"processors", fmt::format("{}", std::thread::hardware_concurrency())});

@@ -9,6 +9,7 @@
 #include "app/rig/open_display.h"
 #include "experiment/base/error.h"
 #include "render/vblank/timing_check.h"
+#include "render/window/monitor_choice.h"
 
 namespace overt {
 namespace {
@@ -56,10 +57,7 @@ nlohmann::ordered_json json_of(const TimingFacts& facts, const std::vector<Scree
 
 MonitorInfo chosen_monitor(const DoctorOptions& options) {
     const std::vector<MonitorInfo> monitors = list_monitors();
-    const auto number = static_cast<std::size_t>(options.monitor.value_or(1));
-    if (number > monitors.size())
-        throw InputError(fmt::format("there is no monitor {}: there are {}", number, monitors.size()));
-    return monitors[number - 1];
+    return choose_monitor(monitors, {.number = options.monitor});
 }
 
 int run_screen_doctor(const DoctorOptions& options) {

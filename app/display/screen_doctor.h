@@ -10,7 +10,8 @@ namespace overt {
 /// GraphicsError if no window can be opened.
 int run_screen_doctor(const DoctorOptions& options);
 
-/// The monitor that was asked for, or the first. Throws InputError if there is none of that number.
+/// The monitor that was asked for, or the only one. Throws InputError if there is none of that number, or
+/// none was named where there are several.
 MonitorInfo chosen_monitor(const DoctorOptions& options);
 
 } // namespace overt

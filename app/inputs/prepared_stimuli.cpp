@@ -6,7 +6,10 @@
 
 namespace overt {
 
-void prepare_stimuli(StimulusLibrary& library, MapsNow maps, BakeQuality least) {
+namespace {
+
+/// With a progress bar; `work` is given what to tell.
+template <class Work> void with_bar(const Work& work) {
     ProgressBar bar;
     const Progress show = [&](std::string_view what, int done, int total, double share) {
         bar.update(what, done, total, share);
@@ -15,10 +18,41 @@ void prepare_stimuli(StimulusLibrary& library, MapsNow maps, BakeQuality least) 
                 "interrupted while the stimuli were made ready: no trial was begun. What was finished "
                 "is kept, and the same command goes on from there.");
     };
+    work(show);
+}
+
+void make_maps(StimulusLibrary& library, MapsNow maps, const Progress& show) {
     if (maps == MapsNow::made)
         library.maps().prepare_maps(show);
     library.maps().prepare_given_maps(show);
-    library.prepare_frames(show, least);
+}
+
+/// Of all stimuli with a surface: the session keeps it for the analysis.
+void make_light(StimulusLibrary& library, const Progress& show) {
+    const std::vector<Condition> stimuli = library.cache().stimuli_with_surface();
+    const int count = static_cast<int>(stimuli.size());
+    for (int done = 0; done < count; ++done) {
+        show("light of the stimuli", done, count, static_cast<double>(done) / count);
+        library.light_file(stimuli[static_cast<std::size_t>(done)], true);
+    }
+    if (count > 0)
+        show("light of the stimuli", count, count, 1.0);
+}
+
+} // namespace
+
+void prepare_stimuli(StimulusLibrary& library, MapsNow maps, BakeQuality least) {
+    with_bar([&](const Progress& show) {
+        make_maps(library, maps, show);
+        library.prepare_frames(show, least);
+        make_light(library, show);
+    });
+}
+
+void prepare_maps_alone(StimulusLibrary& library, MapsNow maps, const Protocol& protocol) {
+    with_bar([&](const Progress& show) { make_maps(library, maps, show); });
+    const BakeQuality least = protocol.bake.least(false);
+    library.take_frames(library.quality_of_session(least).value_or(quality_of(least, protocol.bake)));
 }
 
 } // namespace overt

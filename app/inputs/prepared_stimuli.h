@@ -13,4 +13,8 @@ enum class MapsNow : std::uint8_t { made, drawn_live };
 /// to live; Ctrl-C ends this with what is finished, as an Error.
 void prepare_stimuli(StimulusLibrary& library, MapsNow maps, BakeQuality least);
 
+/// The same for sessions that draw no frames: maps alone are made. What is said of the frames is the best
+/// quality that there is, or that of those that would be made.
+void prepare_maps_alone(StimulusLibrary& library, MapsNow maps, const Protocol& protocol);
+
 } // namespace overt

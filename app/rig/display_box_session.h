@@ -45,6 +45,8 @@ class DisplayBoxSession {
                       PagePresenter& presenter);
 
     const RecordedBox& recorded() const { return recorded_; }
+    /// For a CB6, which is read between what this asks.
+    DisplayPlusPlus& box() { return *box_; }
 
     /// Puts into the record what the constructor did.
     void write_beginning(SessionStore& store);

@@ -18,7 +18,7 @@ OpenDisplay::OpenDisplay(DisplayRequest request) : request_(std::move(request)) 
     }
     auto window = std::make_unique<WindowContext>(
         WindowRequest{request_.size_px, request_.title, !request_.windowed && !request_.virtual_time, true,
-                      request_.bits_per_channel, request_.monitor});
+                      request_.bits_per_channel, request_.monitor, request_.refresh_hz});
     window_ = window.get();
     context_ = std::move(window);
 }

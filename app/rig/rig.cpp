@@ -23,7 +23,8 @@ std::vector<ScriptedOperatorKey> read_operator_keys(const RigRequest& request,
 
 DisplayRequest display_of(const Protocol& protocol, const RigRequest& request) {
     if (!wants_window(request.context) && !request.simulate_observer)
-        throw InputError("without a window no observer can answer: give --simulate-observer SEED, or a display");
+        throw InputError(
+            "without a window no observer can answer: give --simulate-observer SEED, or a display");
     const DisplaySettings& display = protocol.display;
     return {.context = request.context,
             .size_px = {display.width_px, display.height_px},
@@ -50,7 +51,7 @@ Rig::Rig(const Protocol& protocol, std::span<const Sculpture> sculptures, const 
       operator_keys_(read_operator_keys(request, protocol.operators)),
       display_(display_of(protocol, request)),
       screen_findings_(display_.is_real() ? examine_screen(*display_.window(), protocol)
-                                           : std::vector<ScreenFinding>()),
+                                          : std::vector<ScreenFinding>()),
       library_(display_.context(), protocol, sculptures, cache) {}
 
 Rig::~Rig() = default;
@@ -70,22 +71,34 @@ std::vector<PresentationListener*> Rig::listeners() {
     return all;
 }
 
-void Rig::open(DisplayFaults faults, SessionTime start) {
+void Rig::open(SimulatedFaults faults, SessionTime start) {
     if (display_.is_real() && !faults.is_clean())
         throw InputError("faults are simulated where time is: give --virtual-time, or --context osmesa");
-    display_.start(std::move(faults), start);
+    if (display_.is_real() && !request_.draws_stimuli)
+        throw InputError("--no-pictures is for sessions that nobody sees: give --virtual-time, or --context "
+                         "osmesa");
+    display_.start(faults, start);
     const ScreenGeometry geometry = screen_geometry_of(*protocol_);
-    presenter_ = std::make_unique<PagePresenter>(display_.context(), display_.surface(), library_, geometry,
+    if (!request_.draws_stimuli)
+        undrawn_ = std::make_unique<UndrawnFrames>(library_, geometry.image_px);
+    const FrameSource& frames = undrawn_ ? static_cast<const FrameSource&>(*undrawn_) : library_;
+    presenter_ = std::make_unique<PagePresenter>(display_.context(), display_.surface(), frames, geometry,
                                                  protocol_->display, protocol_->screens);
     if (maps_are_live())
         live_maps_ = std::make_unique<LiveMaps>(display_.context(), sculptures_, library_.cache().poses(),
                                                 geometry.image_px);
     observer_ = std::make_unique<SimulatedObserver>(make_observed_scene(*protocol_, sculptures_, geometry),
                                                     request_.seed);
-    tracker_ = tracker_device(protocol_->tracker.kind, request_.virtual_time)
-                   .make({protocol_->tracker, clock(), *observer_, request_.seed});
-    panels_ = make_response_devices({*protocol_, clock(), *observer_, display_.window(),
-                                     request_.simulate_observer, operator_keys_});
+    MadeTracker made = make_tracker({.protocol = *protocol_,
+                                     .clock = clock(),
+                                     .observer = *observer_,
+                                     .seed = request_.seed,
+                                     .faults = std::move(faults.tracker)},
+                                    request_.virtual_time);
+    tracker_ = std::move(made.tracker);
+    faulty_tracker_ = made.faulty;
+    panels_ = make_response_devices(
+        {*protocol_, clock(), *observer_, display_.window(), request_.simulate_observer, operator_keys_});
     if (is_on_a_real_screen())
         display_.window()->hold_still();
 }

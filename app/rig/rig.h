@@ -7,9 +7,11 @@
 
 #include "app/rig/answer_equipment.h"
 #include "app/rig/open_display.h"
+#include "app/rig/undrawn_frames.h"
 #include "experiment/ports/eye_tracker.h"
 #include "experiment/ports/presentation_listener.h"
 #include "experiment/ports/response_panel.h"
+#include "experiment/protocol/fault_file.h"
 #include "experiment/record/session_header.h"
 #include "render/presenter/page_presenter.h"
 #include "render/stimulus/live_maps.h"
@@ -19,6 +21,7 @@
 
 namespace overt {
 
+class FaultyTracker;
 class SimulatedObserver;
 struct ScriptedOperatorKey;
 
@@ -34,6 +37,7 @@ struct RigRequest {
     MapTime maps = MapTime::automatic;
     std::optional<int> monitor = {};             ///< from 1; see WindowRequest
     std::vector<std::string> operator_keys = {}; ///< of a simulated operator, see read_operator_key()
+    bool draws_stimuli = true; ///< without: see UndrawnFrames; for a display that only keeps time
 };
 
 class Rig {
@@ -62,9 +66,9 @@ class Rig {
     bool maps_are_live() const;
 
     /// Makes presenter, tracker and panel. To be called once, when all stimuli are prepared: the session
-    /// clock starts here, with `start`. `faults`: what goes wrong with a display that only keeps time. Throws
-    /// InputError for faults of a real screen in real time.
-    void open(DisplayFaults faults = {}, SessionTime start = {});
+    /// clock starts here, with `start`. `faults`: what goes wrong with a display that only keeps time, and
+    /// with a tracker that is no hardware. Throws InputError for faults of a real screen in real time.
+    void open(SimulatedFaults faults = {}, SessionTime start = {});
 
     /// Shows a dark screen for so many seconds, watches its refreshes, and adds what it finds to
     /// screen_findings(); gives what was added. Only on a real screen, once open. Throws GraphicsError for a
@@ -83,6 +87,8 @@ class Rig {
     const VirtualRefresh* virtual_refresh() const { return display_.virtual_refresh(); }
     /// The simulated observer, the hidden pass if it is live, and a display that only keeps time.
     std::vector<PresentationListener*> listeners();
+    /// With what goes wrong as the faults say; null if they say nothing of the tracker.
+    FaultyTracker* faulty_tracker() { return faulty_tracker_; }
     LiveMaps* live_maps() { return live_maps_.get(); } ///< null unless maps_are_live()
 
   private:
@@ -93,10 +99,12 @@ class Rig {
     OpenDisplay display_; // objects of OpenGL go before the context they live in
     std::vector<ScreenFinding> screen_findings_;
     StimulusLibrary library_;
+    std::unique_ptr<UndrawnFrames> undrawn_; ///< in its place, if stimuli are not drawn
     std::unique_ptr<PagePresenter> presenter_;
     std::unique_ptr<LiveMaps> live_maps_;
     std::unique_ptr<SimulatedObserver> observer_;
     std::unique_ptr<EyeTracker> tracker_;
+    FaultyTracker* faulty_tracker_ = nullptr;            ///< a part of it
     std::vector<std::unique_ptr<ResponsePanel>> panels_; ///< the session asks the last
 };
 

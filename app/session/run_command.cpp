@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "app/cli/cache_folder.h"
@@ -9,15 +11,19 @@
 #include "app/inputs/protocol_file.h"
 #include "app/inputs/protocol_inputs.h"
 #include "app/rig/answer_equipment.h"
+#include "app/rig/button_boxes.h"
 #include "app/rig/display_box_session.h"
+#include "app/rig/marker_outputs.h"
 #include "app/rig/output_verification.h"
 #include "app/rig/rig.h"
+#include "app/rig/setup_sounds.h"
 #include "app/session/session_commands.h"
 #include "app/session/session_messages.h"
 #include "app/session/session_plan.h"
 #include "app/session/session_recording.h"
 #include "app/session/session_room.h"
 #include "devices/host/thread_priority.h"
+#include "devices/simulated/faulty_tracker.h"
 #include "experiment/base/error.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/design/schedule.h"
@@ -48,7 +54,12 @@ void note_faults(const std::filesystem::path& file, const Clock& clock, SessionS
     if (file.empty())
         return;
     store.event({clock.now(), -1, simulated_faults_event, read_whole_file(file)});
-    fmt::print("display: with the simulated faults of {}\n", file.string());
+    fmt::print("with the simulated faults of {}\n", file.string());
+}
+
+void note_struck(FaultyTracker& tracker, const Trial& trial, const Clock& clock, SessionStore& store) {
+    for (const std::string& fault : tracker.take_struck())
+        store.event({clock.now(), trial.index, tracker_fault_event, fault});
 }
 
 void note_struck(const VirtualRefresh& display, const Trial& trial, const Clock& clock, SessionStore& store) {
@@ -98,6 +109,9 @@ class BoxInUse {
         fmt::print("display box: {}\n", describe(recorded_));
     }
 
+    /// Null if there is none.
+    DisplayPlusPlus* display_box() { return session_ ? &session_->box() : nullptr; }
+
     void write_beginning(SessionStore& store) {
         if (session_)
             session_->write_beginning(store);
@@ -118,6 +132,19 @@ class BoxInUse {
     std::optional<DisplayBoxSession> session_;
 };
 
+/// Null where there are none.
+std::unique_ptr<ResponsePanel> open_button_boxes(const Protocol& protocol, Rig& rig, BoxInUse& box,
+                                                 const RunOptions& options,
+                                                 const std::function<void(const std::string&)>& tell) {
+    if (protocol.button_boxes.empty())
+        return nullptr;
+    if (options.virtual_time) {
+        tell("response boxes are not read: time is virtual");
+        return nullptr;
+    }
+    return make_button_boxes(protocol, rig.clock(), &rig.panel(), box.display_box(), tell);
+}
+
 /// The session's folder with all that is recorded before the first trial; a resumed session has it already.
 struct SessionFolder {
     std::filesystem::path path;
@@ -137,15 +164,16 @@ SessionFolder open_folder(const RunOptions& options, const SessionPlace& place, 
     }
     SessionDirectory directory(place, options.session_number);
     now.session_number = directory.session_number();
-    put_files(directory, now, experiment.sculptures, rig.library());
+    put_files(directory, now, experiment.sculptures, rig.library(), options.draws_stimuli);
     directory.publish();
     const std::string started_utc = now.started_utc;
     return {directory.path(), std::move(now), started_utc};
 }
 
-/// No tracker of today tells events: where its own are wanted, the program's stand in for them.
+/// Where the tracker's own events are wanted and it tells none, the program's stand in for them.
 std::optional<SittingDetection> detection_of(const Protocol& protocol, const EyeTracker& tracker) {
-    if (protocol.events.method == EventMethod::none || !tracker.measures_gaze())
+    if (protocol.events.method == EventMethod::none || !tracker.measures_gaze() ||
+        (protocol.events.method == EventMethod::tracker && tracker.tells_events()))
         return std::nullopt;
     return SittingDetection{protocol.events, screen_geometry_of(protocol)};
 }
@@ -167,10 +195,57 @@ void note_circumstances(const RunOptions& options, const Protocol& protocol, con
     for (const ScreenFinding& finding : rig.screen_findings())
         store.event(
             {rig.clock().now(), -1, screen_event, fmt::format("{}: {}", finding.what, finding.finding)});
+    if (!options.draws_stimuli)
+        store.event(
+            {rig.clock().now(), -1, screen_event,
+             "stimuli: not drawn (--no-pictures), for nobody saw them; gaze and times do not depend on "
+             "pictures"});
     if (options.verify_output) {
         ProgressBar bar;
         record_verification(rig.presenter(), rig.library(), protocol, schedule, rig.clock(), store,
                             [&](int done, int total) { bar.update("verifying the output", done, total); });
+    }
+}
+
+/// Fetches the tracker's own file into the session's folder, if it has one, and records what it says.
+void end_tracker(Rig& rig, const std::filesystem::path& folder, SessionStore& store) {
+    ProgressBar bar;
+    const std::vector<std::string> said =
+        rig.tracker().finish(folder.string(), [&](std::int64_t done, std::int64_t total) {
+            bar.update("fetching the eye tracker's file, kB", static_cast<int>(done / 1000),
+                       static_cast<int>(std::max(done, total) / 1000));
+        });
+    bar.finish();
+    for (const std::string& sentence : said) {
+        store.event({rig.clock().now(), -1, tracker_event, sentence});
+        fmt::print("eye tracker: {}\n", sentence);
+    }
+}
+
+/// The same when the session itself has failed: its record may not take anything any more.
+void rescue_tracker_file(Rig& rig, const std::filesystem::path& folder) {
+    for (const std::string& sentence :
+         rig.tracker().finish(folder.string(), [](std::int64_t, std::int64_t) {}))
+        fmt::print(stderr, "eye tracker: {}\n", sentence);
+}
+
+/// Which tracker it is, and what it granted of what was wished.
+void note_tracker(const TrackerSettings& wish, Rig& rig, SessionStore& store) {
+    const TrackerDescription tracker = rig.tracker().description();
+    if (!rig.tracker().measures_gaze())
+        return;
+    store.event({rig.clock().now(), -1, tracker_event,
+                 fmt::format("{}{}{}: {} Hz, {}", tracker.name, tracker.model.empty() ? "" : ", ",
+                             tracker.model, tracker.sample_rate_hz,
+                             tracker.both_eyes          ? "both eyes"
+                             : tracker.eye == Eye::left ? "left eye"
+                                                        : "right eye")});
+    if (std::abs(tracker.sample_rate_hz - wish.rate_hz) > 1e-3 * wish.rate_hz &&
+        tracker.sample_rate_hz > 0.0) {
+        const std::string granted = fmt::format("samples at {:g} Hz where the protocol wishes {:g} Hz",
+                                                tracker.sample_rate_hz, wish.rate_hz);
+        store.event({rig.clock().now(), -1, tracker_event, granted});
+        fmt::print(stderr, "the eye tracker {}\n", granted);
     }
 }
 
@@ -179,8 +254,15 @@ void note_circumstances(const RunOptions& options, const Protocol& protocol, con
 int run_session(const RunOptions& options) {
     output_is_only_told();
     const Observer observer = observer_labelled(options.observer);
-    const Experiment experiment =
+    if (options.verify_output && !options.draws_stimuli)
+        throw InputError(
+            "--verify-output decodes the pictures that --no-pictures leaves out: give one of them");
+    Experiment experiment =
         read_experiment_or_report(options.protocol, cache_folder(), InputDepth::everything);
+    if (!options.tracker.empty())
+        experiment.protocol.tracker.kind = tracker_kind_called(options.tracker);
+    if (!options.tracker_address.empty())
+        experiment.protocol.tracker.address = options.tracker_address;
     const Protocol& protocol = experiment.protocol;
     // What would refuse the session at its end is said before anything is drawn.
     const SessionPlace place{options.sessions, protocol.name, observer.label};
@@ -191,13 +273,18 @@ int run_session(const RunOptions& options) {
 
     Rig rig(protocol, experiment.sculptures,
             {options.context, options.virtual_time, options.windowed, options.simulate_observer.has_value(),
-             seed_of_simulated(options, plan), options.maps, options.monitor, options.operator_keys},
+             seed_of_simulated(options, plan), options.maps, options.monitor, options.operator_keys,
+             options.draws_stimuli},
             cache_folder());
     say_before(protocol, plan.schedule, rig.context().description(), options);
     say_risks(rig.screen_findings());
     const Interruption interruption;
-    prepare_stimuli(rig.library(), rig.maps_are_live() ? MapsNow::drawn_live : MapsNow::made,
-                    options.quality.value_or(protocol.bake.least(!options.simulate_observer)));
+    const MapsNow maps = rig.maps_are_live() ? MapsNow::drawn_live : MapsNow::made;
+    if (options.draws_stimuli)
+        prepare_stimuli(rig.library(), maps,
+                        options.quality.value_or(protocol.bake.least(!options.simulate_observer)));
+    else
+        prepare_maps_alone(rig.library(), maps, protocol);
     say_frames(rig.library(), !options.simulate_observer);
     require_room(experiment, plan, rig.library(), !rig.maps_are_live(), options.sessions);
     rig.open(plan.faults, plan.resumed ? plan.resumed->clock_start : SessionTime());
@@ -205,6 +292,16 @@ int run_session(const RunOptions& options) {
         check_timing(rig, options.refresh_check_s);
     rig.presenter().close_on(Interruption::requested());
     BoxInUse box(found_box, protocol.display, rig);
+    const auto tell = [](const std::string& sentence) { fmt::print(stderr, "{}\n", sentence); };
+    const std::unique_ptr<ResponsePanel> boxes = open_button_boxes(protocol, rig, box, options, tell);
+    const MarkerEquipment markers(protocol, rig.clock(), options.virtual_time,
+                                  fmt::format("{} {}", protocol.name, observer.label), tell);
+    for (const std::string& description : markers.descriptions())
+        fmt::print("markers: {}\n", description);
+    const bool beeps = protocol.calibration.beeps && rig.tracker().measures_gaze() && !options.virtual_time;
+    SetupSounds sounds(beeps);
+    if (beeps)
+        fmt::print("sounds of the set-up: {}\n", sounds.description());
     AnswerEquipment answers = rig.answer_equipment();
     fmt::print("spoken answers: {}\n", answers.description());
 
@@ -213,6 +310,9 @@ int run_session(const RunOptions& options) {
                        store_options(options, plan, folder, detection_of(protocol, rig.tracker())));
     box.write_beginning(store);
     note_circumstances(options, protocol, plan.schedule, rig, store);
+    note_tracker(protocol.tracker, rig, store);
+    for (const std::string& description : markers.descriptions())
+        store.event({rig.clock().now(), -1, marker_output_event, description});
     answers.keep_in(folder.path);
     store.event({rig.clock().now(), -1, answer_recording_event, answers.description()});
     TrialProgress progress(protocol, plan.schedule, rig.tracker().measures_gaze());
@@ -220,30 +320,41 @@ int run_session(const RunOptions& options) {
                     {.clock = rig.clock(),
                      .presenter = rig.presenter(),
                      .tracker = rig.tracker(),
-                     .panel = rig.panel(),
+                     .panel = boxes ? *boxes : rig.panel(),
                      .log = store,
                      .listeners = rig.listeners(),
                      .observer = observer.label,
                      .can_type = !options.simulate_observer && options.ask_at == AskAt::window,
                      .recorder = answers.recorder(),
                      .on_level = answers.meter(),
+                     .markers = markers.sinks(),
+                     .on_beep = [&](SetupBeep beep) { sounds.play(beep); },
                      .on_phase = [&](SessionPhase phase, int trial) { progress.enter(phase, trial); }},
                     plan.fields);
     note_faults(options.faults, rig.clock(), store);
     // Maps drawn live are written between trials, where loading the library would take its time.
     picture_library();
     note_thread(prepare_thread({options.realtime, options.processor}), rig.clock(), store);
-    const SessionResult result = session.run(
-        [&](const Trial& trial, const TrialOutcome& outcome, int done) {
-            if (LiveMaps* live = rig.live_maps())
-                record_live_maps(live->take_finished(), folder.path, folder.header, store);
-            progress(trial, outcome, done);
-            if (const VirtualRefresh* display = rig.virtual_refresh())
-                note_struck(*display, trial, rig.clock(), store);
-            box.check(store);
-        },
-        plan.resumed ? plan.resumed->history : SessionHistory());
+    SessionResult result;
+    try {
+        result = session.run(
+            [&](const Trial& trial, const TrialOutcome& outcome, int done) {
+                if (LiveMaps* live = rig.live_maps())
+                    record_live_maps(live->take_finished(), folder.path, folder.header, store);
+                progress(trial, outcome, done);
+                if (const VirtualRefresh* display = rig.virtual_refresh())
+                    note_struck(*display, trial, rig.clock(), store);
+                if (FaultyTracker* tracker = rig.faulty_tracker())
+                    note_struck(*tracker, trial, rig.clock(), store);
+                box.check(store);
+            },
+            plan.resumed ? plan.resumed->history : SessionHistory());
+    } catch (...) {
+        rescue_tracker_file(rig, folder.path);
+        throw;
+    }
     progress.finish();
+    end_tracker(rig, folder.path, store);
     box.leave(store);
     store.close();
     if (!close_manifest(folder.path))
@@ -252,6 +363,9 @@ int run_session(const RunOptions& options) {
                    "session.sqlite open, or the disk is full: afterwards overt run … --resume finishes it\n");
     for (const std::string& warning : rig.closing_warnings())
         fmt::print(stderr, "{}\n", warning);
+    if (boxes)
+        for (const std::string& warning : boxes->closing_warnings())
+            fmt::print(stderr, "{}\n", warning);
     say_after(options, result, store.lost(), plan.schedule, folder.path);
     return result.aborted ? 1 : 0;
 }

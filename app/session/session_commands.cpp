@@ -1,6 +1,7 @@
 #include "app/session/session_commands.h"
 
 #include "app/cli/command_options.h"
+#include "experiment/ports/tracker_kinds.h"
 
 namespace overt {
 
@@ -76,8 +77,21 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
             "the answer to the question that follows; once for each key")
         ->type_name("KEY")
         ->allow_extra_args(false);
+    command
+        .add_option("--tracker", options.tracker,
+                    "Kind of eye tracker, instead of the protocol's [tracker] kind")
+        ->check(CLI::IsMember(std::vector<std::string>(tracker_names.begin(), tracker_names.end())))
+        ->type_name("KIND");
+    command
+        .add_option("--tracker-address", options.tracker_address,
+                    "Where it is, instead of [tracker] address; of \"replay\", the recording")
+        ->type_name("TEXT");
     command.add_flag("--virtual-time", options.virtual_time,
                      "Run as fast as the machine can, on a clock of its own");
+    command.add_flag(
+        "!--no-pictures", options.draws_stimuli,
+        "Neither read nor draw the stimuli, in a session without a screen: the record is the same, "
+        "and says so");
     command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
     command
         .add_option("--monitor", options.monitor,
@@ -108,8 +122,9 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
     command
         .add_option(
             "--faults", options.faults,
-            "Rehearse on a display that does wrong what this file (TOML) says: late pictures, skipped "
-            "refreshes, stalls, jitter and drift of time stamps")
+            "Rehearse with a display and a simulated eye tracker that do wrong what this file (TOML) says: "
+            "late "
+            "pictures, skipped refreshes, jitter of time stamps; silence, gaps, a tracker that is unplugged")
         ->type_name("FILE");
     command.add_flag("--realtime", options.realtime,
                      "Ask for real-time priority and locked memory; goes on if they are refused");

@@ -32,8 +32,11 @@ struct RunOptions {
     std::vector<std::string> observer_fields; ///< ID=VALUE
     AskAt ask_at = AskAt::window;
     std::vector<std::string> operator_keys; ///< of a simulated operator, see read_operator_key()
+    std::string tracker;                    ///< kind, instead of the protocol's; empty: that
+    std::string tracker_address;            ///< the same
     ContextChoice context;
     bool virtual_time = false;
+    bool draws_stimuli = true;
     bool windowed = false;
     std::filesystem::path sessions = "sessions";
     std::optional<int> trials; ///< only the first so many

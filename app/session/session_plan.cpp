@@ -54,11 +54,11 @@ void mention_interrupted(const SessionPlace& place) {
 }
 
 /// The faults of --faults, or none. What is wrong with the file is printed, with its places.
-DisplayFaults read_faults_or_report(const std::filesystem::path& file) {
+SimulatedFaults read_faults_or_report(const std::filesystem::path& file) {
     if (file.empty())
         return {};
     Diagnostics diagnostics;
-    const std::optional<DisplayFaults> faults = read_fault_file(file, diagnostics);
+    const std::optional<SimulatedFaults> faults = read_fault_file(file, diagnostics);
     print_findings(diagnostics);
     if (!faults)
         throw FindingsPrinted(fmt::format("{}: no session was begun", file.string()));

@@ -12,7 +12,7 @@ namespace overt {
 
 struct SessionPlan {
     std::optional<ResumedSession> resumed;
-    DisplayFaults faults;
+    SimulatedFaults faults;
     FieldValues fields; ///< of the observer's form, as far as it is filled in outside of the window
     Schedule schedule;
 };

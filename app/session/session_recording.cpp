@@ -142,7 +142,8 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
 namespace {
 
 void put_all_files(const SessionDirectory& directory, const SessionHeader& header,
-                   std::span<const Sculpture> sculptures, const StimulusLibrary& library) {
+                   std::span<const Sculpture> sculptures, const StimulusLibrary& library,
+                   bool with_pictures) {
     for (std::size_t i = 0; i < sculptures.size(); ++i) {
         if (!sculptures[i].has_mesh())
             continue;
@@ -153,6 +154,14 @@ void put_all_files(const SessionDirectory& directory, const SessionHeader& heade
     for (const RecordedMap& map : header.maps)
         copy_into(library.cache().map_file(map.sculpture, map.pose), directory.path() / map.file);
     for (const RecordedStimulus& stimulus : header.stimuli) {
+        const auto& sculpture = header.sculptures[static_cast<std::size_t>(stimulus.condition.sculpture)];
+        // Without a surface there is nothing to ask of it.
+        if (sculpture.camera.vertical_fov.value > 0.0) {
+            if (const auto light = library.light_file(stimulus.condition, with_pictures))
+                copy_into(*light, directory.path() / light_file(header, stimulus.condition));
+        }
+        if (!with_pictures)
+            continue;
         const std::filesystem::path file = directory.path() / preview_file(header, stimulus.condition);
         std::filesystem::create_directories(file.parent_path());
         write_srgb_png(file,
@@ -175,9 +184,9 @@ void put_all_files(const SessionDirectory& directory, const SessionHeader& heade
 } // namespace
 
 void put_files(const SessionDirectory& directory, const SessionHeader& header,
-               std::span<const Sculpture> sculptures, const StimulusLibrary& library) {
+               std::span<const Sculpture> sculptures, const StimulusLibrary& library, bool with_pictures) {
     try {
-        put_all_files(directory, header, sculptures, library);
+        put_all_files(directory, header, sculptures, library, with_pictures);
     } catch (const std::exception& error) {
         throw RecordError(
             fmt::format("{}\nThe session was not begun, and nothing is left of it. Make room on the "

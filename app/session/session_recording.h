@@ -20,11 +20,12 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
                                   const GlDescription& graphics, const TrackerDescription& tracker,
                                   ClockKind clock, bool with_prepared_maps);
 
-/// Puts the meshes, the maps and a picture of each stimulus into the directory as the header names them, the
-/// header itself into a new session file, a copy of the protocol beside it, and a manifest of it all. Throws
-/// RecordError.
+/// Puts the meshes, the maps and, with pictures, one of each stimulus into the directory as the header names
+/// them, the header itself into a new session file, a copy of the protocol beside it, and a manifest of it
+/// all. Throws RecordError.
 void put_files(const SessionDirectory& directory, const SessionHeader& header,
-               std::span<const Sculpture> sculptures, const StimulusLibrary& library);
+               std::span<const Sculpture> sculptures, const StimulusLibrary& library,
+               bool with_pictures = true);
 
 /// Writes maps that were made live into a published session's folder; those that the header has already, from
 /// before the session was resumed, stay. Throws RecordError.

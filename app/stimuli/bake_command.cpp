@@ -70,10 +70,12 @@ std::vector<Condition> stimuli_asked_for(const BakeOptions& options, const Proto
 
 void check_combinations(const BakeOptions& options) {
     const bool exports = !options.out.empty();
-    if (!exports && (options.as != "display" || options.png16 || options.force))
-        throw InputError("--as, --png16 and --force are about files: say with --out where they go");
+    if (!exports && (options.as != "display" || options.png16 || options.half || options.force))
+        throw InputError("--as, --png16, --half and --force are about files: say with --out where they go");
     if (options.png16 && options.as != "display")
         throw InputError(fmt::format("--png16 holds display light; {} needs the range of EXR", options.as));
+    if (options.png16 && options.half)
+        throw InputError("--png16 and --half are two kinds of file: choose one");
     if (!options.shard.empty() && !(options.sheet.empty() && options.strip.empty()))
         throw InputError("a shard has only some frames: make --sheet and --strip when all are there");
 }
@@ -88,7 +90,9 @@ BakeJob job_of(const BakeOptions& options, const Protocol& protocol, const Stimu
     job.output.as = options.as == "xyz"       ? ExportedLight::xyz
                     : options.as == "spectra" ? ExportedLight::spectra
                                               : ExportedLight::display;
-    job.output.png16 = options.png16;
+    job.output.file = options.png16  ? ExportedFile::png16
+                      : options.half ? ExportedFile::half_exr
+                                     : ExportedFile::exr;
     job.output.force = options.force;
     job.units = bake_units(job.stimuli, job.output.frames, library.cache().poses(), job.quality, protocol);
     if (!options.shard.empty())

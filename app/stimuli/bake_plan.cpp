@@ -1,9 +1,7 @@
 #include "app/stimuli/bake_plan.h"
 
 #include <algorithm>
-#include <charconv>
 #include <numeric>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -11,40 +9,13 @@
 
 namespace overt {
 
-namespace {
-
-/// The whole text as a number of at most six digits.
-std::optional<int> number_in(std::string_view text) {
-    int number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size() || text.size() > 6 || number < 0)
-        return std::nullopt;
-    return number;
-}
-
-} // namespace
-
-Shard shard_called(const std::string& text) {
-    const std::size_t slash = text.find('/');
-    if (slash != std::string::npos) {
-        const auto number = number_in(std::string_view(text).substr(0, slash)),
-                   count = number_in(std::string_view(text).substr(slash + 1));
-        if (number && count && *number >= 1 && *number <= *count && *count <= 100000)
-            return {*number, *count};
-    }
-    throw InputError(
-        fmt::format("--shard {}: write the number of this machine and how many there are, 1/4 to "
-                    "4/4 for four of them",
-                    text));
-}
-
 FrameRange frame_range_called(const std::string& text, const Animation& animation) {
     const int last = animation.frame_count - 1;
     if (text == "all")
         return {0, last};
     const std::size_t dash = text.find('-');
-    const auto from = number_in(std::string_view(text).substr(0, dash));
-    const auto to = dash == std::string::npos ? from : number_in(std::string_view(text).substr(dash + 1));
+    const auto from = digits_in(std::string_view(text).substr(0, dash));
+    const auto to = dash == std::string::npos ? from : digits_in(std::string_view(text).substr(dash + 1));
     if (!from || !to || *from > *to)
         throw InputError(fmt::format("--frames {}: write a number, a range such as 0-30, or all", text));
     if (*to > last)

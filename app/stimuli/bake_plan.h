@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/shard.h"
 #include "render/stimulus/stimulus_library.h"
 
 namespace overt {
@@ -14,15 +15,6 @@ struct BakeUnit {
     PoseIndex pose;
     double cost = 0.0; ///< see expected_cost()
 };
-
-/// One of several machines that share the work, counted from 1.
-struct Shard {
-    int number = 1;
-    int count = 1;
-};
-
-/// "3/16". Throws InputError for anything else than 1/n … n/n, n up to 100,000.
-Shard shard_called(const std::string& text);
 
 /// Frames by their numbers, both ends among them. "7", "0-30" or "all". Throws InputError for others, or for
 /// frames that the animation does not have.

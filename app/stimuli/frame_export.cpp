@@ -20,7 +20,7 @@ namespace {
 constexpr const char* key_name = "overt:key";
 
 /// Changes whenever the same light would make other files.
-constexpr int export_version = 1;
+constexpr int export_version = 2;
 
 std::string unit_of(ExportedLight light, bool png16, StandardObserver observer) {
     const std::string times = "; multiplied by alpha, and by the exposure";
@@ -92,7 +92,8 @@ std::vector<std::filesystem::path> FrameExport::files_of(const BakeUnit& unit) c
     std::vector<std::filesystem::path> files;
     for (int frame = options_->frames.first; frame <= options_->frames.last; ++frame) {
         if (library_->cache().poses().pose_of({frame}) == unit.pose)
-            files.push_back(folder / fmt::format("frame_{:04}.{}", frame, options_->png16 ? "png" : "exr"));
+            files.push_back(folder /
+                            fmt::format("frame_{:04}.{}", frame, options_->is_png() ? "png" : "exr"));
     }
     return files;
 }
@@ -101,9 +102,9 @@ ContentHash FrameExport::key_of(const BakeUnit& unit) const {
     ContentHasher hasher;
     hasher.add(export_version).add(std::string_view(library_->cache().frame_key(unit.condition, *quality_)));
     hasher.add(library_->cache().poses().angles[static_cast<std::size_t>(unit.pose.value)].value);
-    hasher.add(static_cast<int>(options_->as)).add(options_->png16 ? 1 : 0);
+    hasher.add(static_cast<int>(options_->as)).add(static_cast<int>(options_->file));
     hasher.add(protocol_->light.exposure);
-    if (options_->png16)
+    if (options_->is_png())
         hasher.add(protocol_->display.background);
     const auto& light = protocol_->display.characterisation;
     if (options_->as == ExportedLight::display && light)
@@ -112,7 +113,7 @@ ContentHash FrameExport::key_of(const BakeUnit& unit) const {
 }
 
 std::string FrameExport::key_in(const std::filesystem::path& file) const {
-    if (!options_->png16)
+    if (!options_->is_png())
         return text_attribute(file, key_name);
     int error = 0;
     const auto text =
@@ -188,7 +189,8 @@ ImageAttributes FrameExport::attributes_of(const BakeUnit& unit) const {
         if (light)
             attributes.emplace_back("overt:characterisation_sha256", light->sha256);
     }
-    attributes.emplace_back("overt:unit", unit_of(options_->as, options_->png16, protocol_->bake.observer));
+    attributes.emplace_back("overt:unit",
+                            unit_of(options_->as, options_->is_png(), protocol_->bake.observer));
     attributes.emplace_back("overt:program",
                             fmt::format("overt {} {}", this_build().version, this_build().commit));
     attributes.emplace_back(key_name, key_of(unit));
@@ -200,12 +202,14 @@ ClippedPixels FrameExport::write(const BakeUnit& unit, const SpectralFrame* trac
     const ImageAttributes attributes = attributes_of(unit);
     ClippedPixels clipped;
     std::vector<std::uint16_t> codes;
-    if (options_->png16)
+    if (options_->is_png())
         codes = codes_of(picture, protocol_->display.background, clipped);
     for (const std::filesystem::path& file : files_of(unit)) {
         std::filesystem::create_directories(file.parent_path());
-        if (!options_->png16) {
-            write_half_exr(file, picture, attributes);
+        if (!options_->is_png()) {
+            write_exr(file, picture,
+                      options_->file == ExportedFile::half_exr ? ExrNumbers::half : ExrNumbers::bits24,
+                      attributes);
             continue;
         }
         nlohmann::ordered_json json;

@@ -13,12 +13,17 @@ namespace overt {
 /// What the numbers in the files are: the display's linear light (the default), XYZ, or 31 bins of radiance.
 enum class ExportedLight { display, xyz, spectra };
 
+/// EXR of floats of 24 bits, EXR of half floats, or 16-bit PNG, the last of display light only.
+enum class ExportedFile { exr, half_exr, png16 };
+
 struct FrameExportOptions {
     std::filesystem::path folder;
     ExportedLight as = ExportedLight::display;
-    bool png16 = false; ///< only of display light
+    ExportedFile file = ExportedFile::exr;
     bool force = false; ///< replace files that are there and are something else
     FrameRange frames;
+
+    bool is_png() const { return file == ExportedFile::png16; }
 };
 
 /// Writes FOLDER/SCULPTURE_MATERIAL/frame_NNNN.exr, a file for each frame of the animation, with everything

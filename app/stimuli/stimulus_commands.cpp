@@ -99,7 +99,7 @@ void add_bake(CLI::App& app, ChosenCommand& chosen) {
         ->type_name("I/N");
     command
         .add_option("--out", options.out,
-                    "Also write numbered frames: DIR/SCULPTURE_MATERIAL/frame_0000.exr, half floats")
+                    "Also write numbered frames: DIR/SCULPTURE_MATERIAL/frame_0000.exr, floats of 24 bits")
         ->type_name("DIR");
     command
         .add_option("--as", options.as,
@@ -110,6 +110,8 @@ void add_bake(CLI::App& app, ChosenCommand& chosen) {
         "--png16", options.png16,
         "16-bit PNG of linear display light over the background, clipped, each with a JSON file, "
         "instead of EXR");
+    command.add_flag("--half", options.half,
+                     "EXR of half floats: smaller, but of 65,536 levels 7,169 are left");
     command.add_flag("--force", options.force, "Replace files that are there and were made otherwise");
     command.add_option("--sheet", options.sheet, "Also write a picture of all stimuli side by side")
         ->type_name("FILE.png");

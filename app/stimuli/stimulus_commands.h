@@ -54,6 +54,7 @@ struct BakeOptions {
     std::filesystem::path out;     ///< folder for numbered frames, or empty
     std::string as = "display";    ///< or xyz, spectra
     bool png16 = false;
+    bool half = false;
     bool force = false;
     std::filesystem::path sheet, strip; ///< pictures to look at, or empty
     bool dry_run = false;

@@ -50,6 +50,7 @@ const std::vector<std::pair<std::string, std::string>> unknown_to{
     {"experiment/record", opengl + "|" + usb + "|" + drawing},
     {"experiment", opengl + "|" + usb + "|" + drawing + "|" + database},
     {"render", usb + "|" + database},
+    {"devices/pointer", usb + "|" + drawing + "|" + database}, // which is the X server's
     {"devices", opengl + "|" + drawing + "|" + database},
     {"app", "^$"},
 };

@@ -3,9 +3,12 @@
 
 #include "app/rig/response_devices.h"
 #include "app/rig/tracker_devices.h"
+#include "devices/pupil/pupil_tracker.h"
 #include "devices/simulated/operator_script.h"
 #include "experiment/base/error.h"
 #include "experiment/ports/tracker_kinds.h"
+#include "tests/devices/link/tcp_peer.h"
+#include "tests/devices/opengaze/opengaze_server_model.h"
 #include "tests/devices/simulated/sitting.h"
 
 using namespace overt;
@@ -39,16 +42,43 @@ class TimedPanel final : public ResponsePanel {
 
 } // namespace
 
-TEST_CASE("each kind of tracker that a protocol may name can be made, and says its name", "[unit]") {
+TEST_CASE("gaze on a surface of tags is gaze on the screen between their black borders", "[unit]") {
+    Protocol protocol; // 1920 x 1080
+    CHECK_FALSE(pupil_settings_of(protocol).surface_place);
+    protocol.display.output = OutputMode::native_8bit;
+    protocol.display.tags_px = 200;
+    const std::optional<SurfacePlace> place = pupil_settings_of(protocol).surface_place;
+    REQUIRE(place);
+    const ScreenPoint top_right = place->on_screen({1.0, 1.0}), middle = place->on_screen({0.5, 0.5}),
+                      bottom_left = place->on_screen({0.0, 0.0});
+    CHECK((top_right.x_px == 1900.0 && top_right.y_px == 20.0));
+    CHECK((middle.x_px == 960.0 && middle.y_px == 540.0));
+    CHECK((bottom_left.x_px == 20.0 && bottom_left.y_px == 1060.0));
+}
+
+TEST_CASE("each kind of tracker that needs no device can be made, and says its name", "[unit]") {
     Sitting sitting(3);
-    TrackerSettings settings;
+    Protocol protocol;
+    int made = 0;
     for (std::size_t i = 0; i < std::size(tracker_kinds); ++i) {
-        settings.kind = static_cast<TrackerKind>(i);
-        const auto tracker =
-            tracker_device(settings.kind, true).make({settings, sitting.clock, sitting.observer, 7});
+        protocol.tracker.kind = static_cast<TrackerKind>(i);
+        const TrackerDevice& device = tracker_device(protocol.tracker.kind, false);
+        if (device.is_hardware)
+            continue;
+        if (tracker_kinds[i].name == "replay") {
+            CHECK_THROWS_WITH(device.make({protocol, sitting.clock, sitting.observer, 7}),
+                              Contains("needs a recording"));
+            protocol.tracker.address = "nowhere";
+            CHECK_THROWS_WITH(device.make({protocol, sitting.clock, sitting.observer, 7}),
+                              Contains("nowhere: this recording"));
+            continue;
+        }
+        const auto tracker = device.make({protocol, sitting.clock, sitting.observer, 7});
         CHECK(tracker->description().name == tracker_kinds[i].name);
-        CHECK(tracker->measures_gaze() == (tracker_kinds[i].name != "none"));
+        CHECK(tracker->measures_gaze() == tracker_kinds[i].measures_gaze);
+        ++made;
     }
+    CHECK(made >= 2);
 }
 
 TEST_CASE("a tracker that is hardware is refused in virtual time", "[unit]") {
@@ -86,4 +116,28 @@ TEST_CASE("a session asks the last response device that it uses, which asks the 
     REQUIRE(panel.poll());
     CHECK_FALSE(panel.poll());
     CHECK(panel.answer() == "in time");
+}
+
+TEST_CASE("a tracker in the network is set as the protocol says", "[unit]") {
+    SteadyClock clock;
+    Sitting sitting(3);
+    Protocol protocol;
+    const auto made = [&](std::string_view kind) {
+        protocol.tracker.kind = tracker_kind_called(kind);
+        return tracker_device(protocol.tracker.kind, false).make({protocol, clock, sitting.observer, 7});
+    };
+    OpenGazeServerModel model;
+    const TcpPeer peer([&](std::string_view bytes, double now_s) { return model.receive(bytes, now_s); },
+                       [&](double now_s) { return model.stream(now_s); });
+    protocol.tracker.address = describe(peer.address());
+    protocol.tracker.eye = "both";
+    CHECK(made("opengaze")->description().both_eyes);
+    protocol.tracker.point = TrackedPoint::best;
+    CHECK_FALSE(made("opengaze")->description().both_eyes);
+
+    protocol.tracker.address = "127.0.0.1:here";
+    CHECK_THROWS_WITH(made("opengaze"), Contains("\"here\" is no port") && Contains(":4242"));
+    CHECK_THROWS_WITH(made("pupil"), Contains("\"here\" is no port") && Contains(":50020"));
+    protocol.tracker.channels = {"left depth 3"};
+    CHECK_THROWS_WITH(made("lsl"), Contains("meanings are x, y"));
 }

@@ -75,8 +75,8 @@ TEST_CASE("an exported frame names its channels and everything that made it", "[
             std::vector<std::filesystem::path>{"tall_matt/frame_0002.exr", "tall_matt/frame_0003.exr"});
     const PictureHeader header = header_of(out / "s/tall_matt/frame_0003.exr");
     REQUIRE(header.channels.size() == 32);
-    CHECK(header.type == PixelType::float16);
-    CHECK(header.text("compression") == "zip");
+    CHECK(header.type == PixelType::float32);
+    CHECK(header.text("compression") == "pxr24");
     for (int bin = 0; bin < 31; ++bin)
         CHECK(header.channel(fmt::format("{}nm", 400 + 10 * bin)) >= 0);
     CHECK(header.channel("A") >= 0);
@@ -145,6 +145,36 @@ TEST_CASE("a PNG has the light over the background in 16 bits, and says what it 
     const auto time = std::filesystem::last_write_time(out / "p/bust_smooth/frame_0000.png");
     CHECK(bake(experiment, wish).exit_code == 0);
     CHECK(std::filesystem::last_write_time(out / "p/bust_smooth/frame_0000.png") == time);
+}
+
+TEST_CASE("frames for other programs keep 16 bits; half floats are made on request only", "[session]") {
+    const SmallExperiment experiment(traced_protocol());
+    const std::filesystem::path out = experiment.folder().path() / "out";
+    const auto wish = [&](const char* folder, std::vector<std::string> more) {
+        more.insert(more.end(), {"--quality", "draft", "--only", "bust/matt", "--frames", "0", "--out",
+                                 (out / folder).string()});
+        return bake(experiment, more);
+    };
+    REQUIRE(wish("full", {}).exit_code == 0);
+    REQUIRE(wish("half", {"--half"}).exit_code == 0);
+    CHECK(header_of(out / "full/bust_matt/frame_0000.exr").type == PixelType::float32);
+    CHECK(header_of(out / "half/bust_matt/frame_0000.exr").type == PixelType::float16);
+    const auto full = values_in(out / "full/bust_matt/frame_0000.exr"),
+               half = values_in(out / "half/bust_matt/frame_0000.exr");
+    REQUIRE(full.size() == half.size());
+    int finer = 0;
+    for (std::size_t i = 0; i < full.size(); ++i) {
+        CHECK(half[i] == Approx(full[i]).epsilon(0x1p-11).margin(1e-7));
+        finer += full[i] != half[i];
+    }
+    CHECK(finer > 100);
+
+    // Files of one kind are not taken for those of the other, and there is no half of a PNG.
+    CHECK(wish("full", {"--half"}).exit_code == 2);
+    CHECK(wish("both", {"--half", "--png16"}).exit_code == 2);
+    const ProgramRun aimless = bake(experiment, {"--half"});
+    CHECK(aimless.exit_code == 2);
+    CHECK(aimless.err.find("--out") != std::string::npos);
 }
 
 TEST_CASE("nothing that was made otherwise is replaced unless it is said", "[session]") {

@@ -1,0 +1,28 @@
+#include "app/rig/setup_sounds.h"
+
+#include <fmt/format.h>
+
+#include "devices/sound/beeper.h"
+#include "experiment/base/error.h"
+
+namespace overt {
+
+SetupSounds::SetupSounds(bool wanted) : description_("none") {
+    if (!wanted)
+        return;
+    try {
+        beeper_ = std::make_unique<Beeper>();
+        description_ = beeper_->name();
+    } catch (const DeviceError& error) {
+        description_ = fmt::format("none: {}", error.what());
+    }
+}
+
+SetupSounds::~SetupSounds() = default;
+
+void SetupSounds::play(SetupBeep beep) noexcept {
+    if (beeper_)
+        beeper_->play(beep);
+}
+
+} // namespace overt

@@ -1,0 +1,52 @@
+/// The commands for eye trackers: tracker list, test, calibrate, show. Each takes its options and gives the
+/// exit code, 0 done, 1 failed. Bad input is thrown as InputError, which main turns into exit code 2.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/cli/chosen_command.h"
+#include "app/cli/context_choice.h"
+
+namespace overt {
+
+/// Adds them to the command line.
+void add_tracker_commands(CLI::App& app, ChosenCommand& chosen);
+
+struct TrackerListOptions {
+    bool json = false;
+};
+int run_tracker_list(const TrackerListOptions& options);
+
+struct TrackerTestOptions {
+    std::filesystem::path protocol; ///< whose [tracker] is tested; empty: the defaults
+    std::string kind;               ///< instead of the protocol's
+    std::string address, library;   ///< likewise
+    double rate_hz = 0.0;           ///< likewise; 0: the protocol's
+    double seconds = 10.0;
+    bool json = false;
+};
+int run_tracker_test(const TrackerTestOptions& options);
+
+struct TrackerCalibrateOptions {
+    std::filesystem::path protocol;
+    std::string kind;      ///< instead of the protocol's
+    bool by_overt = false; ///< by the program, on top of what the tracker measures
+    ContextChoice context;
+    bool virtual_time = false, windowed = false;
+    std::optional<int> monitor;                     ///< from 1
+    std::optional<std::uint64_t> simulate_observer; ///< its seed
+    std::filesystem::path picture;                  ///< of the validation, PNG; empty: none
+};
+int run_tracker_calibrate(const TrackerCalibrateOptions& options);
+
+struct TrackerShowOptions {
+    std::filesystem::path session;
+    std::filesystem::path picture; ///< of the last validation, PNG; empty: none
+    bool json = false;
+};
+int run_tracker_show(const TrackerShowOptions& options);
+
+} // namespace overt
