@@ -16,6 +16,7 @@
 #include "app/manual/manual_commands.h"
 #include "app/power/power_command.h"
 #include "app/record/record_commands.h"
+#include "app/replay/replay_commands.h"
 #include "app/session/session_commands.h"
 #include "app/stimuli/stimulus_commands.h"
 #include "app/tracker/tracker_commands.h"
@@ -67,9 +68,9 @@ int run_command_line(int argc, char** argv) {
     app.get_formatter()->column_width(34);
     ChosenCommand chosen;
     for (const auto add_commands :
-         {add_check_commands, add_session_commands, add_record_commands, add_analyze_command,
-          add_replicate_command, add_power_command, add_stimulus_commands, add_tracker_commands,
-          add_display_commands, add_bench_commands, add_manual_commands})
+         {add_check_commands, add_session_commands, add_record_commands, add_replay_commands,
+          add_analyze_command, add_replicate_command, add_power_command, add_stimulus_commands,
+          add_tracker_commands, add_display_commands, add_bench_commands, add_manual_commands})
         add_commands(app, chosen);
 
     if (const std::optional<int> answer = answer_to_no_command(app, argc, argv))

@@ -5,6 +5,7 @@
 #include "app/cli/progress_bar.h"
 #include "app/inputs/protocol_file.h"
 #include "experiment/base/error.h"
+#include "experiment/checks/checked_protocol.h"
 #include "experiment/scene/metal_table.h"
 #include "render/image/light_probe.h"
 #include "render/stimulus/given_maps.h"
@@ -109,12 +110,9 @@ void examine_frames(const Protocol& protocol, Diagnostics& diagnostics) {
     }
 }
 
-} // namespace
-
-std::optional<Experiment> read_experiment(const std::filesystem::path& file,
-                                          const std::filesystem::path& cache, InputDepth depth,
-                                          Diagnostics& diagnostics) {
-    std::optional<Protocol> protocol = read_protocol_file(file, diagnostics);
+/// Nothing if there is an error, now or before.
+std::optional<Experiment> look_into(std::optional<Protocol> protocol, const std::filesystem::path& cache,
+                                    InputDepth depth, Diagnostics& diagnostics) {
     if (!protocol)
         return std::nullopt;
     Experiment experiment{*std::move(protocol), {}};
@@ -127,6 +125,26 @@ std::optional<Experiment> read_experiment(const std::filesystem::path& file,
     if (diagnostics.has_errors())
         return std::nullopt;
     return experiment;
+}
+
+} // namespace
+
+std::optional<Experiment> read_experiment(const std::filesystem::path& file,
+                                          const std::filesystem::path& cache, InputDepth depth,
+                                          Diagnostics& diagnostics) {
+    return look_into(read_protocol_file(file, diagnostics), cache, depth, diagnostics);
+}
+
+std::optional<Experiment> read_recorded_experiment(const RecordedProtocol& recorded,
+                                                   const std::filesystem::path& file,
+                                                   const std::filesystem::path& cache,
+                                                   Diagnostics& diagnostics) {
+    IncludedTexts included;
+    for (const RecordedProtocol::Included& part : recorded.included)
+        included[part.name] = part.text;
+    return look_into(read_protocol_text(recorded.text, file, shipped_sculpture_names(), diagnostics, included,
+                                        FilesNamed::looked_up),
+                     cache, InputDepth::everything, diagnostics);
 }
 
 Experiment read_experiment_or_report(const std::filesystem::path& file, const std::filesystem::path& cache,

@@ -7,6 +7,7 @@
 
 #include "experiment/base/diagnostics.h"
 #include "experiment/protocol/protocol.h"
+#include "experiment/record/session_header.h"
 #include "experiment/stimulus/sculpture.h"
 
 namespace overt {
@@ -27,7 +28,15 @@ std::optional<Experiment> read_experiment(const std::filesystem::path& file,
                                           const std::filesystem::path& cache, InputDepth depth,
                                           Diagnostics& diagnostics);
 
-/// The same, with all findings printed to standard error; throws FindingsPrinted if one of them is an error.
+/// The same from a protocol as a session has recorded it, `file` being where it lies or would lie: what it
+/// names is looked up from there.
+std::optional<Experiment> read_recorded_experiment(const RecordedProtocol& recorded,
+                                                   const std::filesystem::path& file,
+                                                   const std::filesystem::path& cache,
+                                                   Diagnostics& diagnostics);
+
+/// The same as read_experiment(), with all findings printed to standard error; throws FindingsPrinted if one
+/// of them is an error.
 Experiment read_experiment_or_report(const std::filesystem::path& file, const std::filesystem::path& cache,
                                      InputDepth depth);
 

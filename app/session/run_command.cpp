@@ -17,6 +17,7 @@
 #include "app/rig/output_verification.h"
 #include "app/rig/rig.h"
 #include "app/rig/setup_sounds.h"
+#include "app/session/recorded_options.h"
 #include "app/session/session_commands.h"
 #include "app/session/session_messages.h"
 #include "app/session/session_plan.h"
@@ -179,14 +180,16 @@ std::optional<SittingDetection> detection_of(const Protocol& protocol, const Eye
 }
 
 SessionStore::Options store_options(const RunOptions& options, const SessionPlan& plan,
-                                    const SessionFolder& folder, std::optional<SittingDetection> detection) {
+                                    const SessionFolder& folder, std::optional<SittingDetection> detection,
+                                    const PresentingAgain* again) {
     return {.wait_when_full = options.virtual_time,
             .ring_capacity = 65536,
             .started_utc = folder.started_utc,
             .program_version = this_program().version,
             .program_sha256 = this_program().sha256,
             .resumption = plan.resumed ? std::optional(plan.resumed->resumption) : std::nullopt,
-            .detection = detection};
+            .detection = detection,
+            .options = again ? again->options : recorded_options(options, folder.path)};
 }
 
 /// What the record must know of the machine before the first trial.
@@ -251,14 +254,12 @@ void note_tracker(const TrackerSettings& wish, Rig& rig, SessionStore& store) {
 
 } // namespace
 
-int run_session(const RunOptions& options) {
-    output_is_only_told();
+namespace {
+
+/// `again`: null for a session that is recorded for the first time.
+int run_session_of(Experiment experiment, const RunOptions& options, const PresentingAgain* again) {
     const Observer observer = observer_labelled(options.observer);
-    if (options.verify_output && !options.draws_stimuli)
-        throw InputError(
-            "--verify-output decodes the pictures that --no-pictures leaves out: give one of them");
-    Experiment experiment =
-        read_experiment_or_report(options.protocol, cache_folder(), InputDepth::everything);
+    const std::filesystem::path cache = again ? again->cache : cache_folder();
     if (!options.tracker.empty())
         experiment.protocol.tracker.kind = tracker_kind_called(options.tracker);
     if (!options.tracker_address.empty())
@@ -275,7 +276,7 @@ int run_session(const RunOptions& options) {
             {options.context, options.virtual_time, options.windowed, options.simulate_observer.has_value(),
              seed_of_simulated(options, plan), options.maps, options.monitor, options.operator_keys,
              options.draws_stimuli},
-            cache_folder());
+            cache);
     say_before(protocol, plan.schedule, rig.context().description(), options);
     say_risks(rig.screen_findings());
     const Interruption interruption;
@@ -307,7 +308,7 @@ int run_session(const RunOptions& options) {
 
     const SessionFolder folder = open_folder(options, place, experiment, plan, rig);
     SessionStore store(folder.path / session_file_name,
-                       store_options(options, plan, folder, detection_of(protocol, rig.tracker())));
+                       store_options(options, plan, folder, detection_of(protocol, rig.tracker()), again));
     box.write_beginning(store);
     note_circumstances(options, protocol, plan.schedule, rig, store);
     note_tracker(protocol.tracker, rig, store);
@@ -347,6 +348,8 @@ int run_session(const RunOptions& options) {
                 if (FaultyTracker* tracker = rig.faulty_tracker())
                     note_struck(*tracker, trial, rig.clock(), store);
                 box.check(store);
+                if (again && again->trial_done)
+                    again->trial_done();
             },
             plan.resumed ? plan.resumed->history : SessionHistory());
     } catch (...) {
@@ -368,6 +371,22 @@ int run_session(const RunOptions& options) {
             fmt::print(stderr, "{}\n", warning);
     say_after(options, result, store.lost(), plan.schedule, folder.path);
     return result.aborted ? 1 : 0;
+}
+
+} // namespace
+
+int run_session(const RunOptions& options) {
+    output_is_only_told();
+    observer_labelled(options.observer); // before anything is read
+    if (options.verify_output && !options.draws_stimuli)
+        throw InputError(
+            "--verify-output decodes the pictures that --no-pictures leaves out: give one of them");
+    return run_session_of(read_experiment_or_report(options.protocol, cache_folder(), InputDepth::everything),
+                          options, nullptr);
+}
+
+int run_session_again(const Experiment& experiment, const RunOptions& options, const PresentingAgain& again) {
+    return run_session_of(experiment, options, &again);
 }
 
 } // namespace overt

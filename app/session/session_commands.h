@@ -4,15 +4,18 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/cli/chosen_command.h"
 #include "app/cli/context_choice.h"
+#include "app/inputs/protocol_inputs.h"
 #include "app/rig/rig.h"
 #include "experiment/ports/session_history.h"
 #include "experiment/protocol/protocol.h"
+#include "experiment/record/resumption.h"
 
 namespace overt {
 
@@ -52,5 +55,17 @@ struct RunOptions {
         quality; ///< that the frames have at least; nothing: the protocol's for this observer
 };
 int run_session(const RunOptions& options);
+
+/// A sitting that is presented again from its record.
+struct PresentingAgain {
+    std::vector<RecordedOption> options; ///< go into the new record as they are in the old
+    std::filesystem::path cache;         ///< of frames and maps
+    /// After each attempt; what it throws ends the sitting, and what was recorded by then is kept.
+    std::function<void()> trial_done = {};
+};
+
+/// The same with what its protocol holds already read: `options.protocol` is not looked at. Throws as
+/// run_session() does.
+int run_session_again(const Experiment& experiment, const RunOptions& options, const PresentingAgain& again);
 
 } // namespace overt

@@ -93,7 +93,8 @@ std::optional<Protocol> read_protocol(const std::filesystem::path& file,
 
 std::optional<Protocol> read_protocol_text(std::string_view text, const std::filesystem::path& file,
                                            std::span<const std::string_view> shipped_sculptures,
-                                           Diagnostics& diagnostics, const IncludedTexts& included) {
+                                           Diagnostics& diagnostics, const IncludedTexts& included,
+                                           FilesNamed files) {
     const IncludeReader from_record = [&](const std::filesystem::path& wanted,
                                           std::string& why_not) -> std::optional<std::string> {
         const auto known = included.find(wanted.lexically_proximate(file.parent_path()).string());
@@ -102,7 +103,8 @@ std::optional<Protocol> read_protocol_text(std::string_view text, const std::fil
         why_not = "it is not among the texts that are kept";
         return std::nullopt;
     };
-    return read_text(text, file, shipped_sculptures, false, from_record, diagnostics);
+    return read_text(text, file, shipped_sculptures, files == FilesNamed::looked_up, from_record,
+                     diagnostics);
 }
 
 } // namespace overt

@@ -1,6 +1,7 @@
 /// From a protocol file to a Protocol, with everything that is wrong with the file found in one go.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -22,10 +23,14 @@ std::optional<Protocol> read_protocol(const std::filesystem::path& file,
 /// Texts of included files, by IncludedText::name.
 using IncludedTexts = std::map<std::string, std::string>;
 
-/// The same from a text, as a recorded session holds it: `file` says where it was, and nothing there is
-/// looked at; what it includes is taken from `included`.
+/// Whether the files that a protocol names are looked up.
+enum class FilesNamed : std::uint8_t { left_alone, looked_up };
+
+/// The same from a text, as a recorded session holds it: `file` says where it was, and is not looked at; what
+/// it includes is taken from `included`.
 std::optional<Protocol> read_protocol_text(std::string_view text, const std::filesystem::path& file,
                                            std::span<const std::string_view> shipped_sculptures,
-                                           Diagnostics& diagnostics, const IncludedTexts& included = {});
+                                           Diagnostics& diagnostics, const IncludedTexts& included = {},
+                                           FilesNamed files = FilesNamed::left_alone);
 
 } // namespace overt

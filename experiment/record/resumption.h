@@ -26,12 +26,19 @@ struct SittingDetection {
     ScreenGeometry screen;
 };
 
+/// One of the command's options that a sitting was run with, by its name without dashes.
+struct RecordedOption {
+    std::string name, value;
+    bool operator==(const RecordedOption&) const = default;
+};
+
 /// Who begins a sitting, and when.
 struct Sitting {
     std::string started_utc; ///< wall clock, ISO 8601
     std::string program_version, program_sha256;
     std::optional<Resumption> resumption;      ///< nothing for the first
     std::optional<SittingDetection> detection; ///< nothing: nobody looks for events
+    std::vector<RecordedOption> options = {};  ///< that decide what is recorded, in any order
 };
 
 } // namespace overt

@@ -176,12 +176,19 @@ CREATE TABLE IF NOT EXISTS marker (
 ) STRICT;
 )sql";
 
+const char* const option_tables_sql = R"sql(
+CREATE TABLE IF NOT EXISTS run_option (
+    sitting INTEGER NOT NULL REFERENCES sitting, n INTEGER NOT NULL, name TEXT NOT NULL, value TEXT NOT NULL,
+    PRIMARY KEY (sitting, n)
+) STRICT, WITHOUT ROWID;
+)sql";
+
 void make_session_tables(SQLite::Database& database) {
     for (const std::string& sql :
          {create_sql(session_table()), create_sql(characterisation_table()), create_sql(sculpture_table())})
         database.exec(sql);
     for (const char* const sql : {session_schema_sql, box_tables_sql, observer_tables_sql, ledger_tables_sql,
-                                  gaze_tables_sql, device_tables_sql})
+                                  gaze_tables_sql, device_tables_sql, option_tables_sql})
         database.exec(sql);
 }
 

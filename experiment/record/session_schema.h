@@ -39,6 +39,9 @@ extern const char* const gaze_tables_sql;
 /// The same for the tables of response boxes and of markers.
 extern const char* const device_tables_sql;
 
+/// The same for the table of the options that sittings were run with.
+extern const char* const option_tables_sql;
+
 /// Makes all of them in an empty database. Throws SQLite::Exception.
 void make_session_tables(SQLite::Database& database);
 

@@ -77,7 +77,7 @@ PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, 
 }
 
 std::string PagePresenter::why_closed() const {
-    return is_interrupted() ? "interrupted by a signal" : surface_->why_closed();
+    return is_interrupted() ? std::string(interrupted_reason) : surface_->why_closed();
 }
 
 void PagePresenter::check_depth() const {

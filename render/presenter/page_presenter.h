@@ -18,6 +18,9 @@
 
 namespace overt {
 
+/// Why a presenter counts as closed after close_on(). Stands in records.
+inline constexpr std::string_view interrupted_reason = "interrupted by a signal";
+
 class PagePresenter final : public Presenter {
   public:
     /// All references must outlive the presenter. Throws GraphicsError, also if the display's framebuffer has

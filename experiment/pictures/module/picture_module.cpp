@@ -111,6 +111,9 @@ class OiioLibrary final : public PictureLibrary {
         spec.alpha_channel = header.alpha_channel;
         for (const auto& [key, value] : header.attributes)
             write_attribute(spec, key, value);
+        // OpenImageIO would write the time of day into an EXR file: the same picture shall have the same bytes.
+        if (name.ends_with(".exr") && !header.attribute<std::string>("DateTime"))
+            spec.attribute("DateTime", "1970:01:01 00:00:00");
         // Into memory: when a disk fills up, libraries of picture formats do not always say so.
         OIIO::Filesystem::IOVecOutput memory;
         const auto output = OIIO::ImageOutput::create(name);

@@ -25,6 +25,7 @@
 #include "experiment/ports/session_history.h"
 #include "experiment/ports/trial_outcome.h"
 #include "experiment/record/recorded_box.h"
+#include "experiment/record/resumption.h"
 #include "experiment/record/session_header.h"
 #include "experiment/timing/ledger_fit.h"
 
@@ -211,10 +212,16 @@ class SessionRecord {
 
     /// The last sitting was closed in order: nothing was killed or failed since. False before the first.
     bool closed_in_order() const;
+    /// The same of one sitting.
+    bool closed_in_order(int sitting) const;
 
     /// How each sitting after the first took the session up, by the word of its resume policy; empty for
     /// sessions of earlier programs.
     std::vector<std::pair<int, std::string>> resumptions() const;
+
+    /// The options of the command that a sitting was run with. None of sittings of programs that did not
+    /// record them, and of imported sessions.
+    std::vector<RecordedOption> run_options(int sitting) const;
 
     /// Indices of trials that were skipped when the session was taken up again.
     std::vector<int> skipped_trials() const;

@@ -16,6 +16,18 @@ RecordedBox::Use use_from(const std::string& word) {
 
 } // namespace
 
+std::vector<RecordedOption> SessionRecord::run_options(int sitting) const {
+    return reading_session(file_, [&] {
+        return read_later_rows(
+            *database_, "run_option", "SELECT name, value FROM run_option WHERE sitting = ?1 ORDER BY n",
+            [](Query& row) {
+                std::string name = row.text();
+                return RecordedOption{std::move(name), row.text()};
+            },
+            static_cast<std::int64_t>(sitting));
+    });
+}
+
 std::vector<RecordedConsent> SessionRecord::consents() const {
     return reading_session(file_, [&] {
         return read_later_rows(
@@ -131,6 +143,14 @@ std::vector<int> SessionRecord::skipped_trials() const {
     return reading_session(file_, [&] {
         return read_later_rows(*database_, "given_up", "SELECT trial FROM given_up ORDER BY trial",
                                [](Query& row) { return row.small(); });
+    });
+}
+
+bool SessionRecord::closed_in_order(int sitting) const {
+    return reading_session(file_, [&] {
+        Query row(*database_, "SELECT closed FROM sitting WHERE sitting = ?1");
+        row.bind(1, sitting);
+        return row.step() && row.integer() != 0;
     });
 }
 

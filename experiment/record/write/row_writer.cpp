@@ -96,6 +96,7 @@ void RowWriter::begin_sitting(const Sitting& sitting) {
     run_statement(insert_sitting, sitting_, sitting.started_utc,
                   resumed ? std::optional(std::string(name_of(resumed->policy))) : std::nullopt,
                   sitting.program_version, sitting.program_sha256);
+    write_options(sitting.options);
     if (sitting.detection)
         events_.emplace(gaze_rows_, sitting_, *sitting.detection);
     if (resumed) {
@@ -112,6 +113,14 @@ void RowWriter::begin_sitting(const Sitting& sitting) {
     forget_file_hash(database_);
     seals_.seal_rest(SealKind::sitting, sitting_);
     transaction.commit();
+}
+
+void RowWriter::write_options(const std::vector<RecordedOption>& options) {
+    database_.exec(option_tables_sql);
+    SQLite::Statement insert(database_, "INSERT INTO run_option (sitting, n, name, value) VALUES (?,?,?,?)");
+    int n = 0;
+    for (const RecordedOption& option : options)
+        run_statement(insert, sitting_, ++n, option.name, option.value);
 }
 
 void RowWriter::begin() {

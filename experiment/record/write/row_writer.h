@@ -73,6 +73,7 @@ class RowWriter {
         needs_seal_ = true;
     }
     void begin_sitting(const Sitting& sitting);
+    void write_options(const std::vector<RecordedOption>& options);
     void commit_to_disk();
     Counts& counts_of(int trial) {
         return trial >= 0 && trial == open_trial_ ? trial_counts_ : outside_counts_;

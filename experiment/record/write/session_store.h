@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "experiment/ports/observer_field.h"
 #include "experiment/ports/recorded_answer.h"
@@ -49,6 +50,7 @@ class SessionStore final : public SessionLog {
         std::string program_version = {}, program_sha256 = {}; ///< of the program that runs this sitting
         std::optional<Resumption> resumption = {};             ///< of an interrupted session
         std::optional<SittingDetection> detection = {}; ///< of fixations, saccades and blinks; nothing: none
+        std::vector<RecordedOption> options = {};       ///< of the command, see Sitting
     };
 
     /// Opens a published session's file and begins a sitting: the first, or one that resumes the session. A

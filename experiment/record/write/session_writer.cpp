@@ -26,7 +26,7 @@ LostRows flips_and_samples(const Row& row) noexcept {
 SessionStore::Writer::Writer(const std::filesystem::path& file, const Options& options)
     : file_(file), wait_when_full_(options.wait_when_full),
       rows_(file, {options.started_utc, options.program_version, options.program_sha256, options.resumption,
-                   options.detection}),
+                   options.detection, options.options}),
       ring_(options.ring_capacity), thread_([this] { run(); }) {}
 
 void SessionStore::Writer::push(const Row& row) noexcept {

@@ -1,0 +1,24 @@
+/// `overt replay`: a recorded session presented again. Takes its options and gives the exit code, 0 done, 1
+/// failed. Bad input is thrown as InputError, which main turns into exit code 2.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "app/cli/chosen_command.h"
+#include "app/cli/context_choice.h"
+
+namespace overt {
+
+/// Adds it to the command line.
+void add_replay_commands(CLI::App& app, ChosenCommand& chosen);
+
+struct ReplayOptions {
+    std::filesystem::path session; ///< its folder, or the session file in it
+    std::filesystem::path files;   ///< the folder that the protocol's paths start from; empty: as recorded
+    ContextChoice context;         ///< left out: that of the record, a window's in memory
+    bool json = false;
+};
+int run_replay(const ReplayOptions& options);
+
+} // namespace overt

@@ -1,0 +1,215 @@
+#include "app/replay/sitting_replay.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "app/cli/interruption.h"
+#include "app/replay/quiet_output.h"
+#include "app/rig/tracker_devices.h"
+#include "app/session/recorded_options.h"
+#include "app/session/session_commands.h"
+#include "experiment/base/error.h"
+#include "experiment/base/whole_file.h"
+#include "experiment/ports/event_kinds.h"
+#include "experiment/ports/session_phase.h"
+#include "experiment/ports/tracker_kinds.h"
+#include "experiment/record/manifest.h"
+#include "experiment/record/session_directory.h"
+#include "experiment/record/session_schema.h"
+#include "experiment/record/verify/sitting_cut.h"
+
+namespace overt {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// All that is to be compared has been presented.
+struct EnoughPresented {};
+
+void copy_file_to(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    fs::create_directories(to.parent_path(), error);
+    fs::copy_file(from, to, error);
+    if (error)
+        throw RecordError(fmt::format("{}: cannot be copied to {} ({}): make room, or set TMPDIR",
+                                      from.string(), to.string(), error.message()));
+}
+
+/// With what a log still holds; the file itself is not touched.
+void copy_session_file(const fs::path& from, const fs::path& to) {
+    copy_file_to(from, to);
+    const fs::path log = from.string() + "-wal";
+    if (fs::exists(log))
+        copy_file_to(log, to.string() + "-wal");
+}
+
+/// The cache of the program, in which maps, and what is made of frames, are missing.
+fs::path cache_without_maps(const fs::path& cache, const fs::path& work) {
+    fs::create_directories(work);
+    fs::create_directories(cache);
+    for (const char* const kind : {"frames"}) {
+        fs::create_directories(cache / kind);
+        fs::create_directory_symlink(fs::absolute(cache / kind), work / kind);
+    }
+    return work;
+}
+
+std::string faults_of(const SessionRecord& record, int sitting) {
+    std::string faults;
+    record.read_events([&](const RecordedEvent& event) {
+        if (event.sitting == sitting && event.kind == simulated_faults_event)
+            faults = event.detail;
+    });
+    return faults;
+}
+
+RunOptions options_of(const SittingRequest& request, const std::vector<RecordedOption>& recorded,
+                      const fs::path& sessions) {
+    const SessionRecord& record = request.record;
+    const SessionHeader& header = record.header();
+    RunOptions options;
+    take_recorded_options(recorded, options);
+    options.protocol = request.protocol;
+    options.observer = header.schedule.observer.label;
+    options.session_number = header.session_number;
+    options.seed = header.schedule.seed;
+    options.ask_at = AskAt::nobody;
+    options.sessions = sessions;
+    options.context = request.context;
+    for (const RecordedObserverField& field : record.observer_fields())
+        if (!field.value.empty())
+            options.observer_fields.push_back(field.id + "=" + field.value);
+    for (const auto& [sitting, word] : record.resumptions())
+        if (sitting == request.sitting)
+            options.resume = word == name_of(ResumePolicy::skip)            ? ResumePolicy::skip
+                             : word == name_of(ResumePolicy::restart_block) ? ResumePolicy::restart_block
+                                                                            : ResumePolicy::redo;
+    if (const std::string faults = faults_of(record, request.sitting); !faults.empty()) {
+        options.faults = request.work / "faults.toml";
+        std::ofstream(options.faults, std::ios::binary) << faults;
+    }
+    return options;
+}
+
+/// The session as it was when this sitting took it up.
+void put_back(const SessionRecord& record, int sitting, const fs::path& folder) {
+    std::vector<std::string> later;
+    for (const TrialRecord& attempt : record.trials())
+        if (attempt.sitting >= sitting)
+            if (const auto answer = record.answer_recording(attempt))
+                later.push_back(answer->file);
+    for (const std::string& file : files_of_session(record.directory(), false))
+        if (std::find(later.begin(), later.end(), file) == later.end())
+            copy_file_to(record.directory() / file, folder / file);
+    copy_session_file(record.directory() / session_file_name, folder / session_file_name);
+    forget_sittings_from(folder / session_file_name, sitting);
+}
+
+int attempts_in(const SessionRecord& record, int sitting) {
+    return static_cast<int>(
+        std::count_if(record.trials().begin(), record.trials().end(),
+                      [&](const TrialRecord& attempt) { return attempt.sitting == sitting; }));
+}
+
+/// What is left of a session that failed where the recorded one did not.
+[[noreturn]] void fail(const fs::path& said, const std::exception& error) {
+    throw Error(fmt::format("the session could not be presented again: {}\nIt said before:\n{}", error.what(),
+                            read_whole_file(said)));
+}
+
+} // namespace
+
+int sittings_of(const SessionRecord& record) { return 1 + static_cast<int>(record.resumptions().size()); }
+
+std::string why_not_again(const SessionRecord& record, int sitting) {
+    const std::vector<RecordedOption> options = record.run_options(sitting);
+    if (record.gaze_source(sitting))
+        return "its gaze was imported from another recording";
+    if (options.empty())
+        return "a version of the program recorded it that did not write down the command's options";
+    if (!recorded_value(options, "virtual-time"))
+        return "it ran in real time";
+    if (!recorded_value(options, "simulate-observer"))
+        return "a person answered in it";
+    return {};
+}
+
+std::optional<SittingCut> cut_of(const SessionRecord& record, int sitting) {
+    const TrialRecord* last = nullptr;
+    for (const TrialRecord& attempt : record.trials())
+        if (attempt.sitting == sitting)
+            last = &attempt;
+    const bool is_open = last && !last->has_outcome();
+    const std::int64_t after_last = (last ? last->id : 0) + 1;
+    std::optional<SittingCut> cut;
+    if (is_open || !record.closed_in_order(sitting))
+        return SittingCut{{is_open ? last->id : after_last, {}}, "the program was killed in it"};
+    std::optional<SessionTime> end;
+    bool broke_off = false;
+    record.read_events([&](const RecordedEvent& event) {
+        if (event.sitting != sitting)
+            return;
+        if (event.kind == session_aborted_event && event.detail == interrupted_reason)
+            cut = SittingCut{{after_last, end}, "it was ended by a signal"};
+        if (event.kind == phase_event && event.detail == name_of(SessionPhase::end))
+            end = event.at;
+        broke_off |= last && event.kind == presentation_broken_off_event &&
+                     event.trial == last->trial.index && event.at >= last->started;
+    });
+    if (!cut || !last || last->status != TrialRecord::Status::aborted || !last->outcome.failure.empty())
+        return cut;
+    cut->cut.attempt = last->id;
+    if (const std::vector<FlipRecord> flips = record.flips(*last); broke_off && !flips.empty())
+        cut->cut.from = flips.back().report.vertical_blank;
+    return cut;
+}
+
+SittingReplay replay_sitting(const SittingRequest& request) {
+    const SessionRecord& record = request.record;
+    const SessionHeader& header = record.header();
+    const SessionPlace place{request.work / "sessions", header.protocol.name, header.schedule.observer.label};
+    SittingReplay replay{{},
+                         cut_of(record, request.sitting),
+                         request.work / "recorded.sqlite",
+                         session_path(place, header.session_number)};
+    fs::create_directories(request.work);
+    if (request.sitting > 1)
+        put_back(record, request.sitting, replay.folder);
+    const PresentingAgain unwatched{record.run_options(request.sitting),
+                                    cache_without_maps(request.cache, request.work / "cache")};
+    const RunOptions options = options_of(request, unwatched.options, place.root);
+
+    const fs::path said = request.work / "said.txt";
+    const int all = attempts_in(record, request.sitting);
+    {
+        QuietOutput quiet(said);
+        PresentingAgain again = unwatched;
+        int done = 0;
+        again.trial_done = [&] {
+            ++done;
+            quiet.aside([&] { request.progress(std::min(done, all), all); });
+            if (replay.cut && done >= all)
+                throw EnoughPresented();
+        };
+        try {
+            run_session_again(request.experiment, options, again);
+        } catch (const EnoughPresented&) {
+            // The record has no more.
+        } catch (const std::exception& error) {
+            fail(said, error);
+        }
+    }
+    if (Interruption::requested())
+        throw Error("the replay was interrupted: nothing was compared");
+
+    copy_session_file(record.directory() / session_file_name, replay.recorded_file);
+    forget_sittings_from(replay.recorded_file, request.sitting + 1);
+    const std::optional<RecordCut> cut = replay.cut ? std::optional(replay.cut->cut) : std::nullopt;
+    replay.comparison = compare_records(replay.recorded_file, replay.folder / session_file_name, cut);
+    return replay;
+}
+
+} // namespace overt
