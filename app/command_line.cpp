@@ -20,6 +20,7 @@
 #include "app/session/session_commands.h"
 #include "app/stimuli/stimulus_commands.h"
 #include "app/tracker/tracker_commands.h"
+#include "app/watch/watch_commands.h"
 #include "experiment/base/diagnostics.h"
 
 namespace overt {
@@ -68,7 +69,7 @@ int run_command_line(int argc, char** argv) {
     app.get_formatter()->column_width(34);
     ChosenCommand chosen;
     for (const auto add_commands :
-         {add_check_commands, add_session_commands, add_record_commands, add_replay_commands,
+         {add_check_commands, add_session_commands, add_watch_commands, add_record_commands, add_replay_commands,
           add_analyze_command, add_replicate_command, add_power_command, add_stimulus_commands,
           add_tracker_commands, add_display_commands, add_bench_commands, add_manual_commands})
         add_commands(app, chosen);

@@ -14,6 +14,7 @@
 #include "app/rig/button_boxes.h"
 #include "app/rig/display_box_session.h"
 #include "app/rig/marker_outputs.h"
+#include "app/rig/operator_equipment.h"
 #include "app/rig/output_verification.h"
 #include "app/rig/rig.h"
 #include "app/rig/setup_sounds.h"
@@ -252,6 +253,23 @@ void note_tracker(const TrackerSettings& wish, Rig& rig, SessionStore& store) {
     }
 }
 
+/// A socket for the operator's view, if it is wanted; said on the terminal and not in the record, which is the
+/// same with and without.
+void open_view(std::optional<OperatorEquipment>& view, const RunOptions& options, const SessionPlan& plan,
+               const SessionFolder& folder, const Protocol& protocol, Rig& rig, SessionStore& store,
+               ResponsePanel& keys) {
+    if (!options.operator_socket)
+        return;
+    OperatorServer::Options wished =
+        operator_view_of(folder.header, protocol, folder.path, rig.tracker().measures_gaze(),
+                         plan.resumed ? plan.resumed->history.counted_trials : 0);
+    wished.socket = options.operator_socket->empty() ? folder.path / operator_socket_name
+                                                     : *options.operator_socket;
+    wished.tell = [](const std::string& sentence) { fmt::print(stderr, "{}\n", sentence); };
+    view.emplace(std::move(wished), rig.clock(), store, keys);
+    fmt::print("operator's view: overt watch --socket {}\n", view->socket().string());
+}
+
 } // namespace
 
 namespace {
@@ -259,6 +277,8 @@ namespace {
 /// `again`: null for a session that is recorded for the first time.
 int run_session_of(Experiment experiment, const RunOptions& options, const PresentingAgain* again) {
     const Observer observer = observer_labelled(options.observer);
+    if (options.operator_socket && !options.operator_socket->empty())
+        check_socket_place(*options.operator_socket);
     const std::filesystem::path cache = again ? again->cache : cache_folder();
     if (!options.tracker.empty())
         experiment.protocol.tracker.kind = tracker_kind_called(options.tracker);
@@ -316,21 +336,29 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
         store.event({rig.clock().now(), -1, marker_output_event, description});
     answers.keep_in(folder.path);
     store.event({rig.clock().now(), -1, answer_recording_event, answers.description()});
+    ResponsePanel& keys = boxes ? *boxes : rig.panel();
+    std::optional<OperatorEquipment> view;
+    open_view(view, options, plan, folder, protocol, rig, store, keys);
     TrialProgress progress(protocol, plan.schedule, rig.tracker().measures_gaze());
     Session session(protocol, plan.schedule, screen_geometry_of(protocol).centre(),
                     {.clock = rig.clock(),
                      .presenter = rig.presenter(),
                      .tracker = rig.tracker(),
-                     .panel = boxes ? *boxes : rig.panel(),
-                     .log = store,
+                     .panel = view ? view->panel() : keys,
+                     .log = view ? view->log() : store,
                      .listeners = rig.listeners(),
                      .observer = observer.label,
                      .can_type = !options.simulate_observer && options.ask_at == AskAt::window,
                      .recorder = answers.recorder(),
-                     .on_level = answers.meter(),
+                     .on_level = view ? view->meter_besides(answers.meter()) : answers.meter(),
                      .markers = markers.sinks(),
                      .on_beep = [&](SetupBeep beep) { sounds.play(beep); },
-                     .on_phase = [&](SessionPhase phase, int trial) { progress.enter(phase, trial); }},
+                     .on_phase =
+                         [&](SessionPhase phase, int trial) {
+                             progress.enter(phase, trial);
+                             if (view)
+                                 view->entered(phase, trial);
+                         }},
                     plan.fields);
     note_faults(options.faults, rig.clock(), store);
     // Maps drawn live are written between trials, where loading the library would take its time.
@@ -356,6 +384,7 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
         rescue_tracker_file(rig, folder.path);
         throw;
     }
+    view.reset();
     progress.finish();
     end_tracker(rig, folder.path, store);
     box.leave(store);

@@ -126,6 +126,17 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
             "late "
             "pictures, skipped refreshes, jitter of time stamps; silence, gaps, a tracker that is unplugged")
         ->type_name("FILE");
+    command
+        .add_option_function<std::string>(
+            "--operator-socket",
+            [&options](const std::string& path) {
+                options.operator_socket = path == "session" ? std::filesystem::path() : std::filesystem::path(path);
+            },
+            "Let `overt watch` connect to the session, by a socket for this user alone: in the session's "
+            "folder (session, the default), or this file")
+        ->expected(0, 1)
+        ->default_str("session")
+        ->type_name("FILE");
     command.add_flag("--realtime", options.realtime,
                      "Ask for real-time priority and locked memory; goes on if they are refused");
     command.add_option("--pin", options.processor, "Run the session's thread on this processor only")

@@ -15,7 +15,8 @@ namespace {
 
 using Key = ResponsePress::Key;
 
-constexpr Key keys[] = {Key::pause, Key::recalibrate, Key::repeat, Key::reject, Key::skip, Key::abort};
+constexpr Key keys[] = {Key::pause,  Key::recalibrate, Key::drift_check, Key::repeat,
+                        Key::reject, Key::skip,        Key::abort};
 
 [[noreturn]] void refuse(std::string_view text, std::string_view why) {
     std::string phases;
@@ -23,8 +24,8 @@ constexpr Key keys[] = {Key::pause, Key::recalibrate, Key::repeat, Key::reject, 
         phases += fmt::format("{}{}", i == 0 ? "" : ", ", name_of(static_cast<SessionPhase>(i)));
     throw InputError(
         fmt::format("--simulate-operator {}: {}; write PHASE[@TRIAL]+SECONDS=KEY[,ANSWER], as "
-                    "\"stimulus@3+0.5=skip,2\". Phases: {}. Keys: pause, recalibrate, repeat, reject, "
-                    "skip, abort. Answers: yes, no, or the digit of a reason",
+                    "\"stimulus@3+0.5=skip,2\". Phases: {}. Keys: pause, recalibrate, drift check, repeat, "
+                    "reject, skip, abort. Answers: yes, no, or the digit of a reason",
                     text, why, phases));
 }
 

@@ -20,6 +20,7 @@ inline constexpr std::string_view session_aborted_event = "session aborted"; ///
 // What happened in a trial, or to it.
 inline constexpr std::string_view trial_failed_event = "trial failed"; ///< and what becomes of it
 inline constexpr std::string_view drift_check_failed_event = "drift check failed";
+inline constexpr std::string_view drift_checked_event = "drift checked"; ///< for the operator: what was found
 inline constexpr std::string_view presentation_broken_off_event = "presentation broken off";
 inline constexpr std::string_view response_timed_out_event = "response timed out";
 inline constexpr std::string_view answer_recording_event = "answer recording"; ///< what is to be known of it
@@ -31,6 +32,8 @@ inline constexpr std::string_view operator_event = "operator";
 inline constexpr std::string_view operator_pressed_event = "operator pressed";
 inline constexpr std::string_view operator_asked_event = "operator asked"; ///< was asked
 inline constexpr std::string_view operator_answered_event = "operator answered";
+inline constexpr std::string_view operator_view_event = "operator's view"; ///< a command that came from there
+inline constexpr std::string_view operator_note_event = "operator's note"; ///< a remark, in the operator's words
 
 // Of the equipment.
 inline constexpr std::string_view validation_event =

@@ -9,6 +9,8 @@ std::string_view name_of(ResponsePress::Key key) noexcept {
         return "pause";
     case Key::recalibrate:
         return "recalibrate";
+    case Key::drift_check:
+        return "drift check";
     case Key::repeat:
         return "repeat";
     case Key::reject:

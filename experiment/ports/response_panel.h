@@ -32,10 +32,11 @@ struct ResponsePress {
         // The operator's.
         pause,
         recalibrate,
-        repeat, ///< the trial that is running, at once
-        reject, ///< the same, when the protocol says
-        skip,   ///< the trial: it does not come again
-        abort,  ///< the session
+        drift_check, ///< now, besides those of the protocol
+        repeat,      ///< the trial that is running, at once
+        reject,      ///< the same, when the protocol says
+        skip,        ///< the trial: it does not come again
+        abort,       ///< the session
     };
     Key key = Key::next;
     SessionTime pressed_at;

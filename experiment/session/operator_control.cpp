@@ -93,6 +93,9 @@ bool OperatorControl::act_on(const ResponsePress& press) {
         if (confirm(state_.protocol.words.recalibrate))
             calibrate();
         break;
+    case ResponseKey::drift_check:
+        check_drift();
+        break;
     case ResponseKey::repeat:
     case ResponseKey::reject:
     case ResponseKey::skip:
@@ -260,6 +263,33 @@ bool OperatorControl::accepts(const SetupOutcome& outcome) {
     }
     state_.log().calibration({state_.now(), state_.trial(), outcome.method, found, is_good});
     return true;
+}
+
+void OperatorControl::check_drift() {
+    EyeTracker& tracker = state_.ports.tracker;
+    if (!tracker.measures_gaze()) {
+        state_.note(operator_event, "a drift check had no effect: the session has no eye tracker");
+        return;
+    }
+    const SessionTime onset = state_.show({.kind = Screen::Kind::target, .text = ""});
+    const SessionTime latest = onset + from_seconds(state_.protocol.screens.drift_target_s);
+    while (state_.now() < latest && !state_.ends_by_itself())
+        rest_a_little(latest);
+    if (state_.is_over())
+        return;
+    try {
+        const DriftOutcome drift = tracker.drift_check(screen_geometry_of(state_.protocol).centre());
+        if (drift.kind == DriftOutcome::Kind::set_up_wanted) {
+            state_.note(drift_check_failed_event, "the tracker asked to be set up");
+            calibrate();
+        } else if (drift.kind == DriftOutcome::Kind::measured) {
+            state_.note(drift_checked_event, fmt::format("{:.3f} deg", drift.error.value));
+        } else {
+            state_.note(drift_check_failed_event, "no eye was found");
+        }
+    } catch (const DeviceError& error) {
+        regain_tracker(error.what());
+    }
 }
 
 /// Until it is reached; false: the session is over.

@@ -73,6 +73,9 @@ class OperatorControl {
     /// Sets the tracker up, until it is calibrated well enough or the operator goes on all the same; else the
     /// session is over. A tracker that is lost meanwhile is connected again as regain_tracker() does.
     void calibrate();
+    /// Shows the target in the middle of the screen and compares gaze with it, for the operator: the record
+    /// notes what was found. Does nothing else about a drift, except where the tracker asks to be set up.
+    void check_drift();
     /// The tracker was lost, with what it said: asks whether to connect again, and sets it up. Otherwise the
     /// session is over.
     void regain_tracker(const std::string& why = {});

@@ -1,0 +1,42 @@
+#include "app/rig/operator_equipment.h"
+
+#include "experiment/protocol/protocol.h"
+#include "experiment/record/preview_file.h"
+
+namespace overt {
+
+OperatorServer::Options operator_view_of(const SessionHeader& header, const Protocol& protocol,
+                                         const std::filesystem::path& folder, bool has_tracker, int completed) {
+    OperatorServer::Options options;
+    SessionFacts& facts = options.facts;
+    facts.protocol = protocol.name;
+    facts.observer = header.schedule.observer.label;
+    facts.folder = std::filesystem::absolute(folder).lexically_normal().string();
+    facts.trials = static_cast<int>(header.schedule.trials.size());
+    facts.refresh_hz = protocol.display.refresh_hz;
+    facts.width_px = protocol.display.width_px;
+    facts.height_px = protocol.display.height_px;
+    const ScreenGeometry geometry = screen_geometry_of(protocol);
+    facts.image_width_px = geometry.image_px.x;
+    facts.image_height_px = geometry.image_px.y;
+    facts.poses = static_cast<int>(header.poses.angles.size());
+    facts.has_tracker = has_tracker;
+    facts.drift_limit_deg = protocol.tracker.drift_limit_deg;
+    facts.mean_limit_deg = protocol.calibration.mean_limit_deg;
+    facts.max_limit_deg = protocol.calibration.max_limit_deg;
+    facts.skip_reasons = protocol.operators.skip_reasons;
+    options.completed = completed;
+    for (const Trial& trial : header.schedule.trials) {
+        const Task& task = protocol.tasks[static_cast<std::size_t>(trial.task)];
+        ViewedTrial viewed{task.id, task.question,
+                           protocol.sculptures[static_cast<std::size_t>(trial.condition.sculpture)].id,
+                           protocol.materials[static_cast<std::size_t>(trial.condition.material)].id,
+                           light_file(header, trial.condition)};
+        if (!std::filesystem::exists(folder / viewed.light_file))
+            viewed.light_file.clear();
+        options.trials.push_back(std::move(viewed));
+    }
+    return options;
+}
+
+} // namespace overt

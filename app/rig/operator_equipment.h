@@ -1,0 +1,50 @@
+/// The operator's view of a session, if it has one.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "devices/operator/operator_panel.h"
+#include "devices/operator/operator_server.h"
+#include "devices/operator/watched_log.h"
+#include "experiment/ports/clock.h"
+#include "experiment/ports/eye_tracker.h"
+#include "experiment/record/session_header.h"
+
+namespace overt {
+
+/// What a session's view is told of what does not change. `folder`: of the session. `header`: its record's.
+OperatorServer::Options operator_view_of(const SessionHeader& header, const Protocol& protocol,
+                                         const std::filesystem::path& folder, bool has_tracker, int completed);
+
+/// Stands between a session and its log and panel. Without a socket it is not made.
+class OperatorEquipment {
+  public:
+    /// All references must outlive this. Throws as OperatorServer does.
+    OperatorEquipment(OperatorServer::Options options, const Clock& clock, SessionLog& record,
+                      ResponsePanel& panel)
+        : server_(std::move(options)), panel_(server_, clock, panel), log_(record, server_, panel_, clock) {}
+
+    SessionLog& log() { return log_; }
+    ResponsePanel& panel() { return panel_; }
+    const std::filesystem::path& socket() const { return server_.socket(); }
+
+    void entered(SessionPhase phase, int trial) noexcept { log_.entered(phase, trial); }
+    /// `meter`, which may be empty, and the view.
+    std::function<void(const AudioLevel&)> meter_besides(std::function<void(const AudioLevel&)> meter) {
+        return [this, meter = std::move(meter)](const AudioLevel& level) {
+            if (meter)
+                meter(level);
+            log_.level(level);
+        };
+    }
+
+  private:
+    OperatorServer server_;
+    OperatorPanel panel_;
+    WatchedLog log_;
+};
+
+} // namespace overt

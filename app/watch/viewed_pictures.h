@@ -1,0 +1,26 @@
+/// Small pictures of the stimulus that is shown, from the session's folder.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "experiment/maps/light_pictures.h"
+#include "experiment/watch/session_view.h"
+#include "experiment/watch/view_text.h"
+
+namespace overt {
+
+/// Reads the file of a stimulus once, when its first pose is asked for.
+class ViewedPictures {
+  public:
+    /// The picture that the view's frame has; without squares where there is none, or none that can be read.
+    const ViewedPicture& of(const SessionFacts& facts, const SessionView& view);
+
+  private:
+    std::string file_;
+    std::optional<LightPictures> light_;
+    int pose_ = -1;
+    ViewedPicture picture_;
+};
+
+} // namespace overt

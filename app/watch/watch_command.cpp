@@ -1,0 +1,76 @@
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/watch/terminal_watch.h"
+#include "app/watch/watch_commands.h"
+#include "devices/operator/operator_server.h"
+#include "experiment/base/error.h"
+
+namespace overt {
+
+namespace {
+
+/// Sessions lie two folders deep: by protocol, then by observer and number.
+std::vector<std::filesystem::path> served_in(const std::filesystem::path& sessions) {
+    std::vector<std::filesystem::path> served;
+    std::error_code error;
+    for (std::filesystem::recursive_directory_iterator at(sessions, error), end; !error && at != end;
+         at.increment(error)) {
+        if (at.depth() >= 2)
+            at.disable_recursion_pending();
+        if (at->path().filename() == operator_socket_name && is_served(at->path()))
+            served.push_back(at->path());
+    }
+    return served;
+}
+
+std::vector<OperatorCommand> commands_of(const WatchOptions& options) {
+    std::vector<OperatorCommand> commands;
+    for (const std::string& words : options.sends) {
+        const std::optional<OperatorCommand> command = operator_command(words);
+        if (!command)
+            throw InputError(fmt::format("--send \"{}\" is no command. There are: {}", words, known_commands()));
+        commands.push_back(*command);
+    }
+    return commands;
+}
+
+} // namespace
+
+std::filesystem::path socket_of(const WatchOptions& options) {
+    if (!options.socket.empty() && !options.session.empty())
+        throw InputError("SESSION and --socket say the same twice: give one of them");
+    if (!options.socket.empty())
+        return options.socket;
+    if (!options.session.empty()) {
+        if (!std::filesystem::is_directory(options.session))
+            throw InputError(fmt::format("{}: is no session's folder: name the folder that overt run prints",
+                                         options.session.string()));
+        return options.session / operator_socket_name;
+    }
+    const std::vector<std::filesystem::path> served = served_in(options.sessions);
+    if (served.size() == 1)
+        return served.front();
+    if (served.empty())
+        throw InputError(fmt::format("{}: no session that can be watched runs there: begin one with overt run … "
+                                     "--operator-socket, or name its folder, or its socket with --socket",
+                                     options.sessions.string()));
+    throw InputError(fmt::format("{}: {} sessions run there: name the folder of one", options.sessions.string(),
+                                 served.size()));
+}
+
+int run_watch(const WatchOptions& options) {
+    const std::vector<OperatorCommand> commands = commands_of(options);
+    OperatorClient client(socket_of(options));
+    for (const OperatorCommand& command : commands)
+        if (!client.send(command))
+            throw DeviceError(fmt::format("{}: was not sent: the session is gone", words_of(command)));
+    if (options.once || (!commands.empty() && !options.in_terminal)) {
+        print_once(client);
+        return 0;
+    }
+    return watch_in_terminal(client);
+}
+
+} // namespace overt

@@ -1,0 +1,71 @@
+/// The operator's view as a response panel: its commands are the operator's keys.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "devices/operator/operator_server.h"
+#include "experiment/ports/clock.h"
+#include "experiment/ports/response_panel.h"
+
+namespace overt {
+
+/// Asks the operator's view, and another panel besides. A command is confirmed in the view before it is sent,
+/// so the question that the session asks about it is answered here; one that the session asks by itself is
+/// answered by the view's yes or no. A command takes effect where a key would.
+class OperatorPanel final : public ResponsePanel {
+  public:
+    /// All of it must outlive the panel.
+    OperatorPanel(OperatorServer& server, const Clock& clock, ResponsePanel& answering)
+        : server_(&server), clock_(&clock), answering_(&answering) {}
+
+    void await_key(SessionTime since) override;
+    void await_response(const Trial& trial, SessionTime since) override;
+    void await_decision(bool is_consent, SessionTime since) override;
+    void await_entry(SessionTime since) override;
+    void await_setup(SessionTime since) override;
+    std::optional<SetupKey> next_setup_key() override { return answering_->next_setup_key(); }
+    std::optional<ResponsePress> poll() noexcept override;
+    std::string answer() override { return answering_->answer(); }
+    std::vector<std::string> closing_warnings() const override { return answering_->closing_warnings(); }
+    /// Records the commands and notes that came since.
+    void write_down(SessionLog& log) override;
+    void entered(SessionPhase phase, int trial) noexcept override;
+
+    /// The session acts on a key now, and may ask about it next.
+    void acted_on(std::string_view key) noexcept;
+
+  private:
+    /// A key that was given to the session, and what its question is answered with.
+    struct Given {
+        ResponsePress::Key key = ResponsePress::Key::pause;
+        int reason = 0;
+        bool is_asked_next = false; ///< the session has taken it
+    };
+    struct Taken {
+        OperatorCommand command;
+        SessionTime at;
+        int trial = -1;
+    };
+    void forget_given() noexcept;
+    std::optional<ResponsePress> take(const OperatorCommand& command) noexcept;
+    void reply(std::string_view words) noexcept;
+    std::string_view refusal_of(ResponsePress::Key key) const noexcept;
+
+    OperatorServer* server_;
+    const Clock* clock_;
+    ResponsePanel* answering_;
+    bool is_asked_ = false; ///< the operator, by the session
+    SessionPhase phase_ = SessionPhase::set_up;
+    int trial_ = -1;
+    std::optional<Given> given_;
+    std::optional<ResponsePress> next_answer_;
+    std::optional<OperatorCommand> held_; ///< until the one before is dealt with
+    std::array<Taken, 32> taken_{};       ///< to be recorded
+    std::size_t taken_count_ = 0;
+};
+
+} // namespace overt

@@ -1,0 +1,262 @@
+#include "devices/operator/operator_server.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "devices/operator/operator_socket.h"
+#include "experiment/base/error.h"
+#include "experiment/base/utf8_text.h"
+
+namespace overt {
+
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr std::size_t most_views = 4;
+constexpr std::size_t most_recent = 100;
+/// Lines that wait for a view that does not read: beyond this, events are left out.
+constexpr std::size_t most_waiting_bytes = 262144;
+constexpr std::chrono::milliseconds between_states{33}, longest_rest{15}, longest_farewell{200};
+/// Even where nothing changes, so that a view can tell a session that stands from one that is gone.
+constexpr std::chrono::milliseconds longest_silence{500};
+
+int open_listener(const std::filesystem::path& file) {
+    const SocketAddress address(file);
+    const int listener = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    const auto refuse = [&]() -> int {
+        const std::string why = std::strerror(errno);
+        if (listener >= 0)
+            ::close(listener);
+        throw DeviceError(fmt::format("{}: the operator's socket cannot be opened: {}", file.string(), why));
+    };
+    if (listener < 0)
+        return refuse();
+    if (::bind(listener, address.address(), address.size()) != 0) {
+        if (errno != EADDRINUSE)
+            return refuse();
+        struct stat there {};
+        const int served = connect_to(address);
+        const bool is_left_over = served < 0 && ::lstat(file.c_str(), &there) == 0 && S_ISSOCK(there.st_mode);
+        if (served >= 0)
+            ::close(served);
+        if (!is_left_over) {
+            ::close(listener);
+            throw InputError(fmt::format("{}: {}: name another with --operator-socket", file.string(),
+                                         served >= 0 ? "another session serves this socket"
+                                                     : "there is a file that is no socket"));
+        }
+        ::unlink(file.c_str());
+        if (::bind(listener, address.address(), address.size()) != 0)
+            return refuse();
+    }
+    // Nobody can connect before listen(): there is no moment in which others could.
+    if (::chmod(file.c_str(), S_IRUSR | S_IWUSR) != 0 || ::listen(listener, 4) != 0)
+        return refuse();
+    return listener;
+}
+
+} // namespace
+
+struct OperatorServer::View {
+    int socket = -1;
+    bool is_greeted = false;
+    std::string received, waiting;
+    std::int64_t left_out = 0; ///< lines of events
+    bool is_gone = false;
+    SteadyClock::time_point state_told{};
+};
+
+void check_socket_place(const std::filesystem::path& socket) { const SocketAddress address(socket); }
+
+OperatorServer::OperatorServer(Options options)
+    : options_(std::move(options)), listener_(open_listener(options_.socket)), news_(options_.ring_capacity),
+      builder_(std::move(options_.trials), options_.completed) {
+    thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
+}
+
+OperatorServer::~OperatorServer() {
+    thread_.request_stop();
+    thread_.join();
+    for (const View& view : views_)
+        ::close(view.socket);
+    ::close(listener_);
+    ::unlink(options_.socket.c_str());
+}
+
+void OperatorServer::serve(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+        wait_for_views();
+        take_news();
+        tell_state(false);
+        for (View& view : views_)
+            send_waiting(view);
+        std::erase_if(views_, [](const View& view) {
+            if (view.is_gone)
+                ::close(view.socket);
+            return view.is_gone;
+        });
+    }
+    take_news();
+    builder_.set_over();
+    tell_state(true);
+    const auto latest = SteadyClock::now() + longest_farewell;
+    const auto has_more = [](const View& view) { return !view.is_gone && !view.waiting.empty(); };
+    while (std::any_of(views_.begin(), views_.end(), has_more) && SteadyClock::now() < latest) {
+        for (View& view : views_)
+            send_waiting(view);
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+}
+
+void OperatorServer::take_news() {
+    for (ViewNews news; news_.try_pop(news);) {
+        is_new_ = true;
+        const std::optional<ViewedEvent> event = builder_.apply(news);
+        if (!event)
+            continue;
+        std::string line = line_of(*event);
+        for (View& view : views_) {
+            if (!view.is_greeted)
+                continue;
+            if (view.waiting.size() + line.size() > most_waiting_bytes)
+                ++view.left_out;
+            else
+                view.waiting += line;
+        }
+        recent_.push_back(std::move(line));
+        if (recent_.size() > most_recent)
+            recent_.pop_front();
+    }
+}
+
+void OperatorServer::wait_for_views() {
+    std::array<pollfd, most_views + 1> waits{};
+    waits[0] = {listener_, POLLIN, 0};
+    for (std::size_t i = 0; i < views_.size(); ++i)
+        waits[i + 1] = {views_[i].socket, POLLIN, 0};
+    const std::size_t count = views_.size();
+    if (::poll(waits.data(), count + 1, static_cast<int>(longest_rest.count())) <= 0)
+        return;
+    for (std::size_t i = 0; i < count; ++i)
+        if (waits[i + 1].revents != 0)
+            receive(views_[i]);
+    if (waits[0].revents != 0)
+        accept_view();
+}
+
+void OperatorServer::accept_view() {
+    const int socket = ::accept4(listener_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    if (socket < 0)
+        return;
+    if (views_.size() == most_views) {
+        ::close(socket);
+        if (options_.tell)
+            options_.tell(fmt::format("operator's view: {} are open, and another was turned away", most_views));
+        return;
+    }
+    views_.push_back({});
+    views_.back().socket = socket;
+    views_.back().waiting = line_of(options_.facts);
+}
+
+void OperatorServer::receive(View& view) {
+    std::array<char, 4096> bytes{};
+    // What is sent faster waits: a view cannot keep the thread.
+    const ssize_t count = ::recv(view.socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
+    if (count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR)) {
+        view.is_gone = true;
+        return;
+    }
+    if (count < 0)
+        return;
+    view.received.append(bytes.data(), static_cast<std::size_t>(count));
+    for (std::size_t end = 0; !view.is_gone && (end = view.received.find('\n')) != std::string::npos;) {
+        const std::string line = view.received.substr(0, end);
+        view.received.erase(0, end + 1);
+        understand(view, line);
+    }
+    if (!view.is_gone && view.received.size() > longest_command_line)
+        cut_off(view, "sent a line without an end");
+}
+
+void OperatorServer::understand(View& view, std::string_view line) {
+    const CommandLine read =
+        line.size() <= longest_command_line ? read_command_line(line) : CommandLine();
+    if (read.greeting && *read.greeting == view_version) {
+        if (!view.is_greeted)
+            for (const std::string& recent : recent_)
+                view.waiting += recent;
+        view.is_greeted = true;
+        return;
+    }
+    if (read.greeting)
+        return cut_off(view, fmt::format("speaks version {} of the language, this session version {}",
+                                         *read.greeting, view_version));
+    if (!read.command || !view.is_greeted)
+        return cut_off(view, fmt::format("sent \"{}\", which is no command",
+                                         ascii_of(line.substr(0, std::min<std::size_t>(line.size(), 60)))));
+    if (!commands_.try_push(*read.command))
+        view.waiting += line_of(ViewedEvent{builder_.view().time_s, -1, "operator's view",
+                                            fmt::format("{}: was not taken: too many commands wait",
+                                                        words_of(*read.command))});
+}
+
+void OperatorServer::cut_off(View& view, const std::string& why) {
+    view.is_gone = true;
+    if (options_.tell)
+        options_.tell(fmt::format("operator's view: a program {}: it was cut off, and the session goes on", why));
+}
+
+void OperatorServer::tell_state(bool even_if_old) {
+    const auto now = SteadyClock::now();
+    std::string line;
+    for (View& view : views_) {
+        if (!view.is_greeted || view.is_gone)
+            continue;
+        const auto since = now - view.state_told;
+        // A state replaces the one before: none is put behind lines that wait.
+        const bool is_due = view.waiting.empty() &&
+                            ((is_new_ && since >= between_states) || since >= longest_silence);
+        if (!is_due && !even_if_old)
+            continue;
+        if (line.empty()) {
+            builder_.set_dropped(dropped());
+            line = line_of(builder_.view());
+        }
+        if (view.left_out > 0)
+            view.waiting += line_of(ViewedEvent{builder_.view().time_s, -1, "operator's view",
+                                                fmt::format("{} messages were left out here: this view did not "
+                                                            "read them; the record has them all",
+                                                            view.left_out)});
+        view.left_out = 0;
+        view.waiting += line;
+        view.state_told = now;
+    }
+    if (line.empty())
+        return;
+    is_new_ = false;
+    builder_.forget_gaze();
+}
+
+void OperatorServer::send_waiting(View& view) {
+    while (!view.waiting.empty() && !view.is_gone) {
+        const ssize_t sent =
+            ::send(view.socket, view.waiting.data(), view.waiting.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+        if (sent < 0) {
+            view.is_gone = errno != EAGAIN && errno != EINTR;
+            return;
+        }
+        view.waiting.erase(0, static_cast<std::size_t>(sent));
+    }
+}
+
+} // namespace overt

@@ -1,0 +1,85 @@
+/// The socket beside a running session to which an operator's view connects, and the thread that serves it.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "experiment/base/spsc_ring.h"
+#include "experiment/watch/operator_command.h"
+#include "experiment/watch/view_news.h"
+
+namespace overt {
+
+/// In a session's folder.
+inline constexpr std::string_view operator_socket_name = "operator.sock";
+
+/// Refuses, before a session begins, a place where no socket can be: throws InputError.
+void check_socket_place(const std::filesystem::path& socket);
+
+/// Serves up to four views on a thread of its own. The session's thread only pushes news and takes commands: it
+/// never waits for a view, nor for the thread. What finds no room in the ring is dropped and counted; a view
+/// that does not read misses lines and is told how many. A view that sends what is not understood is cut off.
+class OperatorServer {
+  public:
+    struct Options {
+        std::filesystem::path socket;
+        SessionFacts facts;
+        std::vector<ViewedTrial> trials; ///< by their index
+        int completed = 0;               ///< of them, before this sitting
+        std::size_t ring_capacity = 8192;
+        /// Told on the server's thread what the operator should know; may be empty.
+        std::function<void(const std::string&)> tell = {};
+    };
+
+    /// Opens the socket, for this user alone. One that nobody serves any more is replaced. Throws InputError if
+    /// another session serves it, and DeviceError if it cannot be opened.
+    explicit OperatorServer(Options options);
+    /// Tells the views what is left and that it is over, for at most a fifth of a second, and removes the socket.
+    ~OperatorServer();
+    OperatorServer(const OperatorServer&) = delete;
+    OperatorServer& operator=(const OperatorServer&) = delete;
+
+    /// On the session's thread. Neither waits nor allocates.
+    void push(const ViewNews& news) noexcept {
+        if (!news_.try_push(news))
+            dropped_.fetch_add(1, std::memory_order_relaxed);
+    }
+    bool next_command(OperatorCommand& into) noexcept { return commands_.try_pop(into); }
+
+    const std::filesystem::path& socket() const { return options_.socket; }
+    std::int64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
+
+  private:
+    struct View;
+    void serve(const std::stop_token& stop);
+    void take_news();
+    void wait_for_views();
+    void accept_view();
+    void receive(View& view);
+    void understand(View& view, std::string_view line);
+    void cut_off(View& view, const std::string& why);
+    void tell_state(bool even_if_old);
+    void send_waiting(View& view);
+
+    Options options_;
+    int listener_ = -1;
+    SpscRing<ViewNews> news_;
+    SpscRing<OperatorCommand> commands_{64};
+    std::atomic<std::int64_t> dropped_{0};
+    // Of the thread.
+    ViewBuilder builder_;
+    std::vector<View> views_;
+    std::deque<std::string> recent_; ///< lines of events, for a view that comes later
+    bool is_new_ = true;
+    std::jthread thread_;
+};
+
+} // namespace overt

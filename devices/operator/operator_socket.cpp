@@ -1,0 +1,45 @@
+#include "devices/operator/operator_socket.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "experiment/base/error.h"
+
+namespace overt {
+
+SocketAddress::SocketAddress(const std::filesystem::path& socket) {
+    const std::filesystem::path folder = socket.has_parent_path() ? socket.parent_path() : ".";
+    folder_ = ::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
+    if (folder_ < 0)
+        throw InputError(fmt::format("{}: no socket can be there: {}: name a folder that exists", socket.string(),
+                                     std::strerror(errno)));
+    const std::string name = fmt::format("/proc/self/fd/{}/{}", folder_, socket.filename().string());
+    if (!socket.has_filename() || name.size() >= sizeof address_.sun_path) {
+        ::close(folder_);
+        throw InputError(fmt::format("{}: no socket can be called so: give it a short name", socket.string()));
+    }
+    address_.sun_family = AF_UNIX;
+    std::memcpy(address_.sun_path, name.c_str(), name.size() + 1);
+}
+
+SocketAddress::~SocketAddress() { ::close(folder_); }
+
+const sockaddr* SocketAddress::address() const noexcept {
+    return static_cast<const sockaddr*>(static_cast<const void*>(&address_));
+}
+
+int connect_to(const SocketAddress& address) {
+    const int socket = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    if (socket < 0)
+        throw DeviceError(fmt::format("no socket can be opened: {}", std::strerror(errno)));
+    if (::connect(socket, address.address(), address.size()) == 0)
+        return socket;
+    ::close(socket);
+    return -1;
+}
+
+} // namespace overt

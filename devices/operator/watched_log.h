@@ -1,0 +1,55 @@
+/// A session's log that also tells the operator's view what goes into it.
+#pragma once
+
+#include <optional>
+
+#include "devices/operator/operator_panel.h"
+#include "devices/operator/operator_server.h"
+#include "experiment/ports/clock.h"
+#include "experiment/ports/session_log.h"
+
+namespace overt {
+
+/// Passes everything on to `record` first, unchanged.
+class WatchedLog final : public SessionLog {
+  public:
+    /// All of it must outlive this.
+    WatchedLog(SessionLog& record, OperatorServer& server, OperatorPanel& panel, const Clock& clock)
+        : record_(record), server_(server), panel_(panel), clock_(clock) {}
+
+    void flip(const FlipRecord& flip) noexcept override;
+    void missed(const MissedRefresh& refresh) noexcept override;
+    void sample(int trial, const GazeSample& sample) noexcept override;
+    void tracker_item(int trial, const TrackerItem& item) noexcept override { record_.tracker_item(trial, item); }
+    void clock_pair(const ClockPair& pair) noexcept override { record_.clock_pair(pair); }
+    void event(const SessionEvent& event) override;
+    void calibration(const RecordedCalibration& calibration) override;
+    void observer_fields(const std::vector<RecordedObserverField>& fields) override {
+        record_.observer_fields(fields);
+    }
+    void consent(const RecordedConsent& consent) override { record_.consent(consent); }
+    void buttons(const std::vector<RecordedButton>& buttons) override { record_.buttons(buttons); }
+    void markers(const std::vector<RecordedMarker>& markers) override { record_.markers(markers); }
+    void answer_recorded(const RecordedAnswer& answer) override { record_.answer_recorded(answer); }
+    void trial_started(const Trial& trial, SessionTime at) override;
+    void trial_finished(const Trial& trial, const TrialOutcome& outcome) override;
+
+    /// What the log is not told.
+    void entered(SessionPhase phase, int trial) noexcept;
+    void level(const AudioLevel& level) noexcept;
+
+  private:
+    void add_counts(ViewNews& news) const noexcept;
+
+    SessionLog& record_;
+    OperatorServer& server_;
+    OperatorPanel& panel_;
+    const Clock& clock_;
+    std::int64_t samples_ = 0, lost_ = 0, samples_in_trial_ = 0, lost_in_trial_ = 0;
+    std::int64_t missed_ = 0, missed_in_trial_ = 0;
+    std::optional<TrackerTime> told_gaze_[2]; ///< by eye
+    int told_pose_ = -1;
+    std::optional<SessionTime> told_level_;
+};
+
+} // namespace overt

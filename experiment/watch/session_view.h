@@ -1,0 +1,94 @@
+/// What the operator's view shows of a running session, and the lines in which it travels over a socket: JSON,
+/// one object a line, no line longer than longest_view_line bytes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiment/units.h"
+
+namespace overt {
+
+/// Of the language. Both sides say theirs first; neither goes on with another.
+inline constexpr int view_version = 1;
+inline constexpr std::size_t longest_view_line = 16384;
+
+/// What does not change while a session runs.
+struct SessionFacts {
+    std::string protocol, observer;
+    std::string folder;          ///< of the session, absolute
+    int trials = 0;              ///< of the whole session
+    double refresh_hz = 0.0;     ///< of the display
+    int width_px = 0, height_px = 0; ///< of the display
+    int image_width_px = 0, image_height_px = 0; ///< of the stimulus, in the middle of the display
+    int poses = 0;               ///< of a stimulus
+    bool has_tracker = false;
+    double drift_limit_deg = 0.0, mean_limit_deg = 0.0, max_limit_deg = 0.0; ///< of the protocol
+    std::vector<std::string> skip_reasons; ///< that `skip` may give, from 1
+};
+
+/// Where gaze was, a point for every hundredth of a second or more.
+struct ViewedGaze {
+    bool is_right = true;
+    std::optional<ScreenPoint> place; ///< nothing: the eye was lost
+};
+
+/// Everything that changes. Each line of it is complete, so that one that is left out does no harm.
+struct SessionView {
+    double time_s = 0.0; ///< session time of what is newest here
+    std::string phase;   ///< see name_of(SessionPhase)
+    int trial = -1;      ///< from 0; -1: none is under way
+    std::string task, question, sculpture, material; ///< of the trial under way, or the last
+    std::string light_file; ///< pictures of its stimulus (light_pictures.h), relative to the folder; may be empty
+    int done = 0;        ///< trials that are completed
+    int failed = 0;      ///< attempts that did not count
+    std::optional<double> first_trial_s; ///< session time at which the first trial of this sitting began
+    int done_before = 0; ///< completed when that began
+    int pose = -1;       ///< that is shown; -1: no animation is
+    int refresh = 0;     ///< of the presentation under way
+    std::int64_t missed = 0, missed_in_trial = 0; ///< refreshes
+    std::int64_t samples = 0, lost = 0;           ///< of the session's trials; lost: without gaze
+    std::int64_t samples_in_trial = 0, lost_in_trial = 0;
+    std::vector<ViewedGaze> gaze; ///< since the line before, at most longest_gaze of them, the newest last
+    std::optional<double> validation_mean_deg, validation_max_deg, drift_deg; ///< the last
+    bool tracker_is_lost = false;
+    std::string asks; ///< the question that the operator is to answer now; empty: none
+    std::optional<double> level_rms, level_peak; ///< of the microphone, shares of full scale; while it records
+    bool is_clipping = false;
+    std::string answer;            ///< the last
+    std::int64_t dropped = 0;      ///< pieces of news that found no room on their way here
+    bool is_over = false;          ///< nothing comes after this
+    static constexpr std::size_t longest_gaze = 32;
+};
+
+/// Something that the record has, or that the session answers to a command.
+struct ViewedEvent {
+    double at_s = 0.0;
+    int trial = -1; ///< -1: outside of trials
+    std::string kind, detail;
+};
+
+/// Lines with their newlines; always valid UTF-8. A text that is too long is cut.
+std::string line_of(const SessionFacts& facts);
+std::string line_of(const SessionView& view);
+std::string line_of(const ViewedEvent& event);
+
+/// What a line of a session says; nothing in any of them for a line that is not understood.
+struct ViewLine {
+    std::optional<SessionFacts> facts;
+    std::optional<SessionView> view;
+    std::optional<ViewedEvent> event;
+    int version = 0; ///< of facts: what the session speaks, also if it is another language
+};
+ViewLine read_view_line(std::string_view line);
+
+/// Seconds until all trials are done at the pace of those that are; nothing before the first of this sitting.
+std::optional<double> time_left_s(const SessionFacts& facts, const SessionView& view);
+
+/// Share of samples without gaze, 0 … 1; nothing without samples.
+std::optional<double> lost_share(std::int64_t samples, std::int64_t lost);
+
+} // namespace overt

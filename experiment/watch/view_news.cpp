@@ -1,0 +1,117 @@
+#include "experiment/watch/view_news.h"
+
+#include <algorithm>
+
+#include "experiment/ports/event_kinds.h"
+
+namespace overt {
+
+namespace {
+
+template <std::size_t size> void set(std::array<char, size>& into, std::string_view from) noexcept {
+    std::size_t length = std::min(from.size(), size - 1);
+    if (length < from.size())
+        while (length > 0 && (static_cast<unsigned char>(from[length]) & 0xC0u) == 0x80u)
+            --length;
+    std::copy_n(from.begin(), length, into.begin());
+    into[length] = '\0';
+}
+
+} // namespace
+
+void ViewNews::set_word(std::string_view from) noexcept { set(word, from); }
+void ViewNews::set_text(std::string_view from) noexcept { set(text, from); }
+
+ViewBuilder::ViewBuilder(std::vector<ViewedTrial> trials, int completed) : trials_(std::move(trials)) {
+    view_.phase = name_of(SessionPhase::set_up);
+    view_.done = view_.done_before = completed;
+}
+
+std::optional<ViewedEvent> ViewBuilder::apply(const ViewNews& news) {
+    view_.time_s = std::max(view_.time_s, to_seconds(news.at));
+    switch (news.kind) {
+    case ViewNews::Kind::phase:
+        view_.phase = name_of(news.phase);
+        view_.trial = news.trial;
+        view_.pose = -1;
+        view_.asks.clear();
+        view_.level_rms.reset();
+        view_.level_peak.reset();
+        return std::nullopt;
+    case ViewNews::Kind::trial_started:
+        view_.trial = news.trial;
+        if (!view_.first_trial_s)
+            view_.first_trial_s = to_seconds(news.at);
+        view_.samples_in_trial = view_.lost_in_trial = view_.missed_in_trial = 0;
+        view_.refresh = 0;
+        if (news.trial >= 0 && static_cast<std::size_t>(news.trial) < trials_.size()) {
+            const ViewedTrial& trial = trials_[static_cast<std::size_t>(news.trial)];
+            view_.task = trial.task;
+            view_.question = trial.question;
+            view_.sculpture = trial.sculpture;
+            view_.material = trial.material;
+            view_.light_file = trial.light_file;
+        }
+        return std::nullopt;
+    case ViewNews::Kind::trial_ended:
+        ++(news.counts ? view_.done : view_.failed);
+        view_.answer = news.text.data();
+        if (news.has_value)
+            view_.drift_deg = news.value;
+        view_.pose = -1;
+        break;
+    case ViewNews::Kind::flip:
+        view_.pose = news.pose;
+        view_.refresh = news.refresh;
+        view_.missed = news.missed;
+        view_.missed_in_trial = news.missed_in_trial;
+        return std::nullopt;
+    case ViewNews::Kind::gaze:
+        if (view_.gaze.size() == SessionView::longest_gaze)
+            view_.gaze.erase(view_.gaze.begin());
+        view_.gaze.push_back({news.is_right, news.has_value ? std::optional(news.place) : std::nullopt});
+        break;
+    case ViewNews::Kind::validation:
+        view_.validation_mean_deg = news.value;
+        view_.validation_max_deg = news.other;
+        return std::nullopt;
+    case ViewNews::Kind::level:
+        view_.level_rms = news.value;
+        view_.level_peak = news.other;
+        view_.is_clipping = news.counts;
+        return std::nullopt;
+    case ViewNews::Kind::event:
+    case ViewNews::Kind::reply: {
+        const bool is_reply = news.kind == ViewNews::Kind::reply;
+        ViewedEvent event{to_seconds(news.at), news.trial,
+                          is_reply ? "operator's view" : std::string(news.word.data()), news.text.data()};
+        if (!is_reply)
+            apply_event(event);
+        // A change of phase is shown as such.
+        return event.kind == phase_event ? std::nullopt : std::optional(std::move(event));
+    }
+    }
+    // Gaze and the end of a trial bring the counts of samples.
+    view_.samples = news.samples;
+    view_.lost = news.lost;
+    view_.samples_in_trial = news.samples_in_trial;
+    view_.lost_in_trial = news.lost_in_trial;
+    if (news.kind == ViewNews::Kind::trial_ended) {
+        view_.missed = news.missed;
+        view_.missed_in_trial = news.missed_in_trial;
+    }
+    return std::nullopt;
+}
+
+void ViewBuilder::apply_event(const ViewedEvent& event) {
+    if (event.kind == operator_asked_event)
+        view_.asks = event.detail;
+    else if (event.kind == operator_answered_event)
+        view_.asks.clear();
+    else if (event.kind == tracker_lost_event)
+        view_.tracker_is_lost = true;
+    else if (event.kind == tracker_regained_event)
+        view_.tracker_is_lost = false;
+}
+
+} // namespace overt

@@ -1,0 +1,78 @@
+/// What a running session tells those who watch it: plain values that go through a ring, and what becomes of
+/// them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiment/gaze.h"
+#include "experiment/ports/session_phase.h"
+#include "experiment/session_time.h"
+#include "experiment/watch/session_view.h"
+
+namespace overt {
+
+/// One piece of news. What a kind does not name has no meaning in it. Counts are of all that was until now, so
+/// that a piece that found no room does not make those after it wrong.
+struct ViewNews {
+    enum class Kind : std::uint8_t {
+        phase,         ///< `phase`, `trial`
+        trial_started, ///< `trial`, its place in the schedule
+        trial_ended,   ///< `counts`: it is completed; `text`: the answer; `value`: drift in deg, if `has_value`
+        flip,          ///< `pose`, `refresh`, missed
+        gaze,          ///< `is_right`, `place` if `has_value`, samples
+        event,         ///< `word`: its kind, `text`: its detail
+        validation,    ///< `value` and `other`: mean and largest error in deg
+        level,         ///< `value` and `other`: rms and peak; `counts`: it clips
+        reply,         ///< `text`: to a command
+    };
+    Kind kind = Kind::event;
+    SessionPhase phase = SessionPhase::set_up;
+    bool counts = false, has_value = false, is_right = true;
+    int trial = -1;
+    int pose = -1, refresh = 0;
+    SessionTime at;
+    double value = 0.0, other = 0.0;
+    ScreenPoint place;
+    std::int64_t samples = 0, lost = 0, samples_in_trial = 0, lost_in_trial = 0;
+    std::int64_t missed = 0, missed_in_trial = 0;
+    std::array<char, 32> word{};
+    std::array<char, 256> text{};
+
+    /// Cut at the end of a character; the last byte is always 0.
+    void set_word(std::string_view from) noexcept;
+    void set_text(std::string_view from) noexcept;
+};
+
+/// What is told of a trial that begins, by its place in the schedule.
+struct ViewedTrial {
+    std::string task, question, sculpture, material, light_file;
+};
+
+/// Makes of the news what is to be shown. For one thread.
+class ViewBuilder {
+  public:
+    /// `trials`: by their index. `completed`: how many of them are done before this sitting.
+    ViewBuilder(std::vector<ViewedTrial> trials, int completed);
+
+    /// Gives an event if the news is one that is listed.
+    std::optional<ViewedEvent> apply(const ViewNews& news);
+
+    const SessionView& view() const { return view_; }
+    /// Gaze is told once.
+    void forget_gaze() { view_.gaze.clear(); }
+    void set_dropped(std::int64_t dropped) { view_.dropped = dropped; }
+    void set_over() { view_.is_over = true; }
+
+  private:
+    void apply_event(const ViewedEvent& event);
+
+    std::vector<ViewedTrial> trials_;
+    SessionView view_;
+};
+
+} // namespace overt

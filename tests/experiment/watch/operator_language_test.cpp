@@ -1,0 +1,224 @@
+/// The language of the operator's socket.
+#include <catch2/catch.hpp>
+
+#include "experiment/ports/event_kinds.h"
+#include "experiment/watch/operator_command.h"
+#include "experiment/watch/session_view.h"
+#include "experiment/watch/view_news.h"
+#include "experiment/watch/view_text.h"
+
+using namespace overt;
+
+namespace {
+
+SessionView some_view() {
+    SessionView view;
+    view.time_s = 61.25;
+    view.phase = "stimulus";
+    view.trial = 3;
+    view.task = "age";
+    view.question = "How <b>old</b>?\nSay it \"aloud\" – 好";
+    view.sculpture = "bust";
+    view.material = "matt";
+    view.light_file = "stimuli/bust_matt.exr";
+    view.done = 3;
+    view.failed = 1;
+    view.first_trial_s = 21.25;
+    view.done_before = 1;
+    view.pose = 12;
+    view.refresh = 480;
+    view.missed = 4;
+    view.missed_in_trial = 2;
+    view.samples = 1000;
+    view.lost = 50;
+    view.samples_in_trial = 100;
+    view.lost_in_trial = 10;
+    view.gaze = {{true, ScreenPoint{12.5, -3.0}}, {false, {}}};
+    view.validation_mean_deg = 0.25;
+    view.validation_max_deg = 0.75;
+    view.drift_deg = 1.5;
+    view.tracker_is_lost = true;
+    view.asks = "Go on?";
+    view.level_rms = 0.1;
+    view.level_peak = 0.5;
+    view.is_clipping = true;
+    view.answer = "thirty";
+    view.dropped = 7;
+    view.is_over = true;
+    return view;
+}
+
+SessionFacts some_facts() {
+    return {"small", "P01", "/data/s",        10, 120.0, 544, 192, 128, 128, 31, true, 1.0, 0.5, 1.0,
+            {"sleepy", "a \"noise\""}};
+}
+
+ViewNews news_of(ViewNews::Kind kind, double at_s) {
+    ViewNews news;
+    news.kind = kind;
+    news.at = SessionTime(from_seconds(at_s));
+    return news;
+}
+
+} // namespace
+
+TEST_CASE("a state comes out of its line as it went in", "[unit]") {
+    const SessionView view = some_view();
+    const std::string line = line_of(view);
+    CHECK(line.find('\n') == line.size() - 1);
+    const ViewLine read = read_view_line(line);
+    REQUIRE(read.view);
+    // Every member is in the line, so that equal lines are equal states.
+    CHECK(line_of(*read.view) == line);
+    CHECK(read.view->gaze.size() == 2);
+    CHECK(read.view->gaze[0].place == view.gaze[0].place);
+    CHECK(!read.view->gaze[1].place);
+    CHECK(read.view->drift_deg == view.drift_deg);
+    CHECK(line_of(*read.view) != line_of(SessionView()));
+
+    const ViewLine facts = read_view_line(line_of(some_facts()));
+    REQUIRE(facts.facts);
+    CHECK(facts.version == view_version);
+    CHECK(line_of(*facts.facts) == line_of(some_facts()));
+    const ViewLine event = read_view_line(line_of(ViewedEvent{1.5, 2, "kind", "de\ntail"}));
+    REQUIRE(event.event);
+    CHECK(event.event->detail == "de\ntail");
+}
+
+TEST_CASE("no state makes a line that is longer than the language allows", "[unit]") {
+    SessionView view = some_view();
+    const std::string endless(100'000, '\x01');
+    view.task = view.question = view.sculpture = view.material = view.asks = view.answer = endless;
+    view.gaze.assign(10'000, ViewedGaze{true, ScreenPoint{-1234.56789012345, 1e-300}});
+    const std::string line = line_of(view);
+    CHECK(line.size() <= longest_view_line);
+    REQUIRE(read_view_line(line).view);
+    CHECK(read_view_line(line).view->gaze.size() == SessionView::longest_gaze);
+}
+
+TEST_CASE("what is no line of the language is nothing, whatever it is", "[unit]") {
+    for (const char* const line : {"", "{", "[]", "null", "{\"state\":3}", "{\"overt_watch\":99,\"trials\":3}",
+                                   "GET / HTTP/1.1", "\xff\xfe", "{\"event\":[]}"}) {
+        const ViewLine read = read_view_line(line);
+        CHECK((!read.facts && !read.view && !read.event));
+        const CommandLine command = read_command_line(line);
+        CHECK(!command.command);
+    }
+    CHECK(read_view_line("{\"overt_watch\":99}").version == 99);
+    // Members of another kind than they should be leave the state as it begins.
+    const ViewLine odd = read_view_line(R"({"state":{"trial":"x","phase":4,"gaze":[1,["right","a","b"]],"lost":null}})");
+    REQUIRE(odd.view);
+    CHECK(odd.view->trial == -1);
+    CHECK(odd.view->gaze.size() == 1);
+}
+
+TEST_CASE("a command is read as it is written, and nothing else is one", "[unit]") {
+    for (const char* const words : {"pause", "recalibrate", "drift check", "repeat", "reject", "skip", "skip 2", "abort",
+                                    "yes", "no", "note moved the chair – 好"}) {
+        const auto command = operator_command(words);
+        REQUIRE(command);
+        CHECK(words_of(*command) == words);
+        const CommandLine read = read_command_line(line_of(*command));
+        REQUIRE(read.command);
+        CHECK(words_of(*read.command) == words);
+    }
+    CHECK(read_command_line(line_of_greeting()).greeting == view_version);
+    const std::string too_long = "note " + std::string(longest_note + 1, 'x');
+    for (const std::string& words :
+         {std::string("skip 0"), std::string("skip 12"), std::string("Pause"), std::string("note "), too_long,
+          std::string("note \xff"), std::string("note a\nb"), std::string("pause now"), std::string()})
+        CHECK(!operator_command(words));
+}
+
+TEST_CASE("a view is the sum of its news, and counts stay right where some were dropped", "[unit]") {
+    ViewBuilder all({{"task", "What?", "bust", "matt", ""}, {}}, 0), some({{"task", "What?", "bust", "matt", ""}, {}}, 0);
+    std::vector<ViewNews> news;
+    news.push_back(news_of(ViewNews::Kind::phase, 1.0));
+    news.back().phase = SessionPhase::stimulus;
+    news.back().trial = 0;
+    news.push_back(news_of(ViewNews::Kind::trial_started, 1.0));
+    news.back().trial = 0;
+    for (int i = 1; i <= 40; ++i) {
+        news.push_back(news_of(ViewNews::Kind::gaze, 1.0 + 0.1 * i));
+        news.back().samples = news.back().samples_in_trial = 100 * i;
+        news.back().lost = news.back().lost_in_trial = i;
+        news.back().has_value = i % 2 == 0;
+    }
+    for (const ViewNews& one : news)
+        all.apply(one);
+    for (std::size_t i = 0; i < news.size(); ++i)
+        if (i < 2 || i % 7 == 0 || i + 1 == news.size())
+            some.apply(news[i]);
+    CHECK(all.view().samples == 4000);
+    CHECK(all.view().lost == 40);
+    CHECK(all.view().sculpture == "bust");
+    CHECK(all.view().phase == "stimulus");
+    CHECK(all.view().gaze.size() == SessionView::longest_gaze);
+    CHECK(some.view().samples == all.view().samples);
+    CHECK(some.view().lost == all.view().lost);
+    CHECK(some.view().time_s == all.view().time_s);
+}
+
+TEST_CASE("what the session asks stands in the view until it is answered", "[unit]") {
+    ViewBuilder builder({}, 0);
+    ViewNews asked = news_of(ViewNews::Kind::event, 2.0);
+    asked.set_word(operator_asked_event);
+    asked.set_text("Connect again?");
+    const auto event = builder.apply(asked);
+    REQUIRE(event);
+    CHECK(event->detail == "Connect again?");
+    CHECK(builder.view().asks == "Connect again?");
+    ViewNews answered = news_of(ViewNews::Kind::event, 3.0);
+    answered.set_word(operator_answered_event);
+    builder.apply(answered);
+    CHECK(builder.view().asks.empty());
+}
+
+TEST_CASE("a text that is too long for a piece of news is cut between two characters", "[unit]") {
+    ViewNews news;
+    std::string text(254, 'a');
+    text += "é";
+    news.set_text(text);
+    CHECK(std::string(news.text.data()) == std::string(254, 'a'));
+}
+
+TEST_CASE("the time that is left is that of the trials to come at the pace of those that are done", "[unit]") {
+    SessionFacts facts = some_facts();
+    SessionView view = some_view();
+    // Two trials of this sitting took 40 s; seven are to come.
+    CHECK(time_left_s(facts, view) == Approx(140.0));
+    view.done = view.done_before;
+    CHECK(!time_left_s(facts, view));
+    CHECK(duration_text(140.0) == "2 min 20 s");
+    CHECK(duration_text({}) == "-");
+}
+
+TEST_CASE("the view as text fits the terminal, says what is wrong and shows gaze on the stimulus", "[unit]") {
+    SessionFacts facts = some_facts();
+    SessionView view = some_view();
+    view.is_over = false;
+    ViewedPicture picture{4, 4, std::vector<float>(16, 1.0f)};
+    picture.lightness[0] = 0.0f;
+    // The middle of the stimulus, which is in the middle of the display.
+    const std::deque<ViewedGaze> gaze{{true, ScreenPoint{272.0, 96.0}}};
+    std::deque<ViewedEvent> events;
+    for (int i = 0; i < 50; ++i)
+        events.push_back({1.0 * i, 0, "phase", std::string(200, 'x')});
+    const ViewText text{facts, view, events, gaze, picture};
+    const std::string screen = screen_of(text, 80, 40);
+    int rows = 0, in_row = 0;
+    for (const char letter : screen) {
+        in_row = letter == '\n' ? 0 : in_row + ((static_cast<unsigned char>(letter) & 0xC0u) != 0x80u ? 1 : 0);
+        rows += letter == '\n' ? 1 : 0;
+        CHECK(in_row < 80);
+    }
+    CHECK(rows <= 38);
+    for (const char* const word : {"trial 4 of 10", "3 of 10 trials", "2 min 20 s left", "LOST", "10.0 %", "5.0 %",
+                                   "1.50 deg, more than 1", "too loud", "Go on?", "How old? Say it", "7 pieces"})
+        CHECK(screen.find(word) != std::string::npos);
+    const std::size_t gaze_at = screen.find('O', screen.find("@@@@"));
+    REQUIRE(gaze_at != std::string::npos);
+    CHECK(screen[gaze_at - 1] == '@');
+    CHECK(screen[gaze_at + 1] == '@');
+    CHECK(summary_of(text).find("3 of 10 done") != std::string::npos);
+}
