@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "devices/operator/operator_client.h"
 #include "devices/operator/operator_socket.h"
 #include "experiment/base/error.h"
 #include "experiment/base/utf8_text.h"
@@ -29,38 +30,34 @@ constexpr std::chrono::milliseconds between_states{33}, longest_rest{15}, longes
 /// Even where nothing changes, so that a view can tell a session that stands from one that is gone.
 constexpr std::chrono::milliseconds longest_silence{500};
 
+/// Refuses a place that is taken; a socket that nobody serves is not.
+void check_is_free(const std::filesystem::path& file) {
+    struct stat there {};
+    if (::lstat(file.c_str(), &there) != 0)
+        return;
+    const char* const taken = !S_ISSOCK(there.st_mode) ? "there is a file that is no socket"
+                              : is_served(file)        ? "another session serves this socket"
+                                                       : nullptr;
+    if (taken)
+        throw InputError(fmt::format("{}: {}: name another with --operator-socket", file.string(), taken));
+}
+
+/// Whoever finds the file can connect: it gets its name when all is ready.
 int open_listener(const std::filesystem::path& file) {
-    const SocketAddress address(file);
+    check_is_free(file);
+    const std::filesystem::path unready = file.string() + ".new";
+    const SocketAddress address(unready);
+    ::unlink(unready.c_str());
     const int listener = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    const auto refuse = [&]() -> int {
+    if (listener < 0 || ::bind(listener, address.address(), address.size()) != 0 ||
+        ::chmod(unready.c_str(), S_IRUSR | S_IWUSR) != 0 || ::listen(listener, 4) != 0 ||
+        ::rename(unready.c_str(), file.c_str()) != 0) {
         const std::string why = std::strerror(errno);
+        ::unlink(unready.c_str());
         if (listener >= 0)
             ::close(listener);
         throw DeviceError(fmt::format("{}: the operator's socket cannot be opened: {}", file.string(), why));
-    };
-    if (listener < 0)
-        return refuse();
-    if (::bind(listener, address.address(), address.size()) != 0) {
-        if (errno != EADDRINUSE)
-            return refuse();
-        struct stat there {};
-        const int served = connect_to(address);
-        const bool is_left_over = served < 0 && ::lstat(file.c_str(), &there) == 0 && S_ISSOCK(there.st_mode);
-        if (served >= 0)
-            ::close(served);
-        if (!is_left_over) {
-            ::close(listener);
-            throw InputError(fmt::format("{}: {}: name another with --operator-socket", file.string(),
-                                         served >= 0 ? "another session serves this socket"
-                                                     : "there is a file that is no socket"));
-        }
-        ::unlink(file.c_str());
-        if (::bind(listener, address.address(), address.size()) != 0)
-            return refuse();
     }
-    // Nobody can connect before listen(): there is no moment in which others could.
-    if (::chmod(file.c_str(), S_IRUSR | S_IWUSR) != 0 || ::listen(listener, 4) != 0)
-        return refuse();
     return listener;
 }
 

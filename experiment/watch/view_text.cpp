@@ -109,10 +109,11 @@ std::vector<std::string> figures_of(const ViewText& of) {
     const SessionView& view = of.view;
     std::vector<std::string> lines;
     lines.push_back(fmt::format("{}, observer {}: {}", facts.protocol, facts.observer, where_it_stands(of)));
-    lines.push_back(fmt::format("progress  [{}] {} of {} trials, {} failed attempts; {} gone, {} left",
-                                bar(facts.trials > 0 ? static_cast<double>(view.done) / facts.trials : 0.0, 20),
-                                view.done, facts.trials, view.failed, duration_text(view.time_s),
-                                duration_text(view.is_over ? std::optional(0.0) : time_left_s(facts, view))));
+    lines.push_back(fmt::format(
+        "progress  [{}] {} of {} trials{}; {} left, {} gone",
+        bar(facts.trials > 0 ? static_cast<double>(view.done) / facts.trials : 0.0, 10), view.done, facts.trials,
+        view.failed > 0 ? fmt::format(" ({} failed)", view.failed) : "",
+        duration_text(view.is_over ? std::optional(0.0) : time_left_s(facts, view)), duration_text(view.time_s)));
     if (!view.task.empty())
         lines.push_back(fmt::format("stimulus  {}, {}: {}", view.sculpture, view.material, plain(view.question)));
     lines.push_back(fmt::format("display   {} missed refreshes in this trial, {} in the session",

@@ -1,61 +1,13 @@
 /// The same seeds give the same session, whatever it is drawn with.
 #include <catch2/catch.hpp>
 
-#include <map>
-#include <sstream>
-
 #include "render/gl/headless_context.h"
-#include "tests/app/small_experiment.h"
+#include "tests/app/session/exported_tables.h"
 #include "tests/support/gl_contexts.h"
 #include "tests/support/skip.h"
 
 using namespace overt;
 using namespace overt::test;
-
-namespace {
-
-using Tables = std::map<std::string, std::string>;
-
-/// A table without its first two columns: the observer, and the number of the session, in which the sessions
-/// that are compared here differ.
-std::string without_session(const std::string& table) {
-    std::istringstream lines(table);
-    std::string rest;
-    for (std::string line; std::getline(lines, line);)
-        rest += line.substr(line.find('\t', line.find('\t') + 1)) + '\n';
-    return rest;
-}
-
-/// All files of an export by their names, byte for byte, less the number of the session.
-Tables exported(const SmallExperiment& experiment, int session) {
-    const std::filesystem::path folder = experiment.folder().path() / ("tables" + std::to_string(session));
-    const ProgramRun run =
-        experiment.overt({"export", experiment.session(session).string(), "--out", folder.string()});
-    if (run.exit_code != 0)
-        throw std::runtime_error(run.err);
-    Tables tables;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        tables[entry.path().filename().string()] = entry.path().extension() == ".tsv"
-                                                       ? without_session(text_of(entry.path()))
-                                                       : text_of(entry.path());
-    return tables;
-}
-
-/// Names of the files that differ; comparing the files themselves would print megabytes.
-std::vector<std::string> differing(const Tables& a, const Tables& b) {
-    std::vector<std::string> names;
-    for (const auto& [name, text] : a) {
-        if (!b.contains(name) || b.at(name) != text)
-            names.push_back(name);
-    }
-    for (const auto& [name, text] : b) {
-        if (!a.contains(name))
-            names.push_back(name);
-    }
-    return names;
-}
-
-} // namespace
 
 TEST_CASE("the same seeds export the same bytes, other seeds do not", "[session]") {
     const SmallExperiment experiment;

@@ -214,8 +214,10 @@ TEST_CASE("the view as text fits the terminal, says what is wrong and shows gaze
     }
     CHECK(rows <= 38);
     for (const char* const word : {"trial 4 of 10", "3 of 10 trials", "2 min 20 s left", "LOST", "10.0 %", "5.0 %",
-                                   "1.50 deg, more than 1", "too loud", "Go on?", "How old? Say it", "7 pieces"})
+                                   "1.50 deg, more than 1", "too loud", "Go on?", "How old? Say it", "7 pieces"}) {
+        INFO(word << "\n" << screen);
         CHECK(screen.find(word) != std::string::npos);
+    }
     const std::size_t gaze_at = screen.find('O', screen.find("@@@@"));
     REQUIRE(gaze_at != std::string::npos);
     CHECK(screen[gaze_at - 1] == '@');

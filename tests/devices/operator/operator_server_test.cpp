@@ -1,0 +1,214 @@
+/// The socket of the operator's view, and the panel behind it.
+#include <catch2/catch.hpp>
+
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "devices/operator/operator_client.h"
+#include "devices/operator/operator_panel.h"
+#include "devices/operator/operator_server.h"
+#include "devices/operator/operator_socket.h"
+#include "experiment/base/error.h"
+#include "tests/support/temporary_folder.h"
+
+using namespace overt;
+using namespace overt::test;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+class StandingClock final : public Clock {
+  public:
+    SessionTime now() const noexcept override { return {}; }
+    void wait_until(SessionTime) noexcept override {}
+};
+
+/// Presses nothing.
+class SilentPanel final : public ResponsePanel {
+  public:
+    void await_key(SessionTime) override {}
+    void await_response(const Trial&, SessionTime) override {}
+    void await_decision(bool, SessionTime) override {}
+    void await_entry(SessionTime) override {}
+    std::optional<ResponsePress> poll() noexcept override { return std::nullopt; }
+    std::string answer() override { return {}; }
+};
+
+OperatorServer::Options options_at(const std::filesystem::path& socket) {
+    OperatorServer::Options options;
+    options.socket = socket;
+    options.facts.protocol = "small";
+    options.facts.trials = 10;
+    return options;
+}
+
+ViewNews numbered(std::int64_t samples) {
+    ViewNews news;
+    news.kind = ViewNews::Kind::gaze;
+    news.samples = samples;
+    return news;
+}
+
+/// Until the press comes, which another thread brings.
+std::optional<ResponsePress> awaited_press(OperatorPanel& panel) {
+    for (int tries = 0; tries < 5000; ++tries) {
+        if (const auto press = panel.poll())
+            return press;
+        std::this_thread::sleep_for(2ms);
+    }
+    return std::nullopt;
+}
+
+/// Reads until the newest event says this; false if it never does.
+bool comes_to_say(OperatorClient& client, std::string_view words) {
+    for (int tries = 0; tries < 500; ++tries) {
+        client.read(20ms);
+        for (const ViewedEvent& event : client.take_events())
+            if (event.detail.find(words) != std::string::npos)
+                return true;
+    }
+    return false;
+}
+
+} // namespace
+
+TEST_CASE("pushing never waits: what a ring has no room for is dropped and counted", "[unit]") {
+    const TemporaryFolder folder;
+    OperatorServer::Options options = options_at(folder.path() / "view.sock");
+    options.ring_capacity = 4;
+    OperatorServer server(std::move(options));
+    constexpr std::int64_t pushed = 100'000;
+    for (std::int64_t i = 1; i <= pushed; ++i)
+        server.push(numbered(i));
+    CHECK(server.dropped() > 0);
+    CHECK(server.dropped() < pushed);
+    OperatorClient client(folder.path() / "view.sock");
+    // A counter in news that came is right, whatever was dropped before it.
+    std::this_thread::sleep_for(50ms);
+    server.push(numbered(pushed + 1));
+    while (client.view().samples <= pushed)
+        client.read(20ms);
+    CHECK(client.view().samples == pushed + 1);
+    CHECK(client.view().dropped == server.dropped());
+}
+
+TEST_CASE("a view that comes late is told what was, and one that does not read holds up nobody", "[unit]") {
+    const TemporaryFolder folder;
+    OperatorServer server(options_at(folder.path() / "view.sock"));
+    ViewNews event;
+    event.set_word("operator's note");
+    event.set_text("before it came");
+    server.push(event);
+    OperatorClient stalled(folder.path() / "view.sock"); // greets, and reads nothing after that
+    OperatorClient client(folder.path() / "view.sock");
+    CHECK(comes_to_say(client, "before it came"));
+    event.set_text(std::string(240, 'x'));
+    for (int i = 0; i < 20'000; ++i) {
+        server.push(event);
+        if (i % 2000 == 0)
+            client.read(5ms);
+    }
+    event.set_text("the last");
+    // Room for it, once the thread has emptied the ring.
+    bool is_heard = false;
+    for (int tries = 0; tries < 100 && !is_heard; ++tries) {
+        server.push(event);
+        client.read(20ms);
+        for (const ViewedEvent& one : client.take_events())
+            is_heard = is_heard || one.detail == "the last";
+    }
+    CHECK(is_heard);
+    // It is told how much it missed as soon as it reads.
+    CHECK(comes_to_say(stalled, "were left out here"));
+}
+
+TEST_CASE("a socket is replaced where nobody serves it, and left alone where somebody does", "[unit]") {
+    const TemporaryFolder folder;
+    // Deep enough that the system would not take its path.
+    const std::filesystem::path deep = folder.path() / std::string(120, 'd');
+    std::filesystem::create_directories(deep);
+    const std::filesystem::path socket = deep / "view.sock";
+    {
+        const SocketAddress address(socket);
+        const int left_over = ::socket(AF_UNIX, SOCK_STREAM, 0);
+        REQUIRE(::bind(left_over, address.address(), address.size()) == 0);
+        ::close(left_over);
+    }
+    CHECK(!is_served(socket));
+    {
+        const OperatorServer server(options_at(socket));
+        CHECK(is_served(socket));
+        CHECK_THROWS_WITH(OperatorServer(options_at(socket)), Catch::Contains("another session serves this socket"));
+    }
+    CHECK(!std::filesystem::exists(socket));
+    folder.file("file", "words");
+    CHECK_THROWS_WITH(OperatorServer(options_at(folder.path() / "file")), Catch::Contains("no socket"));
+    CHECK(std::filesystem::exists(folder.path() / "file"));
+    CHECK_THROWS_AS(OperatorClient(folder.path() / "none"), InputError);
+    CHECK_THROWS_AS(check_socket_place(folder.path() / "none" / "view.sock"), InputError);
+}
+
+TEST_CASE("a command is a key, and answers only the question that the session asks about it", "[unit]") {
+    const TemporaryFolder folder;
+    OperatorServer server(options_at(folder.path() / "view.sock"));
+    StandingClock clock;
+    SilentPanel silent;
+    OperatorPanel panel(server, clock, silent);
+    OperatorClient client(folder.path() / "view.sock");
+    using Key = ResponsePress::Key;
+    panel.entered(SessionPhase::stimulus, 2);
+
+    client.send(operator_command("skip 2").value());
+    client.send(operator_command("pause").value());
+    auto press = awaited_press(panel);
+    REQUIRE(press);
+    CHECK(press->key == Key::skip);
+    // The tracker was lost meanwhile: that question is not answered by the command.
+    panel.await_decision(false, {});
+    std::this_thread::sleep_for(100ms);
+    CHECK(!panel.poll());
+    client.send(operator_command("yes").value());
+    press = awaited_press(panel);
+    REQUIRE(press);
+    CHECK(press->key == Key::yes);
+    // Now the session comes to the key.
+    panel.acted_on("skip");
+    panel.await_decision(false, {});
+    press = panel.poll();
+    REQUIRE(press);
+    CHECK(press->key == Key::character);
+    CHECK(press->character == U'2');
+    // The command after it had to wait.
+    panel.await_key({});
+    press = awaited_press(panel);
+    REQUIRE(press);
+    CHECK(press->key == Key::pause);
+
+    panel.entered(SessionPhase::pause, 2);
+    client.send(operator_command("repeat").value());
+    CHECK(!panel.poll());
+    for (int tries = 0; tries < 100; ++tries) {
+        CHECK(!panel.poll());
+        std::this_thread::sleep_for(2ms);
+    }
+    CHECK(comes_to_say(client, "no trial is under way"));
+}
+
+TEST_CASE("the command that ends the session does not wait for the one before it", "[unit]") {
+    const TemporaryFolder folder;
+    OperatorServer server(options_at(folder.path() / "view.sock"));
+    StandingClock clock;
+    SilentPanel silent;
+    OperatorPanel panel(server, clock, silent);
+    OperatorClient client(folder.path() / "view.sock");
+    panel.entered(SessionPhase::stimulus, 0);
+    client.send(operator_command("reject").value());
+    client.send(operator_command("repeat").value());
+    client.send(operator_command("abort").value());
+    CHECK(awaited_press(panel).value().key == ResponsePress::Key::reject);
+    CHECK(awaited_press(panel).value().key == ResponsePress::Key::abort);
+    panel.acted_on("abort");
+    panel.await_decision(false, {});
+    CHECK(panel.poll().value().key == ResponsePress::Key::yes);
+}
