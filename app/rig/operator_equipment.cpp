@@ -6,7 +6,8 @@
 namespace overt {
 
 OperatorServer::Options operator_view_of(const SessionHeader& header, const Protocol& protocol,
-                                         const std::filesystem::path& folder, bool has_tracker, int completed) {
+                                         const std::filesystem::path& folder, bool has_tracker,
+                                         int completed) {
     OperatorServer::Options options;
     SessionFacts& facts = options.facts;
     facts.protocol = protocol.name;

@@ -17,7 +17,8 @@ namespace overt {
 
 /// What a session's view is told of what does not change. `folder`: of the session. `header`: its record's.
 OperatorServer::Options operator_view_of(const SessionHeader& header, const Protocol& protocol,
-                                         const std::filesystem::path& folder, bool has_tracker, int completed);
+                                         const std::filesystem::path& folder, bool has_tracker,
+                                         int completed);
 
 /// Stands between a session and its log and panel. Without a socket it is not made.
 class OperatorEquipment {

@@ -253,8 +253,8 @@ void note_tracker(const TrackerSettings& wish, Rig& rig, SessionStore& store) {
     }
 }
 
-/// A socket for the operator's view, if it is wanted; said on the terminal and not in the record, which is the
-/// same with and without.
+/// A socket for the operator's view, if it is wanted; said on the terminal and not in the record, which is
+/// the same with and without.
 void open_view(std::optional<OperatorEquipment>& view, const RunOptions& options, const SessionPlan& plan,
                const SessionFolder& folder, const Protocol& protocol, Rig& rig, SessionStore& store,
                ResponsePanel& keys) {
@@ -263,8 +263,8 @@ void open_view(std::optional<OperatorEquipment>& view, const RunOptions& options
     OperatorServer::Options wished =
         operator_view_of(folder.header, protocol, folder.path, rig.tracker().measures_gaze(),
                          plan.resumed ? plan.resumed->history.counted_trials : 0);
-    wished.socket = options.operator_socket->empty() ? folder.path / operator_socket_name
-                                                     : *options.operator_socket;
+    wished.socket =
+        options.operator_socket->empty() ? folder.path / operator_socket_name : *options.operator_socket;
     wished.tell = [](const std::string& sentence) { fmt::print(stderr, "{}\n", sentence); };
     view.emplace(std::move(wished), rig.clock(), store, keys);
     fmt::print("operator's view: overt watch --socket {}\n", view->socket().string());
@@ -277,8 +277,6 @@ namespace {
 /// `again`: null for a session that is recorded for the first time.
 int run_session_of(Experiment experiment, const RunOptions& options, const PresentingAgain* again) {
     const Observer observer = observer_labelled(options.observer);
-    if (options.operator_socket && !options.operator_socket->empty())
-        check_socket_place(*options.operator_socket);
     const std::filesystem::path cache = again ? again->cache : cache_folder();
     if (!options.tracker.empty())
         experiment.protocol.tracker.kind = tracker_kind_called(options.tracker);
@@ -410,6 +408,8 @@ int run_session(const RunOptions& options) {
     if (options.verify_output && !options.draws_stimuli)
         throw InputError(
             "--verify-output decodes the pictures that --no-pictures leaves out: give one of them");
+    if (options.operator_socket && !options.operator_socket->empty())
+        check_socket_place(*options.operator_socket);
     return run_session_of(read_experiment_or_report(options.protocol, cache_folder(), InputDepth::everything),
                           options, nullptr);
 }

@@ -130,7 +130,8 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
         .add_option_function<std::string>(
             "--operator-socket",
             [&options](const std::string& path) {
-                options.operator_socket = path == "session" ? std::filesystem::path() : std::filesystem::path(path);
+                options.operator_socket =
+                    path == "session" ? std::filesystem::path() : std::filesystem::path(path);
             },
             "Let `overt watch` connect to the session, by a socket for this user alone: in the session's "
             "folder (session, the default), or this file")

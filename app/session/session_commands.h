@@ -49,7 +49,8 @@ struct RunOptions {
     bool realtime = false;        ///< ask for priority and locked memory
     std::optional<int> processor; ///< the only one for the session's thread
     std::filesystem::path print_session_to;
-    std::optional<std::filesystem::path> operator_socket; ///< for `overt watch`; empty: in the session's folder
+    std::optional<std::filesystem::path>
+        operator_socket;          ///< for `overt watch`; empty: in the session's folder
     std::optional<int> monitor;   ///< from 1
     double refresh_check_s = 5.0; ///< measure a real screen's refresh for so long; 0: not at all
     std::optional<BakeQuality>

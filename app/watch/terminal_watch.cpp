@@ -41,7 +41,11 @@ class Watched {
         return goes_on;
     }
     ViewText text() {
-        return {client_.facts(), client_.view(), events_, gaze_, pictures_.of(client_.facts(), client_.view()),
+        return {client_.facts(),
+                client_.view(),
+                events_,
+                gaze_,
+                pictures_.of(client_.facts(), client_.view()),
                 client_.silence() > long_silence};
     }
     std::deque<ViewedEvent> news;
@@ -86,7 +90,8 @@ class Commands {
     bool take(const std::string& line) {
         if (asked_) {
             const bool is_sure = line == "y" || line == "yes";
-            says = is_sure && client_.send(*asked_) ? words_of(*asked_) + ": sent" : words_of(*asked_) + ": not sent";
+            says = is_sure && client_.send(*asked_) ? words_of(*asked_) + ": sent"
+                                                    : words_of(*asked_) + ": not sent";
             asked_.reset();
             return true;
         }
@@ -94,7 +99,9 @@ class Commands {
             return false;
         const std::optional<OperatorCommand> command = operator_command(line);
         if (!command)
-            says = line.empty() ? "" : fmt::format("\"{}\" is no command. There are: {}; leave", line, known_commands());
+            says = line.empty()
+                       ? ""
+                       : fmt::format("\"{}\" is no command. There are: {}; leave", line, known_commands());
         else if (command->kind != OperatorCommand::Kind::key || command->key == ResponsePress::Key::pause)
             says = client_.send(*command) ? words_of(*command) + ": sent" : "the session is gone";
         else if (command->reason > static_cast<int>(client_.facts().skip_reasons.size()))
@@ -152,7 +159,8 @@ int watch_in_terminal(OperatorClient& client) {
             continue;
         }
         for (const ViewedEvent& event : watched.news)
-            fmt::print("{:.1f} s: {}{}{}\n", event.at_s, event.kind, event.detail.empty() ? "" : ": ", event.detail);
+            fmt::print("{:.1f} s: {}{}{}\n", event.at_s, event.kind, event.detail.empty() ? "" : ": ",
+                       event.detail);
         const SessionView& view = client.view();
         const std::string now = fmt::format("{} {} {} {}", view.trial, view.phase, view.done, view.asks);
         if (now != last || !goes_on)

@@ -30,7 +30,8 @@ std::vector<OperatorCommand> commands_of(const WatchOptions& options) {
     for (const std::string& words : options.sends) {
         const std::optional<OperatorCommand> command = operator_command(words);
         if (!command)
-            throw InputError(fmt::format("--send \"{}\" is no command. There are: {}", words, known_commands()));
+            throw InputError(
+                fmt::format("--send \"{}\" is no command. There are: {}", words, known_commands()));
         commands.push_back(*command);
     }
     return commands;
@@ -53,11 +54,12 @@ std::filesystem::path socket_of(const WatchOptions& options) {
     if (served.size() == 1)
         return served.front();
     if (served.empty())
-        throw InputError(fmt::format("{}: no session that can be watched runs there: begin one with overt run … "
-                                     "--operator-socket, or name its folder, or its socket with --socket",
-                                     options.sessions.string()));
-    throw InputError(fmt::format("{}: {} sessions run there: name the folder of one", options.sessions.string(),
-                                 served.size()));
+        throw InputError(
+            fmt::format("{}: no session that can be watched runs there: begin one with overt run … "
+                        "--operator-socket, or name its folder, or its socket with --socket",
+                        options.sessions.string()));
+    throw InputError(fmt::format("{}: {} sessions run there: name the folder of one",
+                                 options.sessions.string(), served.size()));
 }
 
 int run_watch(const WatchOptions& options) {

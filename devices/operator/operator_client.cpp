@@ -76,7 +76,8 @@ bool OperatorClient::read(std::chrono::milliseconds wait) {
             understand(std::string_view(received_).substr(begin, end - begin));
         received_.erase(0, begin);
         if (received_.size() > longest_view_line)
-            throw DeviceError("the session sent a line without an end: this is no operator's socket of overt");
+            throw DeviceError(
+                "the session sent a line without an end: this is no operator's socket of overt");
     }
     return !is_gone_ && !view_.is_over;
 }

@@ -86,7 +86,8 @@ std::string_view OperatorPanel::refusal_of(PanelKey key) const noexcept {
 /// What a command is to the session; nothing for one that is no press.
 std::optional<ResponsePress> OperatorPanel::take(const OperatorCommand& command) noexcept {
     const SessionTime now = clock_->now();
-    const bool is_answer = command.kind == OperatorCommand::Kind::yes || command.kind == OperatorCommand::Kind::no;
+    const bool is_answer =
+        command.kind == OperatorCommand::Kind::yes || command.kind == OperatorCommand::Kind::no;
     if (is_answer && !is_asked_) {
         reply("was not taken: the session asks nothing");
         return std::nullopt;

@@ -157,7 +157,8 @@ void OperatorServer::accept_view() {
     if (views_.size() == most_views) {
         ::close(socket);
         if (options_.tell)
-            options_.tell(fmt::format("operator's view: {} are open, and another was turned away", most_views));
+            options_.tell(
+                fmt::format("operator's view: {} are open, and another was turned away", most_views));
         return;
     }
     views_.push_back({});
@@ -186,8 +187,7 @@ void OperatorServer::receive(View& view) {
 }
 
 void OperatorServer::understand(View& view, std::string_view line) {
-    const CommandLine read =
-        line.size() <= longest_command_line ? read_command_line(line) : CommandLine();
+    const CommandLine read = line.size() <= longest_command_line ? read_command_line(line) : CommandLine();
     if (read.greeting && *read.greeting == view_version) {
         if (!view.is_greeted)
             for (const std::string& recent : recent_)
@@ -202,15 +202,16 @@ void OperatorServer::understand(View& view, std::string_view line) {
         return cut_off(view, fmt::format("sent \"{}\", which is no command",
                                          ascii_of(line.substr(0, std::min<std::size_t>(line.size(), 60)))));
     if (!commands_.try_push(*read.command))
-        view.waiting += line_of(ViewedEvent{builder_.view().time_s, -1, "operator's view",
-                                            fmt::format("{}: was not taken: too many commands wait",
-                                                        words_of(*read.command))});
+        view.waiting += line_of(
+            ViewedEvent{builder_.view().time_s, -1, "operator's view",
+                        fmt::format("{}: was not taken: too many commands wait", words_of(*read.command))});
 }
 
 void OperatorServer::cut_off(View& view, const std::string& why) {
     view.is_gone = true;
     if (options_.tell)
-        options_.tell(fmt::format("operator's view: a program {}: it was cut off, and the session goes on", why));
+        options_.tell(
+            fmt::format("operator's view: a program {}: it was cut off, and the session goes on", why));
 }
 
 void OperatorServer::tell_state(bool even_if_old) {
@@ -221,8 +222,8 @@ void OperatorServer::tell_state(bool even_if_old) {
             continue;
         const auto since = now - view.state_told;
         // A state replaces the one before: none is put behind lines that wait.
-        const bool is_due = view.waiting.empty() &&
-                            ((is_new_ && since >= between_states) || since >= longest_silence);
+        const bool is_due =
+            view.waiting.empty() && ((is_new_ && since >= between_states) || since >= longest_silence);
         if (!is_due && !even_if_old)
             continue;
         if (line.empty()) {
@@ -230,10 +231,11 @@ void OperatorServer::tell_state(bool even_if_old) {
             line = line_of(builder_.view());
         }
         if (view.left_out > 0)
-            view.waiting += line_of(ViewedEvent{builder_.view().time_s, -1, "operator's view",
-                                                fmt::format("{} messages were left out here: this view did not "
-                                                            "read them; the record has them all",
-                                                            view.left_out)});
+            view.waiting +=
+                line_of(ViewedEvent{builder_.view().time_s, -1, "operator's view",
+                                    fmt::format("{} messages were left out here: this view did not "
+                                                "read them; the record has them all",
+                                                view.left_out)});
         view.left_out = 0;
         view.waiting += line;
         view.state_told = now;

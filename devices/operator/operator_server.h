@@ -24,9 +24,10 @@ inline constexpr std::string_view operator_socket_name = "operator.sock";
 /// Refuses, before a session begins, a place where no socket can be: throws InputError.
 void check_socket_place(const std::filesystem::path& socket);
 
-/// Serves up to four views on a thread of its own. The session's thread only pushes news and takes commands: it
-/// never waits for a view, nor for the thread. What finds no room in the ring is dropped and counted; a view
-/// that does not read misses lines and is told how many. A view that sends what is not understood is cut off.
+/// Serves up to four views on a thread of its own. The session's thread only pushes news and takes commands:
+/// it never waits for a view, nor for the thread. What finds no room in the ring is dropped and counted; a
+/// view that does not read misses lines and is told how many. A view that sends what is not understood is cut
+/// off.
 class OperatorServer {
   public:
     struct Options {
@@ -39,10 +40,11 @@ class OperatorServer {
         std::function<void(const std::string&)> tell = {};
     };
 
-    /// Opens the socket, for this user alone. One that nobody serves any more is replaced. Throws InputError if
-    /// another session serves it, and DeviceError if it cannot be opened.
+    /// Opens the socket, for this user alone. One that nobody serves any more is replaced. Throws InputError
+    /// if another session serves it, and DeviceError if it cannot be opened.
     explicit OperatorServer(Options options);
-    /// Tells the views what is left and that it is over, for at most a fifth of a second, and removes the socket.
+    /// Tells the views what is left and that it is over, for at most a fifth of a second, and removes the
+    /// socket.
     ~OperatorServer();
     OperatorServer(const OperatorServer&) = delete;
     OperatorServer& operator=(const OperatorServer&) = delete;

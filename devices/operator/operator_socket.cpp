@@ -15,12 +15,13 @@ SocketAddress::SocketAddress(const std::filesystem::path& socket) {
     const std::filesystem::path folder = socket.has_parent_path() ? socket.parent_path() : ".";
     folder_ = ::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
     if (folder_ < 0)
-        throw InputError(fmt::format("{}: no socket can be there: {}: name a folder that exists", socket.string(),
-                                     std::strerror(errno)));
+        throw InputError(fmt::format("{}: no socket can be there: {}: name a folder that exists",
+                                     socket.string(), std::strerror(errno)));
     const std::string name = fmt::format("/proc/self/fd/{}/{}", folder_, socket.filename().string());
     if (!socket.has_filename() || name.size() >= sizeof address_.sun_path) {
         ::close(folder_);
-        throw InputError(fmt::format("{}: no socket can be called so: give it a short name", socket.string()));
+        throw InputError(
+            fmt::format("{}: no socket can be called so: give it a short name", socket.string()));
     }
     address_.sun_family = AF_UNIX;
     std::memcpy(address_.sun_path, name.c_str(), name.size() + 1);

@@ -8,8 +8,8 @@
 
 namespace overt {
 
-/// A socket's file as the system takes it. Its name may have some hundred bytes only, so the folder is named by
-/// a descriptor that stays open as long as this lives.
+/// A socket's file as the system takes it. Its name may have some hundred bytes only, so the folder is named
+/// by a descriptor that stays open as long as this lives.
 class SocketAddress {
   public:
     /// Throws InputError if the folder cannot be entered or the file's own name is too long.

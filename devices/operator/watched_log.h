@@ -20,7 +20,9 @@ class WatchedLog final : public SessionLog {
     void flip(const FlipRecord& flip) noexcept override;
     void missed(const MissedRefresh& refresh) noexcept override;
     void sample(int trial, const GazeSample& sample) noexcept override;
-    void tracker_item(int trial, const TrackerItem& item) noexcept override { record_.tracker_item(trial, item); }
+    void tracker_item(int trial, const TrackerItem& item) noexcept override {
+        record_.tracker_item(trial, item);
+    }
     void clock_pair(const ClockPair& pair) noexcept override { record_.clock_pair(pair); }
     void event(const SessionEvent& event) override;
     void calibration(const RecordedCalibration& calibration) override;

@@ -33,7 +33,8 @@ inline constexpr std::string_view operator_pressed_event = "operator pressed";
 inline constexpr std::string_view operator_asked_event = "operator asked"; ///< was asked
 inline constexpr std::string_view operator_answered_event = "operator answered";
 inline constexpr std::string_view operator_view_event = "operator's view"; ///< a command that came from there
-inline constexpr std::string_view operator_note_event = "operator's note"; ///< a remark, in the operator's words
+inline constexpr std::string_view operator_note_event =
+    "operator's note"; ///< a remark, in the operator's words
 
 // Of the equipment.
 inline constexpr std::string_view validation_event =

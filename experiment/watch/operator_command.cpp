@@ -68,7 +68,8 @@ std::string words_of(const OperatorCommand& command) {
 }
 
 std::string_view known_commands() noexcept {
-    return "pause, recalibrate, drift check, repeat, reject, skip, skip N (a reason), abort, note TEXT; yes and no "
+    return "pause, recalibrate, drift check, repeat, reject, skip, skip N (a reason), abort, note TEXT; yes "
+           "and no "
            "answer what the session asks";
 }
 

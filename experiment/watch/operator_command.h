@@ -1,5 +1,5 @@
-/// What an operator tells a session from the operator's view: the operator's keys, answers to what the session
-/// asks, and notes. One JSON object a line.
+/// What an operator tells a session from the operator's view: the operator's keys, answers to what the
+/// session asks, and notes. One JSON object a line.
 #pragma once
 
 #include <array>
@@ -26,15 +26,16 @@ struct OperatorCommand {
     };
     Kind kind = Kind::key;
     ResponsePress::Key key = ResponsePress::Key::pause; ///< of a key
-    int reason = 0; ///< of skipping: from 1; 0: none is given
+    int reason = 0;                                     ///< of skipping: from 1; 0: none is given
     std::array<char, longest_note> text{};
     std::size_t length = 0; ///< of a note, bytes
 
     std::string_view note() const noexcept { return {text.data(), length}; }
 };
 
-/// What an operator types: "pause", "recalibrate", "drift check", "repeat", "reject", "skip", "skip 2", "abort",
-/// "yes", "no", "note TEXT". Nothing for anything else, and for a note without words, too long, or not UTF-8.
+/// What an operator types: "pause", "recalibrate", "drift check", "repeat", "reject", "skip", "skip 2",
+/// "abort", "yes", "no", "note TEXT". Nothing for anything else, and for a note without words, too long, or
+/// not UTF-8.
 std::optional<OperatorCommand> operator_command(std::string_view words);
 
 /// The same in words, as operator_command() reads it.

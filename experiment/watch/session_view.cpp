@@ -78,7 +78,8 @@ std::vector<ViewedGaze> read_gaze(const Json& json) {
     if (found == json.end() || !found->is_array())
         return gaze;
     for (const Json& point : *found) {
-        if (!point.is_array() || point.empty() || !point[0].is_string() || gaze.size() == SessionView::longest_gaze)
+        if (!point.is_array() || point.empty() || !point[0].is_string() ||
+            gaze.size() == SessionView::longest_gaze)
             continue;
         ViewedGaze one{point[0] == "right", {}};
         if (point.size() == 3 && point[1].is_number() && point[2].is_number())
@@ -151,8 +152,7 @@ std::string line_of(const SessionFacts& facts) {
 
 std::string line_of(const SessionView& view) {
     Json gaze = Json::array();
-    const std::size_t first =
-        view.gaze.size() - std::min(view.gaze.size(), SessionView::longest_gaze);
+    const std::size_t first = view.gaze.size() - std::min(view.gaze.size(), SessionView::longest_gaze);
     for (std::size_t i = first; i < view.gaze.size(); ++i) {
         const ViewedGaze& one = view.gaze[i];
         Json point = Json::array({one.is_right ? "right" : "left"});

@@ -1,5 +1,5 @@
-/// What the operator's view shows of a running session, and the lines in which it travels over a socket: JSON,
-/// one object a line, no line longer than longest_view_line bytes.
+/// What the operator's view shows of a running session, and the lines in which it travels over a socket:
+/// JSON, one object a line, no line longer than longest_view_line bytes.
 #pragma once
 
 #include <cstdint>
@@ -19,15 +19,15 @@ inline constexpr std::size_t longest_view_line = 16384;
 /// What does not change while a session runs.
 struct SessionFacts {
     std::string protocol, observer;
-    std::string folder;          ///< of the session, absolute
-    int trials = 0;              ///< of the whole session
-    double refresh_hz = 0.0;     ///< of the display
-    int width_px = 0, height_px = 0; ///< of the display
+    std::string folder;                          ///< of the session, absolute
+    int trials = 0;                              ///< of the whole session
+    double refresh_hz = 0.0;                     ///< of the display
+    int width_px = 0, height_px = 0;             ///< of the display
     int image_width_px = 0, image_height_px = 0; ///< of the stimulus, in the middle of the display
-    int poses = 0;               ///< of a stimulus
+    int poses = 0;                               ///< of a stimulus
     bool has_tracker = false;
     double drift_limit_deg = 0.0, mean_limit_deg = 0.0, max_limit_deg = 0.0; ///< of the protocol
-    std::vector<std::string> skip_reasons; ///< that `skip` may give, from 1
+    std::vector<std::string> skip_reasons;                                   ///< that `skip` may give, from 1
 };
 
 /// Where gaze was, a point for every hundredth of a second or more.
@@ -38,17 +38,18 @@ struct ViewedGaze {
 
 /// Everything that changes. Each line of it is complete, so that one that is left out does no harm.
 struct SessionView {
-    double time_s = 0.0; ///< session time of what is newest here
-    std::string phase;   ///< see name_of(SessionPhase)
-    int trial = -1;      ///< from 0; -1: none is under way
+    double time_s = 0.0;                             ///< session time of what is newest here
+    std::string phase;                               ///< see name_of(SessionPhase)
+    int trial = -1;                                  ///< from 0; -1: none is under way
     std::string task, question, sculpture, material; ///< of the trial under way, or the last
-    std::string light_file; ///< pictures of its stimulus (light_pictures.h), relative to the folder; may be empty
-    int done = 0;        ///< trials that are completed
-    int failed = 0;      ///< attempts that did not count
+    std::string
+        light_file; ///< pictures of its stimulus (light_pictures.h), relative to the folder; may be empty
+    int done = 0;   ///< trials that are completed
+    int failed = 0; ///< attempts that did not count
     std::optional<double> first_trial_s; ///< session time at which the first trial of this sitting began
-    int done_before = 0; ///< completed when that began
-    int pose = -1;       ///< that is shown; -1: no animation is
-    int refresh = 0;     ///< of the presentation under way
+    int done_before = 0;                 ///< completed when that began
+    int pose = -1;                       ///< that is shown; -1: no animation is
+    int refresh = 0;                     ///< of the presentation under way
     std::int64_t missed = 0, missed_in_trial = 0; ///< refreshes
     std::int64_t samples = 0, lost = 0;           ///< of the session's trials; lost: without gaze
     std::int64_t samples_in_trial = 0, lost_in_trial = 0;
@@ -56,11 +57,12 @@ struct SessionView {
     std::optional<double> validation_mean_deg, validation_max_deg, drift_deg; ///< the last
     bool tracker_is_lost = false;
     std::string asks; ///< the question that the operator is to answer now; empty: none
-    std::optional<double> level_rms, level_peak; ///< of the microphone, shares of full scale; while it records
+    std::optional<double> level_rms,
+        level_peak; ///< of the microphone, shares of full scale; while it records
     bool is_clipping = false;
-    std::string answer;            ///< the last
-    std::int64_t dropped = 0;      ///< pieces of news that found no room on their way here
-    bool is_over = false;          ///< nothing comes after this
+    std::string answer;       ///< the last
+    std::int64_t dropped = 0; ///< pieces of news that found no room on their way here
+    bool is_over = false;     ///< nothing comes after this
     static constexpr std::size_t longest_gaze = 32;
 };
 

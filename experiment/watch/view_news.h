@@ -16,19 +16,19 @@
 
 namespace overt {
 
-/// One piece of news. What a kind does not name has no meaning in it. Counts are of all that was until now, so
-/// that a piece that found no room does not make those after it wrong.
+/// One piece of news. What a kind does not name has no meaning in it. Counts are of all that was until now,
+/// so that a piece that found no room does not make those after it wrong.
 struct ViewNews {
     enum class Kind : std::uint8_t {
         phase,         ///< `phase`, `trial`
         trial_started, ///< `trial`, its place in the schedule
-        trial_ended,   ///< `counts`: it is completed; `text`: the answer; `value`: drift in deg, if `has_value`
-        flip,          ///< `pose`, `refresh`, missed
-        gaze,          ///< `is_right`, `place` if `has_value`, samples
-        event,         ///< `word`: its kind, `text`: its detail
-        validation,    ///< `value` and `other`: mean and largest error in deg
-        level,         ///< `value` and `other`: rms and peak; `counts`: it clips
-        reply,         ///< `text`: to a command
+        trial_ended, ///< `counts`: it is completed; `text`: the answer; `value`: drift in deg, if `has_value`
+        flip,        ///< `pose`, `refresh`, missed
+        gaze,        ///< `is_right`, `place` if `has_value`, samples
+        event,       ///< `word`: its kind, `text`: its detail
+        validation,  ///< `value` and `other`: mean and largest error in deg
+        level,       ///< `value` and `other`: rms and peak; `counts`: it clips
+        reply,       ///< `text`: to a command
     };
     Kind kind = Kind::event;
     SessionPhase phase = SessionPhase::set_up;

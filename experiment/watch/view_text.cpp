@@ -61,14 +61,17 @@ std::vector<std::string> picture_of(const ViewText& of, int columns, int rows) {
     if (wide < 4)
         return {};
     constexpr std::string_view shades = " .:-=+*%#@";
-    std::vector<std::string> lines(static_cast<std::size_t>(rows), std::string(static_cast<std::size_t>(wide), ' '));
+    std::vector<std::string> lines(static_cast<std::size_t>(rows),
+                                   std::string(static_cast<std::size_t>(wide), ' '));
     const bool is_shown = of.view.pose >= 0;
     for (int y = 0; y < rows && is_shown; ++y)
         for (int x = 0; x < wide; ++x) {
             const int from_x = x * of.picture.width / wide, from_y = y * of.picture.height / rows;
-            const float light = of.picture.lightness[static_cast<std::size_t>(from_y * of.picture.width + from_x)];
+            const float light =
+                of.picture.lightness[static_cast<std::size_t>(from_y * of.picture.width + from_x)];
             const int shade = std::clamp(static_cast<int>(light * 10.0f), 0, 9);
-            lines[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] = shades[static_cast<std::size_t>(shade)];
+            lines[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] =
+                shades[static_cast<std::size_t>(shade)];
         }
     const double left = 0.5 * (facts.width_px - facts.image_width_px);
     const double top = 0.5 * (facts.height_px - facts.image_height_px);
@@ -78,7 +81,8 @@ std::vector<std::string> picture_of(const ViewText& of, int columns, int rows) {
         const double x = (of.gaze[i].place->x_px - left) / facts.image_width_px * wide;
         const double y = (of.gaze[i].place->y_px - top) / facts.image_height_px * rows;
         if (x >= 0.0 && x < wide && y >= 0.0 && y < rows)
-            lines[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] = i + 1 == of.gaze.size() ? 'O' : 'o';
+            lines[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] =
+                i + 1 == of.gaze.size() ? 'O' : 'o';
     }
     return lines;
 }
@@ -109,13 +113,15 @@ std::vector<std::string> figures_of(const ViewText& of) {
     const SessionView& view = of.view;
     std::vector<std::string> lines;
     lines.push_back(fmt::format("{}, observer {}: {}", facts.protocol, facts.observer, where_it_stands(of)));
-    lines.push_back(fmt::format(
-        "progress  [{}] {} of {} trials{}; {} left, {} gone",
-        bar(facts.trials > 0 ? static_cast<double>(view.done) / facts.trials : 0.0, 10), view.done, facts.trials,
-        view.failed > 0 ? fmt::format(" ({} failed)", view.failed) : "",
-        duration_text(view.is_over ? std::optional(0.0) : time_left_s(facts, view)), duration_text(view.time_s)));
+    lines.push_back(
+        fmt::format("progress  [{}] {} of {} trials{}; {} left, {} gone",
+                    bar(facts.trials > 0 ? static_cast<double>(view.done) / facts.trials : 0.0, 10),
+                    view.done, facts.trials, view.failed > 0 ? fmt::format(" ({} failed)", view.failed) : "",
+                    duration_text(view.is_over ? std::optional(0.0) : time_left_s(facts, view)),
+                    duration_text(view.time_s)));
     if (!view.task.empty())
-        lines.push_back(fmt::format("stimulus  {}, {}: {}", view.sculpture, view.material, plain(view.question)));
+        lines.push_back(
+            fmt::format("stimulus  {}, {}: {}", view.sculpture, view.material, plain(view.question)));
     lines.push_back(fmt::format("display   {} missed refreshes in this trial, {} in the session",
                                 view.missed_in_trial, view.missed));
     if (!facts.has_tracker)
@@ -160,8 +166,8 @@ std::string screen_of(const ViewText& of, int columns, int rows) {
         lines.push_back(std::move(line));
     for (std::size_t i = of.events.size() - static_cast<std::size_t>(messages); i < of.events.size(); ++i) {
         const ViewedEvent& event = of.events[i];
-        lines.push_back(fmt::format("{:8.1f} s  {}{}{}", event.at_s, event.kind, event.detail.empty() ? "" : ": ",
-                                    plain(event.detail)));
+        lines.push_back(fmt::format("{:8.1f} s  {}{}{}", event.at_s, event.kind,
+                                    event.detail.empty() ? "" : ": ", plain(event.detail)));
     }
     std::string screen;
     for (const std::string& line : lines)
@@ -171,10 +177,10 @@ std::string screen_of(const ViewText& of, int columns, int rows) {
 
 std::string summary_of(const ViewText& of) {
     const SessionView& view = of.view;
-    return fmt::format("{:.1f} s: {}: {} of {} done, {} left, {} missed, {} without gaze, drift {}{}\n", view.time_s,
-                       where_it_stands(of), view.done, of.facts.trials,
-                       duration_text(view.is_over ? std::optional(0.0) : time_left_s(of.facts, view)), view.missed,
-                       share_text(lost_share(view.samples, view.lost)),
+    return fmt::format("{:.1f} s: {}: {} of {} done, {} left, {} missed, {} without gaze, drift {}{}\n",
+                       view.time_s, where_it_stands(of), view.done, of.facts.trials,
+                       duration_text(view.is_over ? std::optional(0.0) : time_left_s(of.facts, view)),
+                       view.missed, share_text(lost_share(view.samples, view.lost)),
                        degrees_text(view.drift_deg, of.facts.drift_limit_deg),
                        view.asks.empty() ? "" : "; asked: " + plain(view.asks));
 }

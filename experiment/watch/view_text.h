@@ -11,7 +11,7 @@ namespace overt {
 
 /// A picture of the stimulus that is shown, small.
 struct ViewedPicture {
-    int width = 0, height = 0;   ///< squares; 0: there is none
+    int width = 0, height = 0;    ///< squares; 0: there is none
     std::vector<float> lightness; ///< row by row from the top, 0 black … 1 white
 };
 
@@ -28,8 +28,8 @@ struct ViewText {
 /// Progress, time, quality, tracker, answers: a line for each.
 std::vector<std::string> figures_of(const ViewText& of);
 
-/// The whole view: figures, the picture with gaze on it ('o' newest, '.' before), the last messages and what is
-/// asked. `rows` of the terminal.
+/// The whole view: figures, the picture with gaze on it ('o' newest, '.' before), the last messages and what
+/// is asked. `rows` of the terminal.
 std::string screen_of(const ViewText& of, int columns, int rows);
 
 /// One line for where no screen is: what a log of the session wants.

@@ -21,8 +21,8 @@ class WatchedRun {
   public:
     explicit WatchedRun(const SmallExperiment& experiment, std::vector<std::string> more = {"--virtual-time"})
         : socket(experiment.folder().path() / "view.sock"), said(experiment.folder().path() / "said"),
-          program_(arguments(experiment, socket, std::move(more)), {"OVERT_CACHE=" + experiment.cache().string()},
-                   said) {
+          program_(arguments(experiment, socket, std::move(more)),
+                   {"OVERT_CACHE=" + experiment.cache().string()}, said) {
         while (!std::filesystem::exists(socket) && program_.is_running())
             std::this_thread::sleep_for(50us);
         program_.signal(SIGSTOP);
@@ -34,7 +34,8 @@ class WatchedRun {
     const std::filesystem::path socket, said;
 
   private:
-    static std::vector<std::string> arguments(const SmallExperiment& experiment, const std::filesystem::path& socket,
+    static std::vector<std::string> arguments(const SmallExperiment& experiment,
+                                              const std::filesystem::path& socket,
                                               std::vector<std::string> more) {
         more.insert(more.end(), {"--operator-socket", socket.string()});
         return run_arguments(experiment, "P01", more);
@@ -60,8 +61,9 @@ int connected_to(const std::filesystem::path& socket) { return connect_to(Socket
 
 } // namespace
 
-TEST_CASE("a session has the same record with a view, with none, with one that was killed and with one that stands",
-          "[session]") {
+TEST_CASE(
+    "a session has the same record with a view, with none, with one that was killed and with one that stands",
+    "[session]") {
     const SmallExperiment experiment;
     REQUIRE(experiment.run().exit_code == 0);
     const Tables alone = exported(experiment, 1);
@@ -114,7 +116,8 @@ TEST_CASE("a session has the same record with a view, with none, with one that w
         check_same(run);
         CHECK(watch.program.wait() == 0);
         const std::string said = text_of(run.said);
-        CHECK(said.find("sent \"GET / HTTP/1.1 \", which is no command: it was cut off, and the session goes on") !=
+        CHECK(said.find(
+                  "sent \"GET / HTTP/1.1 \", which is no command: it was cut off, and the session goes on") !=
               std::string::npos);
         CHECK(said.find("sent a line without an end: it was cut off") != std::string::npos);
         ::close(garbage);
@@ -159,9 +162,10 @@ TEST_CASE("commands from the view do what the operator's keys do, and stand in t
     CHECK(client.view().is_over);
     CHECK((is_rejected && is_checked && is_skipped && is_refused));
     const std::string recorded = exported(experiment, 1).at("events.tsv");
-    for (const char* const words : {"operator's note\tthe observer wears glasses", "operator's view\treject",
-                                    "operator pressed\treject", "operator\trejects the trial", "operator's view\tskip 1",
-                                    "operator\tskips the trial: ", "operator pressed\tdrift check", "drift checked\t"}) {
+    for (const char* const words :
+         {"operator's note\tthe observer wears glasses", "operator's view\treject",
+          "operator pressed\treject", "operator\trejects the trial", "operator's view\tskip 1",
+          "operator\tskips the trial: ", "operator pressed\tdrift check", "drift checked\t"}) {
         INFO(words << "\n" << recorded);
         CHECK(recorded.find(words) != std::string::npos);
     }
@@ -178,7 +182,8 @@ TEST_CASE("overt watch says what it needs where there is nothing to watch", "[se
     };
     const std::string folder = experiment.folder().path().string();
     check_refused({"watch", "--terminal", "--sessions", folder}, "no session that can be watched runs there");
-    check_refused({"watch", "--terminal", "--socket", folder + "/none.sock"}, "no session serves this socket");
+    check_refused({"watch", "--terminal", "--socket", folder + "/none.sock"},
+                  "no session serves this socket");
     check_refused({"watch", "--terminal", folder + "/none"}, "is no session's folder");
     check_refused({"watch", "--once", "--send", "stop", folder}, "is no command");
     const ProgramRun run = experiment.run({"--operator-socket", folder + "/none/view.sock"});

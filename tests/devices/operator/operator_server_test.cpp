@@ -139,7 +139,8 @@ TEST_CASE("a socket is replaced where nobody serves it, and left alone where som
     {
         const OperatorServer server(options_at(socket));
         CHECK(is_served(socket));
-        CHECK_THROWS_WITH(OperatorServer(options_at(socket)), Catch::Contains("another session serves this socket"));
+        CHECK_THROWS_WITH(OperatorServer(options_at(socket)),
+                          Catch::Contains("another session serves this socket"));
     }
     CHECK(!std::filesystem::exists(socket));
     folder.file("file", "words");

@@ -49,8 +49,9 @@ SessionView some_view() {
 }
 
 SessionFacts some_facts() {
-    return {"small", "P01", "/data/s",        10, 120.0, 544, 192, 128, 128, 31, true, 1.0, 0.5, 1.0,
-            {"sleepy", "a \"noise\""}};
+    return {"small", "P01", "/data/s", 10,  120.0,
+            544,     192,   128,       128, 31,
+            true,    1.0,   0.5,       1.0, {"sleepy", "a \"noise\""}};
 }
 
 ViewNews news_of(ViewNews::Kind kind, double at_s) {
@@ -97,8 +98,9 @@ TEST_CASE("no state makes a line that is longer than the language allows", "[uni
 }
 
 TEST_CASE("what is no line of the language is nothing, whatever it is", "[unit]") {
-    for (const char* const line : {"", "{", "[]", "null", "{\"state\":3}", "{\"overt_watch\":99,\"trials\":3}",
-                                   "GET / HTTP/1.1", "\xff\xfe", "{\"event\":[]}"}) {
+    for (const char* const line :
+         {"", "{", "[]", "null", "{\"state\":3}", "{\"overt_watch\":99,\"trials\":3}", "GET / HTTP/1.1",
+          "\xff\xfe", "{\"event\":[]}"}) {
         const ViewLine read = read_view_line(line);
         CHECK((!read.facts && !read.view && !read.event));
         const CommandLine command = read_command_line(line);
@@ -106,15 +108,16 @@ TEST_CASE("what is no line of the language is nothing, whatever it is", "[unit]"
     }
     CHECK(read_view_line("{\"overt_watch\":99}").version == 99);
     // Members of another kind than they should be leave the state as it begins.
-    const ViewLine odd = read_view_line(R"({"state":{"trial":"x","phase":4,"gaze":[1,["right","a","b"]],"lost":null}})");
+    const ViewLine odd =
+        read_view_line(R"({"state":{"trial":"x","phase":4,"gaze":[1,["right","a","b"]],"lost":null}})");
     REQUIRE(odd.view);
     CHECK(odd.view->trial == -1);
     CHECK(odd.view->gaze.size() == 1);
 }
 
 TEST_CASE("a command is read as it is written, and nothing else is one", "[unit]") {
-    for (const char* const words : {"pause", "recalibrate", "drift check", "repeat", "reject", "skip", "skip 2", "abort",
-                                    "yes", "no", "note moved the chair – 好"}) {
+    for (const char* const words : {"pause", "recalibrate", "drift check", "repeat", "reject", "skip",
+                                    "skip 2", "abort", "yes", "no", "note moved the chair – 好"}) {
         const auto command = operator_command(words);
         REQUIRE(command);
         CHECK(words_of(*command) == words);
@@ -131,7 +134,8 @@ TEST_CASE("a command is read as it is written, and nothing else is one", "[unit]
 }
 
 TEST_CASE("a view is the sum of its news, and counts stay right where some were dropped", "[unit]") {
-    ViewBuilder all({{"task", "What?", "bust", "matt", ""}, {}}, 0), some({{"task", "What?", "bust", "matt", ""}, {}}, 0);
+    ViewBuilder all({{"task", "What?", "bust", "matt", ""}, {}}, 0),
+        some({{"task", "What?", "bust", "matt", ""}, {}}, 0);
     std::vector<ViewNews> news;
     news.push_back(news_of(ViewNews::Kind::phase, 1.0));
     news.back().phase = SessionPhase::stimulus;
@@ -182,7 +186,8 @@ TEST_CASE("a text that is too long for a piece of news is cut between two charac
     CHECK(std::string(news.text.data()) == std::string(254, 'a'));
 }
 
-TEST_CASE("the time that is left is that of the trials to come at the pace of those that are done", "[unit]") {
+TEST_CASE("the time that is left is that of the trials to come at the pace of those that are done",
+          "[unit]") {
     SessionFacts facts = some_facts();
     SessionView view = some_view();
     // Two trials of this sitting took 40 s; seven are to come.
@@ -208,13 +213,15 @@ TEST_CASE("the view as text fits the terminal, says what is wrong and shows gaze
     const std::string screen = screen_of(text, 80, 40);
     int rows = 0, in_row = 0;
     for (const char letter : screen) {
-        in_row = letter == '\n' ? 0 : in_row + ((static_cast<unsigned char>(letter) & 0xC0u) != 0x80u ? 1 : 0);
+        in_row =
+            letter == '\n' ? 0 : in_row + ((static_cast<unsigned char>(letter) & 0xC0u) != 0x80u ? 1 : 0);
         rows += letter == '\n' ? 1 : 0;
         CHECK(in_row < 80);
     }
     CHECK(rows <= 38);
-    for (const char* const word : {"trial 4 of 10", "3 of 10 trials", "2 min 20 s left", "LOST", "10.0 %", "5.0 %",
-                                   "1.50 deg, more than 1", "too loud", "Go on?", "How old? Say it", "7 pieces"}) {
+    for (const char* const word :
+         {"trial 4 of 10", "3 of 10 trials", "2 min 20 s left", "LOST", "10.0 %", "5.0 %",
+          "1.50 deg, more than 1", "too loud", "Go on?", "How old? Say it", "7 pieces"}) {
         INFO(word << "\n" << screen);
         CHECK(screen.find(word) != std::string::npos);
     }
