@@ -356,6 +356,9 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
                              progress.enter(phase, trial);
                              if (view)
                                  view->entered(phase, trial);
+                             if (phase == SessionPhase::task_screen || phase == SessionPhase::stimulus)
+                                 if (const auto regained = regain_realtime_priority())
+                                     note_thread({*regained}, rig.clock(), store);
                          }},
                     plan.fields);
     note_faults(options.faults, rig.clock(), store);
@@ -367,7 +370,8 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
         result = session.run(
             [&](const Trial& trial, const TrialOutcome& outcome, int done) {
                 if (LiveMaps* live = rig.live_maps())
-                    record_live_maps(live->take_finished(), folder.path, folder.header, store);
+                    at_normal_priority(
+                        [&] { record_live_maps(live->take_finished(), folder.path, folder.header, store); });
                 progress(trial, outcome, done);
                 if (const VirtualRefresh* display = rig.virtual_refresh())
                     note_struck(*display, trial, rig.clock(), store);

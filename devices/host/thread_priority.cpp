@@ -1,7 +1,11 @@
 #include "devices/host/thread_priority.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
+#include <future>
 #include <thread>
 
 #include <fcntl.h>
@@ -28,6 +32,32 @@ constexpr int realtime_kit_priority = 20;
 
 std::string error_text(int error) { return std::strerror(error); }
 
+/// The thread that has real-time priority, by its number in the kernel; 0: none. Read in a signal's handler.
+std::atomic<pid_t> realtime_thread = 0;
+std::atomic<int> losses = 0;
+
+/// The kernel sends SIGXCPU when a thread with real-time priority has not slept for the soft limit, and once
+/// a second from then on; at the hard limit it kills.
+void take_priority_away(int signal) {
+    const int error = errno;
+    const sched_param normal{0};
+    if (const pid_t thread = realtime_thread.exchange(0))
+        losses += sched_setscheduler(thread, SCHED_OTHER, &normal) == 0;
+    else if (losses == 0) { // a limit on processor time that is none of ours
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);
+    }
+    errno = error;
+}
+
+void guard_this_thread() {
+    struct sigaction action {};
+    action.sa_handler = take_priority_away;
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGXCPU, &action, nullptr);
+    realtime_thread = static_cast<pid_t>(syscall(SYS_gettid));
+}
+
 bool is_realtime() {
     const int policy = sched_getscheduler(0);
     return policy >= 0 && (policy & ~SCHED_RESET_ON_FORK) != SCHED_OTHER;
@@ -36,7 +66,7 @@ bool is_realtime() {
 /// Asks RealtimeKit over the system's message bus, with systemd's own program for that. It wants a bound on
 /// how long the thread may run without sleeping.
 bool ask_realtime_kit() {
-    rlimit busy{200'000, 200'000}; // microseconds: its --rttime-usec-max
+    rlimit busy{1000 * realtime_busy_limit_ms, 200'000}; // microseconds: its --rttime-usec-max
     if (setrlimit(RLIMIT_RTTIME, &busy) != 0)
         return false;
     const std::string process = std::to_string(getpid()), thread = std::to_string(syscall(SYS_gettid)),
@@ -68,14 +98,21 @@ bool ask_realtime_kit() {
 ThreadWish take_priority() {
     ThreadWish wish{"real-time priority", false, {}};
     const sched_param priority{own_priority};
-    if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &priority) == 0)
+    guard_this_thread();
+    if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &priority) == 0) {
+        rlimit busy{};
+        getrlimit(RLIMIT_RTTIME, &busy);
+        busy.rlim_cur = std::min<rlim_t>(1000 * realtime_busy_limit_ms, busy.rlim_max);
+        setrlimit(RLIMIT_RTTIME, &busy);
         return {wish.what, true, fmt::format("SCHED_FIFO {}", own_priority)};
+    }
     const int error = errno;
     if (ask_realtime_kit())
         return {wish.what, true, fmt::format("SCHED_RR {} through RealtimeKit", realtime_kit_priority)};
     wish.detail =
         fmt::format("{}; let this user have rtprio {} in /etc/security/limits.conf, or install rtkit",
                     error_text(error), own_priority);
+    realtime_thread = 0;
     return wish;
 }
 
@@ -113,7 +150,28 @@ ThreadWish stay_on(int processor) {
 ThreadWish try_realtime_priority() {
     ThreadWish wish;
     std::thread([&wish] { wish = take_priority(); }).join();
+    realtime_thread = 0;
     return wish;
+}
+
+std::optional<ThreadWish> regain_realtime_priority() {
+    const int lost = losses.exchange(0);
+    if (lost == 0)
+        return {};
+    ThreadWish wish = take_priority();
+    wish.detail = fmt::format(
+        "was taken away from the session's thread, which had been busy for {} ms without a "
+        "pause; {}{}",
+        realtime_busy_limit_ms, wish.granted ? "taken again: " : "and is refused now: ", wish.detail);
+    return wish;
+}
+
+void at_normal_priority(const std::function<void()>& work) {
+    std::async(std::launch::async, [&work] {
+        const sched_param normal{0};
+        sched_setscheduler(0, SCHED_OTHER, &normal); // where RealtimeKit's threads are inherited after all
+        work();
+    }).get();
 }
 
 std::vector<ThreadWish> prepare_thread(const ThreadWishes& wishes) {
