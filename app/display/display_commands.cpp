@@ -200,7 +200,9 @@ void add_doctor(CLI::App& app, ChosenCommand& chosen) {
     const auto given = std::make_shared<DoctorOptions>();
     DoctorOptions& options = *given;
     CLI::App& command =
-        add_command(app, "doctor", "What this machine offers for a session", "overt doctor --json");
+        add_command(app, "doctor", "What this machine offers for a session, and what is missing",
+                    "overt doctor --json\n"
+                    "  overt doctor --window --monitor 1 --seconds 30 --report rig.md");
     command.add_flag("--json", options.json, "Print JSON");
     command.add_flag("--window", options.window,
                      "Show a dark screen, measure its refreshes, and say what may spoil their times");
@@ -212,6 +214,12 @@ void add_doctor(CLI::App& app, ChosenCommand& chosen) {
             "--sensor", options.sensor,
             "Serial port of a light sensor that sends 1 and 0, or `simulated` (5 ms late, 0.2 ms jitter)")
         ->type_name("PORT");
+    command
+        .add_option(
+            "--report", options.report,
+            "Write all that is found as a page to keep, with what --window and --photodiode measure and "
+            "pictures of it")
+        ->type_name("FILE.md");
     add_context_option(command, options.context);
     command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
     command.add_option("--monitor", options.monitor, "The screen to take, as this command numbers them")

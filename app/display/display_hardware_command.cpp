@@ -114,6 +114,7 @@ int run_display_hardware_check(const DisplayHardwareOptions& options) {
     whole_screen.width_px = monitor.size_px.x;
     whole_screen.height_px = monitor.size_px.y;
     whole_screen.refresh_hz = monitor.refresh_hz;
+    whole_screen.linearised_by = LinearisedBy::display; // bytes are compared, whatever light they make
     const std::vector<ScreenFinding> findings = judge_screen(facts_of(*display.window()), whole_screen);
     const double rate_hz = box->video_rate_hz();
     const VideoLineReport report = box->check_video(

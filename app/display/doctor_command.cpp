@@ -1,12 +1,10 @@
-#include <thread>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/statvfs.h>
 
-#include "app/cli/cache_folder.h"
 #include "app/cli/state_folder.h"
 #include "app/display/display_commands.h"
+#include "app/display/doctor_report.h"
+#include "app/display/machine_doctor.h"
 #include "app/display/photodiode_doctor.h"
 #include "app/display/screen_doctor.h"
 #include "app/display/tracker_doctor.h"
@@ -16,7 +14,6 @@
 #include "devices/display_box/display_plus_plus_search.h"
 #include "devices/display_box/switch_record.h"
 #include "devices/host/clocks.h"
-#include "devices/host/thread_priority.h"
 #include "devices/light/colorcal.h"
 #include "devices/link/serial_port.h"
 #include "render/gl/headless_context.h"
@@ -28,27 +25,12 @@ namespace overt {
 
 namespace {
 
-struct Line {
-    std::string what, finding;
-};
-
-double free_gb(const std::filesystem::path& folder) {
-    std::filesystem::path existing = folder;
-    while (!existing.empty() && !std::filesystem::exists(existing))
-        existing = existing.parent_path();
-    std::error_code error;
-    const auto space = std::filesystem::space(existing, error);
-    return error ? 0.0 : static_cast<double>(space.available) / 1e9;
-}
-
-std::string realtime_priority() {
-    // Limits alone do not tell: root needs none, containers take it away, and RealtimeKit gives it.
-    const ThreadWish wish = try_realtime_priority();
-    return wish.granted ? "granted: " + wish.detail : "refused: " + wish.detail;
-}
-
-void add_screens(std::vector<Line>& lines) {
-    lines.push_back({"window system", examine_window_system().description()});
+void add_screens(std::vector<DoctorFinding>& lines) {
+    const WindowSystem system = examine_window_system();
+    lines.push_back({"window system", system.description(),
+                     system.is_wayland       ? "log in to a session of X11"
+                     : system.has_compositor ? "switch compositing off, in the desktop's settings"
+                                             : ""});
     if (!display_is_available())
         return;
     try {
@@ -60,7 +42,13 @@ void add_screens(std::vector<Line>& lines) {
                                        : std::string("an unknown rate"),
                 monitor.position_px.x, monitor.position_px.y);
             lines.push_back({fmt::format("monitor {}, {}", monitor.number, monitor.name), finding});
-            lines.push_back({"  gamma table", describe(facts.gamma_ramp)});
+            const bool changes = !facts.gamma_ramp.red.empty() && !is_identity(facts.gamma_ramp.red);
+            lines.push_back({"  gamma table", describe(facts.gamma_ramp),
+                             changes
+                                 ? fmt::format("xrandr --output {} --gamma 1:1:1, and switch colour profiles "
+                                               "and the night light off",
+                                               monitor.name)
+                                 : ""});
             if (monitor.content_scale != glm::vec2(1.0f))
                 lines.push_back({"  scaling", fmt::format("{:.0f} %", 100.0 * static_cast<double>(
                                                                                   monitor.content_scale.x))});
@@ -71,7 +59,7 @@ void add_screens(std::vector<Line>& lines) {
 }
 
 /// Asks only ports of the box's vendor: an overview must not talk to another maker's device.
-void add_instruments(std::vector<Line>& lines) {
+void add_instruments(std::vector<DoctorFinding>& lines) {
     const std::vector<SerialPortInfo> ports = serial_ports();
     if (ports.empty())
         lines.push_back({"display box, photometer", "no USB serial port (/dev/ttyACM*)"});
@@ -97,8 +85,8 @@ void add_instruments(std::vector<Line>& lines) {
     }
 }
 
-std::vector<Line> examine() {
-    std::vector<Line> lines;
+std::vector<DoctorFinding> examine() {
+    std::vector<DoctorFinding> lines;
     for (const ContextAttempt& attempt : survey_contexts())
         lines.push_back({fmt::format("OpenGL, {}", name_of(attempt.kind)), attempt.outcome});
     try {
@@ -110,39 +98,44 @@ std::vector<Line> examine() {
     }
     add_screens(lines);
     add_instruments(lines);
-    for (TrackerFinding& tracker : examine_trackers())
-        lines.push_back({std::move(tracker.what), std::move(tracker.finding)});
+    for (DoctorFinding& tracker : examine_trackers())
+        lines.push_back(std::move(tracker));
     for (const std::string& box : button_box_overview())
         lines.push_back({"response box", box});
     for (const std::string& output : marker_overview())
         lines.push_back({"marker output", output});
     for (const std::string& sound : sound_overview())
         lines.push_back({"sound device", sound});
-    lines.push_back({"processors", fmt::format("{}", std::thread::hardware_concurrency())});
-    lines.push_back({"real-time priority", realtime_priority()});
-    lines.push_back({"free disk, here", fmt::format("{:.1f} GB", free_gb(std::filesystem::current_path()))});
-    lines.push_back({"free disk, cache",
-                     fmt::format("{:.1f} GB in {}", free_gb(cache_folder()), cache_folder().string())});
+    for (DoctorFinding& finding : examine_machine())
+        lines.push_back(std::move(finding));
     return lines;
 }
 
 } // namespace
 
 int run_doctor(const DoctorOptions& options) {
+    if (!options.report.empty())
+        return write_doctor_report(options, examine);
     if (options.photodiode)
         return run_photodiode_doctor(options);
     if (options.window)
         return run_screen_doctor(options);
-    const std::vector<Line> lines = examine();
+    const std::vector<DoctorFinding> lines = examine();
     if (options.json) {
         auto json = nlohmann::ordered_json::array();
-        for (const Line& line : lines)
+        for (const DoctorFinding& line : lines) {
             json.push_back({{"what", line.what}, {"finding", line.finding}});
+            if (!line.remedy.empty())
+                json.back()["remedy"] = line.remedy;
+        }
         fmt::print("{}\n", nlohmann::ordered_json{{"doctor", json}}.dump(2));
         return 0;
     }
-    for (const Line& line : lines)
+    for (const DoctorFinding& line : lines) {
         fmt::print("{:<24} {}\n", line.what, line.finding);
+        if (!line.remedy.empty())
+            fmt::print("{:<24} to mend it: {}\n", "", line.remedy);
+    }
     return 0;
 }
 

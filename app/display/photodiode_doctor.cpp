@@ -76,7 +76,7 @@ std::unique_ptr<LightSensor> open_sensor(const DoctorOptions& options, const Clo
 
 } // namespace
 
-int run_photodiode_doctor(const DoctorOptions& options) {
+MeasuredLight measure_light(const DoctorOptions& options) {
     auto [display, size_px] = open_screen(options);
     display.start();
     Clock& clock = display.clock();
@@ -108,30 +108,35 @@ int run_photodiode_doctor(const DoctorOptions& options) {
     }
     bar.finish();
     clock.wait_until(clock.now() + std::chrono::milliseconds(200));
-    const std::string source(name_of(flip.source));
-    if (!sensor) {
-        fmt::print("{} changes shown, times by {}; give --sensor PORT to compare them\n", changes.size(),
-                   source);
+    return {std::string(name_of(flip.source)), static_cast<int>(changes.size()),
+            sensor ? compare_light(changes, sensor->edges()) : LightLatency()};
+}
+
+int run_photodiode_doctor(const DoctorOptions& options) {
+    const MeasuredLight light = measure_light(options);
+    if (options.sensor.empty()) {
+        fmt::print("{} changes shown, times by {}; give --sensor PORT to compare them\n", light.changes,
+                   light.source);
         return 0;
     }
-    const LightLatency found = compare_light(changes, sensor->edges());
+    const LightLatency& found = light.found;
     if (options.json) {
         const auto figure = [](std::string_view name, double value, std::string_view unit) {
             return nlohmann::ordered_json{{"figure", name}, {"value", value}, {"unit", unit}};
         };
         fmt::print("{}\n",
                    nlohmann::ordered_json{
-                       {"source", source},
+                       {"source", light.source},
                        {"sensor", options.sensor},
                        {"figures",
-                        {figure("changes", static_cast<double>(changes.size()), ""),
-                         figure("seen", found.matched, ""), figure("latency", found.mean_ms, "ms"),
+                        {figure("changes", light.changes, ""), figure("seen", found.matched, ""),
+                         figure("latency", found.mean_ms, "ms"),
                          figure("standard deviation of the latency", found.sd_ms, "ms"),
                          figure("unseen", found.unseen, ""), figure("unasked", found.unasked, "")}}}
                        .dump(2));
     } else {
-        fmt::print("times by {}; {} of {} changes seen, {} edges without a change\n", source,
-                   found.matched, changes.size(), found.unasked);
+        fmt::print("times by {}; {} of {} changes seen, {} edges without a change\n", light.source,
+                   found.matched, light.changes, found.unasked);
         fmt::print(
             "from vertical blank to light: {:.3f} ms, standard deviation {:.3f} ms ({:.3f} … {:.3f})\n",
             found.mean_ms, found.sd_ms, found.lowest_ms, found.highest_ms);
@@ -139,7 +144,7 @@ int run_photodiode_doctor(const DoctorOptions& options) {
             fmt::print("for a sensor at the top of the screen: [display] latency_ms = {:.2f}\n",
                        found.mean_ms);
     }
-    return found.matched > 0 && found.unseen == 0 ? 0 : 1;
+    return light.is_whole() ? 0 : 1;
 }
 
 } // namespace overt

@@ -20,18 +20,6 @@ constexpr double assumed_hz = 60.0;
 /// A window that is not the whole screen is large enough to be seen, and small enough to be no bother.
 constexpr glm::ivec2 window_px{640, 360};
 
-std::string_view name_of(ScreenFinding::Weight weight) {
-    switch (weight) {
-    case ScreenFinding::Weight::good:
-        return "good";
-    case ScreenFinding::Weight::risk:
-        return "risk";
-    case ScreenFinding::Weight::refusal:
-        break;
-    }
-    return "refused";
-}
-
 nlohmann::ordered_json json_of(const TimingFacts& facts, const std::vector<ScreenFinding>& findings) {
     const RefreshMeasurement& measured = facts.measured;
     auto list = nlohmann::ordered_json::array();
@@ -60,7 +48,25 @@ MonitorInfo chosen_monitor(const DoctorOptions& options) {
     return choose_monitor(monitors, {.number = options.monitor});
 }
 
-int run_screen_doctor(const DoctorOptions& options) {
+std::string_view name_of(ScreenFinding::Weight weight) {
+    switch (weight) {
+    case ScreenFinding::Weight::good:
+        return "good";
+    case ScreenFinding::Weight::risk:
+        return "risk";
+    case ScreenFinding::Weight::refusal:
+        break;
+    }
+    return "refused";
+}
+
+bool ExaminedScreen::is_refused() const {
+    return std::ranges::any_of(findings, [](const ScreenFinding& finding) {
+        return finding.weight == ScreenFinding::Weight::refusal;
+    });
+}
+
+ExaminedScreen measure_screen(const DoctorOptions& options) {
     const MonitorInfo monitor = chosen_monitor(options);
     const double nominal_hz = monitor.refresh_hz > 0 ? monitor.refresh_hz : assumed_hz;
     OpenDisplay display({.context = ContextKind::window,
@@ -72,7 +78,7 @@ int run_screen_doctor(const DoctorOptions& options) {
                          .finds_blanks = true});
     display.start();
     ProgressBar bar;
-    const TimingFacts facts = measure_timing(
+    TimingFacts facts = measure_timing(
         *display.window(), *display.window_display(), display.clock(), options.seconds,
         [&](int done, int total) { bar.update("measuring the screen's refresh, s", done, total); });
     bar.finish();
@@ -81,17 +87,20 @@ int run_screen_doctor(const DoctorOptions& options) {
                           : monitor.refresh_hz > 0       ? nominal_hz
                           : facts.measured.mean_hz > 0.0 ? facts.measured.mean_hz
                                                          : assumed_hz;
-    const std::vector<ScreenFinding> findings = judge_timing(facts, own_hz, "its mode");
+    std::vector<ScreenFinding> findings = judge_timing(facts, own_hz, "its mode");
+    return {monitor, display.context().description().renderer, std::move(facts), std::move(findings)};
+}
+
+int run_screen_doctor(const DoctorOptions& options) {
+    const ExaminedScreen screen = measure_screen(options);
     if (options.json) {
-        fmt::print("{}\n", json_of(facts, findings).dump(2));
+        fmt::print("{}\n", json_of(screen.facts, screen.findings).dump(2));
     } else {
-        fmt::print("{}\n{}\n", describe(monitor), display.context().description().renderer);
-        for (const ScreenFinding& finding : findings)
+        fmt::print("{}\n{}\n", describe(screen.monitor), screen.renderer);
+        for (const ScreenFinding& finding : screen.findings)
             fmt::print("{:<8} {:<18} {}\n", name_of(finding.weight), finding.what, finding.finding);
     }
-    return std::ranges::any_of(findings, [](const ScreenFinding& finding) {
-        return finding.weight == ScreenFinding::Weight::refusal;
-    });
+    return screen.is_refused();
 }
 
 } // namespace overt

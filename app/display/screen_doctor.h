@@ -2,13 +2,30 @@
 #pragma once
 
 #include "app/display/display_commands.h"
+#include "render/vblank/refresh_measurement.h"
+#include "render/window/screen_check.h"
 #include "render/window/window_context.h"
 
 namespace overt {
 
-/// Shows a dark screen for a while and prints what was found; 1 if something would refuse a session. Throws
-/// GraphicsError if no window can be opened.
+/// What a window on a monitor was found to be like.
+struct ExaminedScreen {
+    MonitorInfo monitor;
+    std::string renderer; ///< OpenGL's
+    TimingFacts facts;
+    std::vector<ScreenFinding> findings;
+
+    bool is_refused() const;
+};
+
+/// Shows a dark screen for a while. Throws GraphicsError if no window can be opened.
+ExaminedScreen measure_screen(const DoctorOptions& options);
+
+/// The same, and prints what was found; 1 if something would refuse a session.
 int run_screen_doctor(const DoctorOptions& options);
+
+/// "good", "risk" or "refused".
+std::string_view name_of(ScreenFinding::Weight weight);
 
 /// The monitor that was asked for, or the only one. Throws InputError if there is none of that number, or
 /// none was named where there are several.

@@ -41,8 +41,8 @@ std::string eyelink_network(std::span<const NetworkCard> cards) {
                        host_address, others, free_card ? free_card->name : std::string("CARD"));
 }
 
-std::vector<TrackerFinding> examine_trackers() {
-    std::vector<TrackerFinding> findings;
+std::vector<DoctorFinding> examine_trackers() {
+    std::vector<DoctorFinding> findings;
     for (const TrackerDevice& device : tracker_devices())
         if (device.is_hardware)
             findings.push_back({fmt::format("eye tracker, {}", device.name),

@@ -110,7 +110,7 @@ DisplayBoxSession::DisplayBoxSession(const BoxIdentity& identity, const DisplayS
     const ModeSwitch switched = box_->set_mode(mode);
     require_rate(now.port, switched.rate_hz, display.refresh_hz);
     box_->disable_temporal_dithering();
-    box_->select_gamma_table(DisplayPlusPlus::linear_gamma_table);
+    box_->select_gamma_table(display.box_gamma_table);
     pairs_ = box_->relate_clocks([&] { return show_clock_reset(presenter); });
     recorded_ = {RecordedBox::Use::box,
                  now.port,
@@ -118,7 +118,7 @@ DisplayBoxSession::DisplayBoxSession(const BoxIdentity& identity, const DisplayS
                  now.serial_number,
                  now.firmware_date,
                  std::string(name_of(mode)),
-                 std::string(DisplayPlusPlus::linear_gamma_table),
+                 display.box_gamma_table,
                  switched.settled_after,
                  switched.rate_hz};
 }

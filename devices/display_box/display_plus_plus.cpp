@@ -154,8 +154,8 @@ void DisplayPlusPlus::select_gamma_table(std::string_view file) {
     if (file.empty() || file.size() > 64 || file.find_first_not_of(allowed) != std::string_view::npos)
         throw InputError(fmt::format(
             "\"{}\" is no name of a gamma table on the box: give a file name of letters, digits, dots, "
-            "dashes and underscores, such as {}.",
-            printable(file), linear_gamma_table));
+            "dashes and underscores, such as 13bitLinearLUT.txt.",
+            printable(file)));
     link_.tell("enableGammaCorrection", file);
 }
 

@@ -89,9 +89,6 @@ class DisplayPlusPlus {
     /// No reply exists.
     void select_gamma_table(std::string_view file);
 
-    /// The table that leaves values as they are: our shaders correct for the display.
-    static constexpr std::string_view linear_gamma_table = "13bitLinearLUT.txt";
-
     /// The first `pixels` (1 to 3840) pixels of a video line as the box receives them. Leaves the box on its
     /// status screen: set the mode afterwards. `line` as in DrawnLine.
     std::vector<RgbBytes> read_video_line(int line, int pixels);

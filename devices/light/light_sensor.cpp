@@ -63,7 +63,7 @@ std::vector<LightEdge> SerialLightSensor::edges() {
 LightLatency compare_light(std::span<const LightEdge> changes, std::span<const LightEdge> edges,
                            double earliest_ms) {
     LightLatency found;
-    std::vector<double> delays_ms;
+    std::vector<double>& delays_ms = found.delays_ms;
     for (std::size_t i = 0; i < changes.size(); ++i) {
         const SessionTime from = changes[i].at + from_seconds(1e-3 * earliest_ms);
         const SessionTime until = next_of_its_kind(changes, i);

@@ -72,6 +72,7 @@ struct LightLatency {
     int unseen = 0;                                                       ///< changes without an edge
     int unasked = 0;                                                      ///< edges without a change
     double mean_ms = 0.0, sd_ms = 0.0, lowest_ms = 0.0, highest_ms = 0.0; ///< of those matched
+    std::vector<double> delays_ms = {}; ///< of those matched, in their order
 };
 
 /// Each change is matched with the first edge of its kind from `earliest_ms` after it (a sensor may be

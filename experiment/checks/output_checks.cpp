@@ -30,12 +30,14 @@ void check_keys_of_mode(ProtocolExamination& examination) {
     }
     if (!row.is_packed) {
         if (display.gamma == 1.0 && !examination.is_written("display.gamma") &&
-            !examination.is_written("display.characterisation")) {
+            !examination.is_written("display.characterisation") &&
+            display.linearised_by == LinearisedBy::unsaid) {
             examination.warning(
                 {"display.output", "display.gamma"},
                 fmt::format("{} with the default gamma of 1: the display would have to linearise itself",
                             mode),
-                "ordinary monitors need gamma = 2.2, or a characterisation; write gamma = 1 if it is meant");
+                "ordinary monitors need gamma = 2.2, or a characterisation; write linearised_by = "
+                "\"display\" if it does");
         }
     } else if (display.dither != Dithering::none) {
         examination.error(
@@ -70,6 +72,56 @@ void check_keys_of_mode(ProtocolExamination& examination) {
     if (display.box != "auto" && display.box != "none" && !display.box.starts_with('/'))
         examination.error({"display.box"}, fmt::format("\"{}\" is no serial port", display.box),
                           "write \"auto\", \"none\", or a path such as \"/dev/ttyACM0\"");
+}
+
+/// Whether the words on what linearises the display agree with each other.
+void check_linearisation(ProtocolExamination& examination) {
+    const DisplaySettings& display = examination.protocol.display;
+    const bool is_measured = examination.is_written("display.characterisation");
+    const bool goes_through_box = has_t_lock(display.output) && display.box != "none";
+    const bool is_linear_table = display.box_gamma_table == linear_box_table;
+    switch (display.linearised_by) {
+    case LinearisedBy::unsaid:
+        break;
+    case LinearisedBy::display:
+    case LinearisedBy::box:
+        if (display.gamma != 1.0)
+            examination.error(
+                {"display.gamma", "display.linearised_by"},
+                fmt::format("light is said to be proportional to the signal already: with gamma "
+                            "= {:g} it would be corrected twice",
+                            display.gamma),
+                "leave gamma out, or write linearised_by = \"none\"");
+        break;
+    case LinearisedBy::none:
+        if (display.gamma == 1.0 && !is_measured)
+            examination.error({"display.linearised_by", "display.gamma"},
+                              "nothing is said to linearise the display, and gamma = 1 corrects for nothing",
+                              "write its gamma, such as 2.2, or measure a characterisation");
+        break;
+    }
+    if (display.linearised_by == LinearisedBy::box) {
+        if (!goes_through_box)
+            examination.error({"display.linearised_by", "display.output"},
+                              fmt::format("{} is sent through no box whose table could linearise the display",
+                                          name_of(display.output)),
+                              "write linearised_by = \"display\" or \"none\"");
+        else if (is_linear_table)
+            examination.error(
+                {"display.linearised_by", "display.box_gamma_table"},
+                fmt::format("{} leaves values as they are, and linearises nothing", display.box_gamma_table),
+                "name the table that was made for this display with box_gamma_table");
+    } else if (!is_linear_table) {
+        if (!goes_through_box)
+            examination.error({"display.box_gamma_table"},
+                              fmt::format("{} is sent through no box: box_gamma_table has no meaning",
+                                          name_of(display.output)));
+        else if (!is_measured)
+            examination.error({"display.box_gamma_table", "display.linearised_by"},
+                              "a table of the box changes values, where the box is not said to linearise the "
+                              "display",
+                              "write linearised_by = \"box\", or leave box_gamma_table out");
+    }
 }
 
 void check_place(ProtocolExamination& examination) {
@@ -190,6 +242,7 @@ void check_frame_store(ProtocolExamination& examination) {
 
 void check_output(ProtocolExamination& examination) {
     check_keys_of_mode(examination);
+    check_linearisation(examination);
     check_place(examination);
     check_photodiode(examination);
     check_tags(examination);

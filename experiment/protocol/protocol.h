@@ -48,6 +48,19 @@ inline constexpr auto names_of<PatchCorner> = enum_names<PatchCorner>("none", "t
 
 /// [display]: the screen in front of the observer. Defaults: a Display++ as in the paper; its 698 mm are the
 /// active width.
+/// The table on the disk of a Display++ or Bits# that leaves values as they are (Display++ user manual).
+inline constexpr std::string_view linear_box_table = "13bitLinearLUT.txt";
+
+/// What makes the display's light proportional to the signal, if anything does.
+enum class LinearisedBy : std::uint8_t {
+    unsaid,  ///< no session runs so on a real screen, unless its light was measured
+    display, ///< the panel itself
+    box,     ///< the display box, by the table `box_gamma_table`
+    none     ///< nothing: overt corrects for `gamma`
+};
+template <>
+inline constexpr auto names_of<LinearisedBy> = enum_names<LinearisedBy>("unsaid", "display", "box", "none");
+
 struct DisplaySettings {
     int width_px = 1920;
     int height_px = 1080;
@@ -64,7 +77,9 @@ struct DisplaySettings {
     /// Exponent between signal and light; 1 for a display that linearises itself. Without a
     /// characterisation.
     double gamma = 1.0;
-    std::filesystem::path characterisation_file; ///< or empty; resolved against the protocol's folder
+    LinearisedBy linearised_by = LinearisedBy::unsaid;
+    std::string box_gamma_table{linear_box_table}; ///< a file on the box's disk
+    std::filesystem::path characterisation_file;   ///< or empty; resolved against the protocol's folder
     std::optional<DisplayCharacterisation> characterisation; ///< what stands in it
     double latency_ms = 0.0;                                 ///< from vertical blank to the first row's light
     double background = 0.0;                                 ///< linear grey, 0 … 1 of the display's white

@@ -28,7 +28,8 @@ const std::map<std::string_view, std::vector<Values>>& starter_values() {
            {"height_mm", "299"},
            {"viewing_distance_mm", "600"},
            {"output", "\"native-8bit\""},
-           {"gamma", "2.2"}}}},
+           {"gamma", "2.2"},
+           {"linearised_by", "\"none\""}}}},
         {"tracker", {{{"rate_hz", "1000"}}}},
         {"light", {{{"probe", "\"gallery\""}}}},
         {"consent",
@@ -139,6 +140,8 @@ std::string_view short_remark(std::string_view key) {
         return " # from eye to screen";
     if (key == "gamma")
         return "               # of an ordinary monitor";
+    if (key == "linearised_by")
+        return "    # but by overt, for that gamma; \"display\": the display itself";
     if (key == "shipped")
         return "        # your own: mesh = \"scan.ply\"";
     return {};

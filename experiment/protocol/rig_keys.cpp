@@ -135,6 +135,17 @@ Section display() {
                   .explanation = "Exponent from signal to light: 1 for a display that linearises itself, "
                                  "about 2.2 for an ordinary monitor."},
                  &D::gamma},
+                {{.name = "linearised_by",
+                  .explanation =
+                      "What makes light proportional to the signal. `display`: the panel itself. `box`: the "
+                      "display box, by `box_gamma_table`. `none`: nothing, and overt corrects for `gamma`. "
+                      "Sessions on a real screen in real time need one of these, or a `characterisation`; "
+                      "the first two leave `gamma` at 1."},
+                 &D::linearised_by},
+                {{.name = "box_gamma_table",
+                  .explanation = "The table that the display box is told to use, a file on its disk. "
+                                 "`13bitLinearLUT.txt` leaves values as they are."},
+                 &D::box_gamma_table},
                 {{.name = "characterisation",
                   .if_left_out = "none",
                   .explanation = "File with what was measured of the display, instead of `gamma`: primaries, "

@@ -52,6 +52,7 @@ RefreshMeasurement summarise_refreshes(std::span<const FlipReport> flips) {
         if (stamps.size() < 2)
             continue;
         const auto& before = stamps[stamps.size() - 2];
+        measured.intervals_ms.push_back(1e3 * to_seconds(stamps.back().stamp - before.stamp));
         const auto refreshes =
             counted ? std::max<std::int64_t>(1, stamps.back().refresh - before.refresh) : 1;
         intervals_ns.push_back(static_cast<double>((stamps.back().stamp - before.stamp).count()) /

@@ -16,9 +16,10 @@ struct RefreshMeasurement {
     int flips = 0;
     double mean_hz = 0.0;    ///< by a robust line through all stamps (RefreshFit); 0 of fewer than 3 flips
     double mean_se_hz = 0.0; ///< one standard error of it
-    double interval_sd_ms = 0.0; ///< of single intervals without a miss in them
-    int outliers = 0;            ///< stamps off the line
-    int missed = 0;              ///< refreshes without a picture of their own
+    double interval_sd_ms = 0.0;      ///< of single intervals without a miss in them
+    int outliers = 0;                 ///< stamps off the line
+    int missed = 0;                   ///< refreshes without a picture of their own
+    std::vector<double> intervals_ms; ///< from each flip to the next, in their order
 };
 
 /// Flips in their order. Where their source counts no refreshes, the count is inferred from the median

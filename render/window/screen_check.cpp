@@ -32,6 +32,28 @@ ScreenFinding gamma_finding(const ScreenFacts& facts, const DisplaySettings& dis
                     "(xrandr --output NAME --gamma 1:1:1)"};
 }
 
+ScreenFinding linearisation_finding(const DisplaySettings& display) {
+    const auto good = [](std::string finding) {
+        return ScreenFinding{Weight::good, "linearisation", std::move(finding)};
+    };
+    if (display.characterisation)
+        return good("measured: " + display.characterisation_file.filename().string());
+    switch (display.linearised_by) {
+    case LinearisedBy::display:
+        return good("by the display itself, as the protocol says");
+    case LinearisedBy::box:
+        return good(
+            fmt::format("by the table {} of the display box, as the protocol says", display.box_gamma_table));
+    case LinearisedBy::none:
+        return good(fmt::format("by overt, for a gamma of {:g}, as the protocol says", display.gamma));
+    case LinearisedBy::unsaid:
+        break;
+    }
+    return {Weight::refusal, "linearisation",
+            "nothing says what makes light proportional to the signal: measure it (overt display "
+            "characterise), or write [display] linearised_by = \"display\", \"box\" or \"none\""};
+}
+
 ScreenFinding depth_finding(const ScreenFacts& facts, const DisplaySettings& display) {
     const int needed = row_of(display.output).framebuffer_bits;
     const std::string found = fmt::format("{} bits per channel", facts.bits_per_channel);
@@ -138,9 +160,9 @@ std::string describe(const GammaRamp& ramp) {
 }
 
 std::vector<ScreenFinding> judge_screen(const ScreenFacts& facts, const DisplaySettings& display) {
-    return {place_finding(facts, display), size_finding(facts, display), rate_finding(facts, display),
-            depth_finding(facts, display), scaling_finding(facts),       gamma_finding(facts, display),
-            system_finding(facts)};
+    return {place_finding(facts, display),  size_finding(facts, display), rate_finding(facts, display),
+            depth_finding(facts, display),  scaling_finding(facts),       gamma_finding(facts, display),
+            linearisation_finding(display), system_finding(facts)};
 }
 
 void refuse_spoilt_screen(const std::vector<ScreenFinding>& findings) {

@@ -31,7 +31,10 @@ struct Rigged {
 
     static std::string protocol(const std::string& box) {
         const std::string at_60_hz = with(small_protocol, "refresh_hz = 120", "refresh_hz = 60");
-        return with(at_60_hz, "output = \"color++\"\n", "output = \"color++\"\n" + box);
+        const std::string light = box.find("none") == std::string::npos
+                                      ? "linearised_by = \"box\"\nbox_gamma_table = \"lab3.txt\"\n"
+                                      : "linearised_by = \"display\"\n";
+        return with(at_60_hz, "output = \"color++\"\n", "output = \"color++\"\n" + light + box);
     }
     std::vector<std::string> environment() const {
         // The libraries behind a window keep memory until the end of the process.
@@ -113,7 +116,7 @@ TEST_CASE("a session on a screen switches the display box, relates its clock and
     CHECK(rig.box->mode() == "BitsPlusPlus");
     CHECK(rig.box->was_told("colorPlusPlus"));
     CHECK(rig.box->was_told("TemporalDithering"));
-    CHECK(rig.box->was_told("enableGammaCorrection"));
+    CHECK(rig.box->gamma_table() == "lab3.txt"); // the protocol's
     CHECK(rig.box->clock_resets() >= 1);
     CHECK_FALSE(std::filesystem::exists(rig.note()));
 

@@ -1,7 +1,13 @@
+#include <filesystem>
+#include <fstream>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/display/machine_doctor.h"
 #include "tests/support/program.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/virtual_screen.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -34,4 +40,70 @@ TEST_CASE("a sensor of light at a display that is not there, or a port that is n
     CHECK(run.exit_code == 2);
     CHECK(run.err.find("a sensor has nothing to see of a display that is not there") != std::string::npos);
     CHECK(run.out.empty());
+}
+
+TEST_CASE("the doctor writes what it found as a page with pictures, and replaces none", "[session]") {
+    const TemporaryFolder folder;
+    const std::filesystem::path page = folder.path() / "rig.md";
+    const std::vector<std::string> call = {"doctor",    "--report",  page.string(), "--photodiode",
+                                           "--sensor",  "simulated", "--context",   "osmesa",
+                                           "--seconds", "3"};
+    const ProgramRun run = run_overt(call, {});
+    INFO(run.out << run.err);
+    REQUIRE(run.exit_code == 0);
+    const std::string text = text_of(page);
+    for (const char* const words :
+         {"# What this rig is", "## What is missing", "## What there is", "| processors |", "overt 0.",
+          "| changes shown | 59 |", "](rig_latency.svg)", "`[display] latency_ms = 5.0"}) {
+        CAPTURE(words);
+        CHECK(text.find(words) != std::string::npos);
+    }
+    CHECK(text_of(folder.path() / "rig_latency.svg").find("<svg") != std::string::npos);
+    CHECK(text.find("The screen's refreshes") == std::string::npos); // was not asked for
+
+    const ProgramRun again = run_overt(call, {});
+    CHECK(again.exit_code == 2);
+    CHECK(again.err.find("is there already") != std::string::npos);
+    CHECK(text_of(page) == text);
+    const ProgramRun nowhere =
+        run_overt({"doctor", "--report", (folder.path() / "no" / "rig.md").string()}, {});
+    CHECK(nowhere.exit_code == 2);
+    CHECK(nowhere.err.find("there is no folder") != std::string::npos);
+}
+
+TEST_CASE("the doctor's page has a screen's refreshes, flip by flip", "[session]") {
+    const TemporaryFolder folder;
+    const auto screen = VirtualScreen::start(640, 360, 24, folder.path().string());
+    const std::filesystem::path page = folder.path() / "rig.md";
+    const ProgramRun run =
+        run_overt({"doctor", "--report", page.string(), "--window", "--seconds", "1"},
+                  {"WAYLAND_DISPLAY=", "XDG_SESSION_TYPE=", "ASAN_OPTIONS=detect_leaks=0"});
+    INFO(run.out << run.err);
+    REQUIRE(std::filesystem::exists(page)); // whatever it found there
+    const std::string text = text_of(page);
+    CHECK(text.find("## The screen's refreshes") != std::string::npos);
+    CHECK(text.find("| vertical blank |") != std::string::npos);
+    CHECK(text.find("](rig_refreshes.svg)") != std::string::npos);
+    CHECK(std::filesystem::exists(folder.path() / "rig_refreshes.svg"));
+}
+
+TEST_CASE("the doctor names what is missing with what mends it", "[unit]") {
+    const TemporaryFolder folder;
+    const auto rules = folder.path() / "rules.d", cpus = folder.path() / "cpu";
+    CHECK(udev_finding({rules}).remedy.find("sudo cp") == 0);
+    std::filesystem::create_directories(rules);
+    std::ofstream(rules / "70-overt.rules") << "#\n";
+    CHECK(udev_finding({folder.path(), rules}).remedy.empty());
+
+    CHECK(governor_findings(cpus).empty());
+    const auto set = [&](const char* cpu, const char* governor) {
+        std::filesystem::create_directories(cpus / cpu / "cpufreq");
+        std::ofstream(cpus / cpu / "cpufreq/scaling_governor") << governor << "\n";
+    };
+    set("cpu0", "performance");
+    REQUIRE(governor_findings(cpus).size() == 1);
+    CHECK(governor_findings(cpus).front().remedy.empty());
+    set("cpu1", "powersave");
+    CHECK(governor_findings(cpus).front().finding == "performance, powersave");
+    CHECK(governor_findings(cpus).front().remedy.find("cpupower") != std::string::npos);
 }

@@ -34,6 +34,10 @@ class ScreenBox {
         const std::lock_guard lock(mutex_);
         return model_.mode;
     }
+    std::string gamma_table() const {
+        const std::lock_guard lock(mutex_);
+        return model_.gamma_table;
+    }
     std::vector<std::string> commands() const {
         const std::lock_guard lock(mutex_);
         return model_.commands;

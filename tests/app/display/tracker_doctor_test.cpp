@@ -34,10 +34,10 @@ TEST_CASE("the doctor says whether a network card is in the net of an EyeLink's 
 }
 
 TEST_CASE("the doctor names each tracker that is a device, what it can do and what is found", "[unit]") {
-    const std::vector<TrackerFinding> findings = examine_trackers();
+    const std::vector<DoctorFinding> findings = examine_trackers();
     for (const TrackerDevice& device : tracker_devices()) {
         const auto found =
-            std::ranges::find(findings, fmt::format("eye tracker, {}", device.name), &TrackerFinding::what);
+            std::ranges::find(findings, fmt::format("eye tracker, {}", device.name), &DoctorFinding::what);
         CHECK((found != findings.end()) == device.is_hardware);
         if (!device.is_hardware)
             continue;

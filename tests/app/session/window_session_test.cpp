@@ -47,7 +47,7 @@ std::vector<std::string> in_real_time(const SmallExperiment& experiment) {
 
 std::string native_at(int refresh_hz) {
     return with(with(small_protocol, "refresh_hz = 120", "refresh_hz = " + std::to_string(refresh_hz)),
-                "output = \"color++\"", "output = \"native-8bit\"\ngamma = 2.2");
+                "output = \"color++\"", "output = \"native-8bit\"\ngamma = 2.2\nlinearised_by = \"none\"");
 }
 
 } // namespace

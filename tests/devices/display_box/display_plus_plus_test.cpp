@@ -140,7 +140,7 @@ TEST_CASE("dithering and the gamma table are set as the box spells it, and only 
     Bench bench;
     auto display = bench.open();
     display.disable_temporal_dithering();
-    display.select_gamma_table(DisplayPlusPlus::linear_gamma_table);
+    display.select_gamma_table("13bitLinearLUT.txt");
     CHECK(bench.box.model.dithering == "OFF");
     CHECK(bench.box.model.gamma_table == "13bitLinearLUT.txt");
     for (const char* name : {"", "a b", "x]\r$USB_massStorage", "../config.xml;", "é"})

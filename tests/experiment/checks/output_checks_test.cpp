@@ -51,6 +51,34 @@ TEST_CASE("a display box is named by its port, and only where the output goes th
     CHECK(ReadText(minimal_protocol, "").protocol->display.box == "auto");
 }
 
+TEST_CASE("what linearises the display is said once, and agrees with gamma and the table of the box",
+          "[unit]") {
+    const auto lines = [](const std::string& keys) {
+        return ReadText(minimal_protocol, "[display]\n" + keys).lines();
+    };
+    CHECK(lines("linearised_by = \"display\"\ngamma = 2.2\n") ==
+          Lines{"14:9: light is said to be proportional to the signal already: with gamma = 2.2 it would be "
+                "corrected twice"});
+    CHECK(lines("output = \"native-8bit\"\nlinearised_by = \"none\"\ngamma = 1\n") ==
+          Lines{"14:17: nothing is said to linearise the display, and gamma = 1 corrects for nothing"});
+    CHECK(lines("output = \"native-8bit\"\nlinearised_by = \"box\"\n") ==
+          Lines{"14:17: native-8bit is sent through no box whose table could linearise the display"});
+    CHECK(lines("linearised_by = \"box\"\n") ==
+          Lines{"13:17: 13bitLinearLUT.txt leaves values as they are, and linearises nothing"});
+    CHECK(
+        lines("linearised_by = \"display\"\nbox_gamma_table = \"lab3.txt\"\n") ==
+        Lines{
+            "14:19: a table of the box changes values, where the box is not said to linearise the display"});
+    CHECK(lines("output = \"native-8bit\"\ngamma = 2.2\nbox_gamma_table = \"lab3.txt\"\n") ==
+          Lines{"15:19: native-8bit is sent through no box: box_gamma_table has no meaning"});
+    for (const char* sound : {"linearised_by = \"display\"\n", "linearised_by = \"none\"\ngamma = 2.2\n",
+                              "linearised_by = \"box\"\nbox_gamma_table = \"lab3.txt\"\n",
+                              "output = \"native-8bit\"\nlinearised_by = \"display\"\n"}) {
+        CAPTURE(sound);
+        CHECK(lines(sound).empty());
+    }
+}
+
 TEST_CASE("a stimulus stays on the screen and off the rows that speak to the display", "[unit]") {
     const auto lines = [](const std::string& more) { return ReadText(minimal_protocol, more).lines(); };
     CHECK(lines("[view]\nleft_px = 897\n") ==

@@ -33,7 +33,14 @@ ScreenFacts sound() {
     return facts;
 }
 
-Weight weight_of(const ScreenFacts& facts, const std::string& what, const DisplaySettings& display = {}) {
+/// What the protocol says of it.
+DisplaySettings said() {
+    DisplaySettings display;
+    display.linearised_by = LinearisedBy::display;
+    return display;
+}
+
+Weight weight_of(const ScreenFacts& facts, const std::string& what, const DisplaySettings& display = said()) {
     for (const ScreenFinding& finding : judge_screen(facts, display))
         if (finding.what == what)
             return finding.weight;
@@ -43,11 +50,11 @@ Weight weight_of(const ScreenFacts& facts, const std::string& what, const Displa
 } // namespace
 
 TEST_CASE("a screen as it should be gives no finding but good ones", "[unit]") {
-    for (const ScreenFinding& finding : judge_screen(sound(), {})) {
+    for (const ScreenFinding& finding : judge_screen(sound(), said())) {
         INFO(finding.what << ": " << finding.finding);
         CHECK(finding.weight == Weight::good);
     }
-    CHECK_NOTHROW(refuse_spoilt_screen(judge_screen(sound(), {})));
+    CHECK_NOTHROW(refuse_spoilt_screen(judge_screen(sound(), said())));
 }
 
 TEST_CASE("gamma tables are the identity in every form that drivers write it, and in no other", "[unit]") {
@@ -79,8 +86,22 @@ TEST_CASE("what changes a 16-bit signal for good is refused, and all of it at on
     facts.monitor.refresh_hz = 60;
     CHECK(weight_of(facts, "scaling") == Weight::refusal);
     CHECK(weight_of(facts, "refresh rate") == Weight::refusal);
-    CHECK_THROWS_WITH(refuse_spoilt_screen(judge_screen(facts, {})),
+    CHECK_THROWS_WITH(refuse_spoilt_screen(judge_screen(facts, said())),
                       Contains("gamma table") && Contains("scaling") && Contains("60 Hz"));
+}
+
+TEST_CASE("a screen of which nothing says what linearises it is refused, until it is said or measured",
+          "[unit]") {
+    DisplaySettings display;
+    CHECK(weight_of(sound(), "linearisation", display) == Weight::refusal);
+    CHECK_THROWS_WITH(refuse_spoilt_screen(judge_screen(sound(), display)), Contains("linearised_by"));
+    for (const LinearisedBy by : {LinearisedBy::display, LinearisedBy::box, LinearisedBy::none}) {
+        display.linearised_by = by;
+        CHECK(weight_of(sound(), "linearisation", display) == Weight::good);
+    }
+    display.linearised_by = LinearisedBy::unsaid;
+    display.characterisation.emplace();
+    CHECK(weight_of(sound(), "linearisation", display) == Weight::good);
 }
 
 TEST_CASE("a screen of another depth than the output sends is refused", "[unit]") {
@@ -107,7 +128,7 @@ TEST_CASE("what cannot be proved harmless is named as a risk and refuses nothing
     facts.monitor.size_px = {2560, 1440};
     CHECK(weight_of(facts, "place") == Weight::risk);
     CHECK(weight_of(facts, "resolution") == Weight::risk);
-    CHECK_NOTHROW(refuse_spoilt_screen(judge_screen(facts, {})));
+    CHECK_NOTHROW(refuse_spoilt_screen(judge_screen(facts, said())));
     facts.is_fullscreen = true;
     CHECK(weight_of(facts, "resolution") == Weight::refusal);
 }
