@@ -41,6 +41,7 @@ SessionHeader header_of(const AscFiles& files, const AscSurvey& survey, const As
     header.tracker.name = model.empty() ? "EyeLink" : "EyeLink " + model;
     header.tracker.sample_rate_hz = survey.rate_hz;
     header.tracker.eye = survey.has_left ? Eye::left : Eye::right;
+    header.tracker.both_eyes = survey.has_left && survey.has_right;
     ScreenGeometry& screen = header.display.screen;
     screen.screen_px = screen.image_px = survey.screen_px.value_or(usual_screen_px);
     screen.image_origin_px = {0, 0};
