@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "experiment/base/path_inside.h"
+
 namespace overt {
 
 namespace {
@@ -95,6 +97,13 @@ class Joiner {
             return false;
         }
         const std::filesystem::path wanted = (file.parent_path() / *name).lexically_normal();
+        // What is included is printed in messages and kept in records, which leave the machine.
+        if (!stays_inside(wanted.lexically_proximate(folder_.lexically_normal()).string())) {
+            diagnostics_.error(file.string(), value.place,
+                               fmt::format("include \"{}\": leads out of the protocol's folder", *name),
+                               "put the file, or a link to it, into the protocol's folder or one within");
+            return false;
+        }
         if (std::find(open_.begin(), open_.end(), wanted) != open_.end()) {
             std::string way;
             for (const std::filesystem::path& open : open_)

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/path_inside.h"
 
 namespace overt {
 namespace {
@@ -69,6 +70,19 @@ void check_header(const SessionHeader& header, const std::filesystem::path& file
            "the display's latency");
     demand(is_within(header.tracker.sample_rate_hz, 0.0, 1e6), "the tracker's rate");
     demand(is_pose_table(header.poses), "the table of poses");
+    // They name folders and files of exports, and files that are read.
+    demand(is_plain_name(header.protocol.name), "the protocol's name");
+    for (const RecordedSculpture& sculpture : header.sculptures)
+        demand(is_plain_name(sculpture.id) &&
+                   (sculpture.mesh_file.empty() || stays_inside(sculpture.mesh_file)),
+               fmt::format("the id or the mesh file of sculpture \"{}\"", sculpture.id));
+    for (const RecordedMap& map : header.maps)
+        demand(stays_inside(map.file), fmt::format("the map file \"{}\"", map.file));
+    const auto have_plain_names = [](const auto& entries) {
+        return std::ranges::all_of(entries, [](const auto& entry) { return is_plain_name(entry.id); });
+    };
+    demand(have_plain_names(header.tasks), "the id of a task");
+    demand(have_plain_names(header.materials), "the id of a material");
 }
 
 } // namespace overt

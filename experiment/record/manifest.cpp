@@ -8,6 +8,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/json_text.h"
+#include "experiment/base/path_inside.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/record/session_schema.h"
 
@@ -108,6 +109,12 @@ SessionManifest manifest_from(const std::string& text, const fs::path& file) {
             manifest.inputs.push_back({input.at("what"), input.at("sha256")});
         for (const Json& entry : json.at("files"))
             manifest.files.push_back({entry.at("path"), entry.at("bytes"), entry.at("sha256")});
+        for (const SessionManifest::File& listed : manifest.files)
+            if (!stays_inside(listed.path))
+                throw RecordError(
+                    fmt::format("{}: names a file outside of the session, \"{}\": it is damaged, or "
+                                "was not made by overt",
+                                file.string(), listed.path));
         return manifest;
     } catch (const nlohmann::json::exception& error) {
         throw RecordError(fmt::format("{}: is no manifest: {}", file.string(), error.what()));

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/path_inside.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/sql.h"
 
@@ -40,6 +41,11 @@ RecordedAnswer read_answer(Query& row, int trial) {
     RecordedAnswer answer;
     answer.trial = trial;
     answer.file = row.text();
+    if (!answer.file.empty() && !stays_inside(answer.file))
+        throw RecordError(
+            fmt::format("table answer_recording, trial {}: it names a file outside of the session, "
+                        "\"{}\": the record is damaged, or was not made by overt.",
+                        trial, answer.file));
     answer.sha256 = row.text();
     answer.device = row.text();
     answer.sample_rate_hz = row.real();

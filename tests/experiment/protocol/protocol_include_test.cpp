@@ -146,6 +146,27 @@ TEST_CASE("an include that cannot be read, or that stands or is something else, 
                                   Contains("stands before the first section"));
 }
 
+TEST_CASE("what is included lies in the protocol's folder, or in one within", "[unit]") {
+    Files files;
+    files.write("lab.toml", "[tracker]\nrate_hz = 250\n");
+    files.write("study/p.toml", "include = \"../lab.toml\"\n" + std::string(minimal_protocol));
+    CHECK_FALSE(files.read("study/p.toml"));
+    CHECK_THAT(
+        files.print(),
+        Contains("study/p.toml:1:11: error: include \"../lab.toml\": leads out of the protocol's folder"));
+    files.write("study/p.toml", "include = \"/etc/hostname\"\n" + std::string(minimal_protocol));
+    CHECK_FALSE(files.read("study/p.toml"));
+    CHECK_THAT(files.print(), Contains("leads out of the protocol's folder"));
+    // From a folder within back to another: the protocol's folder is what counts.
+    files.write("study/p.toml", "include = \"rig/a.toml\"\n" + std::string(minimal_protocol));
+    files.write("study/rig/a.toml", "include = \"../lab.toml\"\n");
+    files.write("study/lab.toml", "[tracker]\nrate_hz = 500\n");
+    const auto protocol = files.read("study/p.toml");
+    CHECK(files.print() == "");
+    REQUIRE(protocol);
+    CHECK(protocol->tracker.rate_hz == 500.0);
+}
+
 TEST_CASE("a protocol is read again from the texts that a record keeps", "[unit]") {
     Files files;
     files.write("p.toml", std::string(experiment_text) + std::string(minimal_protocol));
