@@ -109,6 +109,17 @@ enum class StreamUnit : std::uint8_t { as_told, px, normalized };
 template <>
 inline constexpr auto names_of<StreamUnit> = enum_names<StreamUnit>("as-told", "px", "normalized");
 
+/// What becomes of a trial whose drift check failed.
+enum class DriftPolicy : std::uint8_t {
+    note,        ///< it is presented, and the record says so
+    retry,       ///< the target is shown again
+    recalibrate, ///< the tracker is calibrated, and the trial begun anew
+    reject       ///< it is not presented, and comes again as one that the operator rejected
+};
+template <>
+inline constexpr auto names_of<DriftPolicy> = enum_names<DriftPolicy>("note", "retry", "recalibrate",
+                                                                      "reject");
+
 /// [tracker]
 struct TrackerSettings {
     TrackerKind kind{}; ///< the first: simulated
@@ -127,7 +138,9 @@ struct TrackerSettings {
     bool measures_both_eyes() const { return eye == "both"; }
     /// The one that the analysis takes: of both, the right one.
     Eye analysed_eye() const { return eye == "left" ? Eye::left : Eye::right; }
-    double drift_limit_deg = 2.0; ///< a drift check beyond this is noted as failed
+    double drift_limit_deg = 2.0; ///< a drift check beyond this has failed
+    DriftPolicy on_drift = DriftPolicy::note;
+    int drift_checks = 3; ///< of a trial, with retry or recalibrate; after the last it is presented
     // How the simulated tracker differs from a perfect one.
     double simulated_noise_deg = 0.05;       ///< standard deviation of each sample
     double simulated_accuracy_deg = 0.3;     ///< standard deviation of a trial's constant offset

@@ -246,8 +246,24 @@ Section tracker() {
                   .unit = "deg",
                   .low = 0.01,
                   .high = 45,
-                  .explanation = "A drift check that finds a larger error is noted as failed."},
+                  .explanation =
+                      "A drift check that finds a larger error, or no eye, has failed. The record says so."},
                  &T::drift_limit_deg},
+                {{.name = "on_drift",
+                  .explanation = "What becomes of a trial whose drift check failed. `note`: it is presented "
+                                 "all the same. "
+                                 "`retry`: the target is shown again. `recalibrate`: the tracker is "
+                                 "calibrated, and the trial "
+                                 "begun anew. `reject`: it is not presented, and comes again as `[repeat] "
+                                 "rejected` says."},
+                 &T::on_drift},
+                {{.name = "drift_checks",
+                  .low = 1,
+                  .high = 20,
+                  .explanation =
+                      "Of a trial, with `retry` and `recalibrate`. If the last fails, too, it is presented "
+                      "all the same."},
+                 &T::drift_checks},
                 {{.name = "simulated_noise_deg",
                   .unit = "deg",
                   .low = 0,

@@ -82,6 +82,7 @@ class OperatorControl {
 
     /// What was decided at the tracker's host.
     void repeat_trial() { decision_ = {TrialDecision::Word::repeated, {}}; }
+    void reject_trial() { decision_ = {TrialDecision::Word::rejected, {}}; }
     void skip_trial(std::string why) { decision_ = {TrialDecision::Word::skipped, std::move(why)}; }
 
   private:

@@ -94,6 +94,31 @@ void TrialRun::ask(const Trial& trial, Attempt& attempt) {
 
 void TrialRun::check_drift(TrialOutcome& outcome) {
     state_.enter(SessionPhase::drift_check, state_.trial());
+    const TrackerSettings& settings = state_.protocol.tracker;
+    // A trial that is begun anew after a calibration goes on counting.
+    if (const int trial = state_.trial(); checked_trial_ != trial) {
+        checked_trial_ = trial;
+        failed_checks_ = 0;
+    }
+    while (const std::optional<std::string> failure = failed_check(outcome)) {
+        ++failed_checks_;
+        state_.note(drift_check_failed_event, *failure);
+        const bool may_check_again = failed_checks_ < settings.drift_checks;
+        if (settings.on_drift == DriftPolicy::reject)
+            control_.reject_trial();
+        if (settings.on_drift == DriftPolicy::recalibrate && may_check_again) {
+            control_.calibrate();
+            control_.repeat_trial();
+            return;
+        }
+        if (settings.on_drift != DriftPolicy::retry || !may_check_again)
+            break;
+    }
+    checked_trial_.reset();
+}
+
+/// Shows the target and measures. Why the check failed; nothing if it did not, or was not made.
+std::optional<std::string> TrialRun::failed_check(TrialOutcome& outcome) {
     const Screen target{.kind = Screen::Kind::target, .text = ""};
     const How how = control_
                         .wait({.screen = target,
@@ -104,30 +129,29 @@ void TrialRun::check_drift(TrialOutcome& outcome) {
                                .starts_over = true})
                         .how;
     if (how != How::timed_out || !state_.ports.tracker.measures_gaze())
-        return;
+        return {};
     DriftOutcome drift;
     try {
         drift = state_.ports.tracker.drift_check(screen_centre_);
     } catch (const DeviceError& error) {
         control_.regain_tracker(error.what());
         control_.repeat_trial();
-        return;
+        return {};
     }
     if (drift.kind == DriftOutcome::Kind::set_up_wanted) {
         // Asked for at the tracker's host: the trial begins anew once it is done.
         state_.note(drift_check_failed_event, "the tracker asked to be set up");
         control_.calibrate();
         control_.repeat_trial();
-        return;
+        return {};
     }
-    if (drift.kind == DriftOutcome::Kind::measured)
-        outcome.drift = drift.error;
-    const double limit_deg = state_.protocol.tracker.drift_limit_deg;
+    outcome.drift = drift.kind == DriftOutcome::Kind::measured ? std::optional(drift.error) : std::nullopt;
     if (!outcome.drift)
-        state_.note(drift_check_failed_event, "no eye was found");
-    else if (outcome.drift->value > limit_deg)
-        state_.note(drift_check_failed_event, fmt::format("{:.3f} deg is more than the limit of {} deg",
-                                                          outcome.drift->value, limit_deg));
+        return "no eye was found";
+    const double limit_deg = state_.protocol.tracker.drift_limit_deg;
+    if (outcome.drift->value > limit_deg)
+        return fmt::format("{:.3f} deg is more than the limit of {} deg", outcome.drift->value, limit_deg);
+    return {};
 }
 
 void TrialRun::present(const Trial& trial, Attempt& attempt) {

@@ -30,6 +30,7 @@ class TrialRun {
   private:
     void ask(const Trial& trial, Attempt& attempt);
     void check_drift(TrialOutcome& outcome);
+    std::optional<std::string> failed_check(TrialOutcome& outcome);
     bool start_recording();
     void watch(const ClockPair& pair) noexcept;
     void note_what_came(Attempt& attempt);
@@ -65,6 +66,8 @@ class TrialRun {
     std::string why_lost_;                               ///< as the tracker said before it began to record
     std::array<std::optional<TrackerTime>, 2> last_at_;  ///< of each eye's samples, of this recording
     std::int64_t doubled_count_ = 0;                     ///< samples that had been taken already
+    std::optional<int> checked_trial_;                   ///< whose drift checks are counted
+    int failed_checks_ = 0;
     std::optional<ClockPair> steady_, suspect_; ///< the last reading on the line, and one that is off it
     std::optional<SessionDuration> jump_;       ///< of the tracker's clock
 };

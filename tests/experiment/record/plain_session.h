@@ -82,7 +82,10 @@ class BlinkingTracker final : public EyeTracker {
             --set_ups_wanted;
             return {DriftOutcome::Kind::set_up_wanted, {}};
         }
-        return drift ? DriftOutcome{DriftOutcome::Kind::measured, *drift} : DriftOutcome{};
+        const std::optional<Degrees> found = static_cast<std::size_t>(drift_checks) <= first_drifts.size()
+                                                 ? first_drifts[static_cast<std::size_t>(drift_checks) - 1]
+                                                 : drift;
+        return found ? DriftOutcome{DriftOutcome::Kind::measured, *found} : DriftOutcome{};
     }
     std::optional<ClockPair> read_clocks() noexcept override {
         ++clock_readings;
@@ -132,8 +135,9 @@ class BlinkingTracker final : public EyeTracker {
     std::function<ClockPair(int reading)> reads; ///< what each reading of the clocks gives
     int set_ups_wanted = 0;                      ///< by so many drift checks
     int reconnections = 0, refused_reconnections = 0;
-    std::optional<Degrees> drift = Degrees{0.1}; ///< that each drift check finds
-    std::size_t late = 0;                        ///< samples that arrive only when the recording has ended
+    std::vector<std::optional<Degrees>> first_drifts; ///< that the first drift checks find
+    std::optional<Degrees> drift = Degrees{0.1};      ///< that each later one finds
+    std::size_t late = 0; ///< samples that arrive only when the recording has ended
     int calibrations = 0, drift_checks = 0, clock_readings = 0;
     int arrived = 0; ///< samples handed over
     bool is_there = true;
