@@ -18,6 +18,7 @@ constexpr const char* tracker_item = "manufacturer, model";
 constexpr const char* eye_item = "eyes measured";
 constexpr const char* nominal_item = "nominal rate";
 constexpr const char* screen_item = "screen and distance";
+constexpr const char* latency_item = "from vertical blank to light";
 constexpr const char* light_item = "light of the display";
 constexpr const char* instruction_item = "questions asked";
 constexpr const char* calibration_item = "calibration";
@@ -120,6 +121,11 @@ std::vector<StudyKey> setup_of(const SessionRecord& record) {
         add(nominal_item, fmt::format("{:g} Hz", header.tracker.sample_rate_hz));
     if (header.display.screen.viewing_distance_mm > 0.0 && header.display.screen.screen_mm.x > 0.0)
         add(screen_item, screen_of(header.display));
+    // Nobody measures exactly 0.
+    if (const double ms = 1e3 * to_seconds(header.display.latency);
+        ms != 0.0 || header.clock == ClockKind::virtual_time)
+        add(latency_item,
+            fmt::format("{:g} ms{}", ms, header.clock == ClockKind::virtual_time ? ", simulated" : ""));
     if (header.characterisation)
         add(light_item, fmt::format("white of {:.4g} cd/m2, measured with {} on {}",
                                     header.characterisation->white_cd_m2(),
@@ -166,6 +172,8 @@ std::vector<ReportingItem> reporting_items(const StudyResults& results, const St
         spread_over_trials(results, " Hz", 1.0, [](const StudyQuality& q) { return q.rate_hz; }),
         "there are no samples");
     of_setup("3 setup and geometry", screen_item, "give size and distance of the screen");
+    of_setup("3 setup and geometry", latency_item,
+             "taken as 0 ms; measure it with a light sensor (overt doctor --photodiode) and set latency_ms");
     add("3 setup and geometry", "head stabilisation", {},
         "say whether there was a chin rest, a bite bar or none");
     of_setup("3 setup and geometry", light_item, "the display was not characterised: give its luminance");

@@ -54,6 +54,16 @@ ScreenFinding linearisation_finding(const DisplaySettings& display) {
             "characterise), or write [display] linearised_by = \"display\", \"box\" or \"none\""};
 }
 
+/// Gaze is related to frames by when they are lit.
+ScreenFinding latency_finding(const DisplaySettings& display) {
+    if (display.latency_ms > 0.0)
+        return {Weight::good, "latency", fmt::format("{:g} ms, as the protocol says", display.latency_ms)};
+    return {
+        Weight::risk, "latency",
+        "not measured: frames are taken to be lit at their vertical blank; measure it with a light sensor "
+        "(overt doctor --photodiode) and set [display] latency_ms"};
+}
+
 ScreenFinding depth_finding(const ScreenFacts& facts, const DisplaySettings& display) {
     const int needed = row_of(display.output).framebuffer_bits;
     const std::string found = fmt::format("{} bits per channel", facts.bits_per_channel);
@@ -162,7 +172,7 @@ std::string describe(const GammaRamp& ramp) {
 std::vector<ScreenFinding> judge_screen(const ScreenFacts& facts, const DisplaySettings& display) {
     return {place_finding(facts, display),  size_finding(facts, display), rate_finding(facts, display),
             depth_finding(facts, display),  scaling_finding(facts),       gamma_finding(facts, display),
-            linearisation_finding(display), system_finding(facts)};
+            linearisation_finding(display), latency_finding(display),     system_finding(facts)};
 }
 
 void refuse_spoilt_screen(const std::vector<ScreenFinding>& findings) {

@@ -37,6 +37,7 @@ ScreenFacts sound() {
 DisplaySettings said() {
     DisplaySettings display;
     display.linearised_by = LinearisedBy::display;
+    display.latency_ms = 8.1;
     return display;
 }
 
@@ -102,6 +103,13 @@ TEST_CASE("a screen of which nothing says what linearises it is refused, until i
     display.linearised_by = LinearisedBy::unsaid;
     display.characterisation.emplace();
     CHECK(weight_of(sound(), "linearisation", display) == Weight::good);
+}
+
+TEST_CASE("a latency that was not measured is a risk", "[unit]") {
+    DisplaySettings display = said();
+    CHECK(weight_of(sound(), "latency", display) == Weight::good);
+    display.latency_ms = 0.0;
+    CHECK(weight_of(sound(), "latency", display) == Weight::risk);
 }
 
 TEST_CASE("a screen of another depth than the output sends is refused", "[unit]") {
