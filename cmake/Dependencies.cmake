@@ -30,3 +30,4 @@ pkg_check_modules(LIBUSB REQUIRED IMPORTED_TARGET libusb-1.0) # serial chips wit
 find_package(SQLiteCpp REQUIRED)
 # Draws the maps in report.html; r111, with its licence in the page.
 find_file(OVERT_THREE_JS three.min.js PATHS /usr/share/javascript/three REQUIRED)
+pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui) # the window of the operator's view

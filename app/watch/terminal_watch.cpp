@@ -9,53 +9,14 @@
 #include <unistd.h>
 
 #include "app/cli/interruption.h"
-#include "app/watch/viewed_pictures.h"
+#include "app/watch/watched_session.h"
 #include "experiment/watch/view_text.h"
 
 namespace overt {
 
 namespace {
 
-constexpr std::chrono::milliseconds between_screens{100}, long_silence{3000};
-constexpr std::size_t most_kept_events = 50, most_kept_gaze = 12;
-
-/// All that is shown, as it has come.
-class Watched {
-  public:
-    explicit Watched(OperatorClient& client) : client_(client) {}
-
-    /// False once there is nothing more to come. The events that came are `news`.
-    bool read(std::chrono::milliseconds wait) {
-        const bool goes_on = client_.read(wait);
-        news = client_.take_events();
-        for (const ViewedEvent& event : news)
-            events_.push_back(event);
-        while (events_.size() > most_kept_events)
-            events_.pop_front();
-        for (const ViewedGaze& one : client_.take_gaze())
-            gaze_.push_back(one);
-        if (client_.view().pose < 0)
-            gaze_.clear();
-        while (gaze_.size() > most_kept_gaze)
-            gaze_.pop_front();
-        return goes_on;
-    }
-    ViewText text() {
-        return {client_.facts(),
-                client_.view(),
-                events_,
-                gaze_,
-                pictures_.of(client_.facts(), client_.view()),
-                client_.silence() > long_silence};
-    }
-    std::deque<ViewedEvent> news;
-
-  private:
-    OperatorClient& client_;
-    std::deque<ViewedEvent> events_;
-    std::deque<ViewedGaze> gaze_;
-    ViewedPictures pictures_;
-};
+constexpr std::chrono::milliseconds between_screens{100};
 
 /// What the operator types, line by line, without waiting for it.
 class TypedLines {
@@ -138,7 +99,7 @@ void draw(const ViewText& text, const std::string& says) {
 int watch_in_terminal(OperatorClient& client) {
     const Interruption interruption;
     const bool draws = ::isatty(STDOUT_FILENO) != 0;
-    Watched watched(client);
+    WatchedSession watched(client);
     TypedLines typed;
     Commands commands(client);
     std::string last;
@@ -158,7 +119,7 @@ int watch_in_terminal(OperatorClient& client) {
             draw(watched.text(), commands.says);
             continue;
         }
-        for (const ViewedEvent& event : watched.news)
+        for (const ViewedEvent& event : watched.news())
             fmt::print("{:.1f} s: {}{}{}\n", event.at_s, event.kind, event.detail.empty() ? "" : ": ",
                        event.detail);
         const SessionView& view = client.view();
@@ -174,7 +135,7 @@ int watch_in_terminal(OperatorClient& client) {
 }
 
 void print_once(OperatorClient& client) {
-    Watched watched(client);
+    WatchedSession watched(client);
     // The state comes within half a second after the greeting.
     const auto latest = std::chrono::steady_clock::now() + std::chrono::seconds(2);
     while (client.view().phase.empty() && watched.read(std::chrono::milliseconds(20)) &&

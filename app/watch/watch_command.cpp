@@ -1,6 +1,10 @@
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <vector>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "app/watch/terminal_watch.h"
 #include "app/watch/watch_commands.h"
@@ -37,6 +41,24 @@ std::vector<OperatorCommand> commands_of(const WatchOptions& options) {
     return commands;
 }
 
+bool has_display() {
+    const auto is_set = [](const char* name) {
+        const char* const value = std::getenv(name);
+        return value && *value;
+    };
+    return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
+}
+
+/// The window is a program of its own, beside this one, which it replaces. Throws InputError if it is not
+/// there.
+[[noreturn]] void become_window(const std::filesystem::path& socket) {
+    const std::filesystem::path program =
+        std::filesystem::read_symlink("/proc/self/exe").parent_path() / "overt-watch-window";
+    ::execl(program.c_str(), program.c_str(), socket.c_str(), static_cast<char*>(nullptr));
+    throw InputError(fmt::format("{}: cannot be begun: {}: overt watch --terminal needs no window",
+                                 program.string(), std::strerror(errno)));
+}
+
 } // namespace
 
 std::filesystem::path socket_of(const WatchOptions& options) {
@@ -45,6 +67,8 @@ std::filesystem::path socket_of(const WatchOptions& options) {
     if (!options.socket.empty())
         return options.socket;
     if (!options.session.empty()) {
+        if (std::filesystem::is_socket(options.session))
+            return options.session;
         if (!std::filesystem::is_directory(options.session))
             throw InputError(fmt::format("{}: is no session's folder: name the folder that overt run prints",
                                          options.session.string()));
@@ -64,7 +88,10 @@ std::filesystem::path socket_of(const WatchOptions& options) {
 
 int run_watch(const WatchOptions& options) {
     const std::vector<OperatorCommand> commands = commands_of(options);
-    OperatorClient client(socket_of(options));
+    const std::filesystem::path socket = socket_of(options);
+    if (!options.in_terminal && !options.once && commands.empty() && has_display())
+        become_window(socket);
+    OperatorClient client(socket);
     for (const OperatorCommand& command : commands)
         if (!client.send(command))
             throw DeviceError(fmt::format("{}: was not sent: the session is gone", words_of(command)));

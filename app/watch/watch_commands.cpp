@@ -20,10 +20,10 @@ void add_watch_commands(CLI::App& app, ChosenCommand& chosen) {
     command.add_option("--sessions", options.sessions, "Folder of all sessions")
         ->type_name("DIR")
         ->capture_default_str();
-    command.add_flag(
-        "--terminal", options.in_terminal,
-        "Text instead of a window; commands are typed. Where output is no terminal, a line for each "
-        "change");
+    command.add_flag("--terminal", options.in_terminal,
+                     "Text instead of a window, as where there is no display; commands are typed. Where "
+                     "output is no terminal, a line for each "
+                     "change");
     command.add_flag("--once", options.once, "Print the figures as text, and end");
     command
         .add_option(

@@ -1,0 +1,264 @@
+#include "app/watch/window/watch_panels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "experiment/ports/session_phase.h"
+
+namespace overt {
+
+namespace {
+
+constexpr float left_share = 0.5f;
+const ImVec4 fine{0.75f, 0.85f, 0.75f, 1.0f}, poor{1.0f, 0.55f, 0.35f, 1.0f},
+    quiet{0.6f, 0.6f, 0.6f, 1.0f};
+
+void row(const char* label, const std::string& value, bool is_poor = false) {
+    ImGui::TextColored(quiet, "%s", label);
+    ImGui::SameLine(130.0f);
+    ImGui::PushStyleColor(ImGuiCol_Text, is_poor ? poor : fine);
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(value.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+std::string share(std::int64_t samples, std::int64_t lost) {
+    const std::optional<double> found = lost_share(samples, lost);
+    return found ? fmt::format("{:.1f} %", 100.0 * *found) : std::string("-");
+}
+
+std::string degrees(const std::optional<double>& value) {
+    return value ? fmt::format("{:.2f} deg", *value) : std::string("-");
+}
+
+/// From which share of samples without gaze the figure is coloured: it asks for a look, no more.
+constexpr double noticeable_loss = 0.1;
+
+bool is_in_trial(const SessionView& view) {
+    for (int i = 0; i < session_phase_count; ++i)
+        if (name_of(static_cast<SessionPhase>(i)) == view.phase)
+            return overt::is_in_trial(static_cast<SessionPhase>(i));
+    return false;
+}
+
+} // namespace
+
+void WatchPanels::send(const OperatorCommand& command) {
+    says_ = words_of(command) + (client_.send(command) ? ": sent" : ": not sent, the session is gone");
+}
+
+void WatchPanels::draw(const ViewText& text, void* picture, float width, float height) {
+    ImGui::SetNextWindowPos({0.0f, 0.0f});
+    ImGui::SetNextWindowSize({width, height});
+    ImGui::Begin("overt", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+    const float below = 130.0f;
+    ImGui::BeginChild("stimulus", {left_share * width, -below}, true, ImGuiWindowFlags_NoScrollbar);
+    draw_stimulus(text, picture);
+    ImGui::EndChild();
+    ImGui::SameLine();
+    ImGui::BeginChild("right", {0.0f, -below});
+    ImGui::BeginChild("figures", {0.0f, 0.56f * (height - below)}, true);
+    draw_figures(text);
+    ImGui::EndChild();
+    ImGui::BeginChild("messages", {0.0f, 0.0f}, true);
+    draw_messages(text);
+    ImGui::EndChild();
+    ImGui::EndChild();
+    ImGui::BeginChild("commands", {0.0f, 0.0f}, true);
+    draw_commands(text);
+    ImGui::EndChild();
+    draw_confirmation(text);
+    ImGui::End();
+}
+
+void WatchPanels::draw_stimulus(const ViewText& text, void* picture) {
+    const SessionFacts& facts = text.facts;
+    const ImVec2 room = ImGui::GetContentRegionAvail(), at = ImGui::GetCursorScreenPos();
+    if (facts.width_px <= 0 || facts.height_px <= 0)
+        return;
+    // The whole display, with the stimulus in its middle.
+    const float scale =
+        std::min(room.x / static_cast<float>(facts.width_px), room.y / static_cast<float>(facts.height_px));
+    const ImVec2 size{scale * static_cast<float>(facts.width_px),
+                      scale * static_cast<float>(facts.height_px)};
+    const ImVec2 corner{at.x + 0.5f * (room.x - size.x), at.y + 0.5f * (room.y - size.y)};
+    ImDrawList& draws = *ImGui::GetWindowDrawList();
+    draws.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(12, 12, 12, 255));
+    const ImVec2 half{0.5f * scale * static_cast<float>(facts.image_width_px),
+                      0.5f * scale * static_cast<float>(facts.image_height_px)};
+    const ImVec2 middle{corner.x + 0.5f * size.x, corner.y + 0.5f * size.y};
+    if (picture && text.view.pose >= 0)
+        draws.AddImage(picture, {middle.x - half.x, middle.y - half.y},
+                       {middle.x + half.x, middle.y + half.y});
+    draws.AddRect(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(90, 90, 90, 255));
+    draws.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
+    for (std::size_t i = 0; i < text.gaze.size(); ++i) {
+        const ViewedGaze& one = text.gaze[i];
+        if (!one.place)
+            continue;
+        const ImVec2 place{corner.x + scale * static_cast<float>(one.place->x_px),
+                           corner.y + scale * static_cast<float>(one.place->y_px)};
+        const bool is_newest = i + 1 == text.gaze.size();
+        const int strength = static_cast<int>(60 + 195 * (i + 1) / text.gaze.size());
+        const ImU32 colour =
+            one.is_right ? IM_COL32(255, 170, 40, strength) : IM_COL32(70, 180, 255, strength);
+        if (is_newest)
+            draws.AddCircle(place, 9.0f, colour, 0, 2.5f);
+        else
+            draws.AddCircleFilled(place, 2.5f, colour);
+    }
+    draws.PopClipRect();
+    if (text.view.pose < 0) {
+        const std::string words = text.view.is_over ? "the session is over" : text.view.phase;
+        const ImVec2 wide = ImGui::CalcTextSize(words.c_str());
+        draws.AddText({middle.x - 0.5f * wide.x, middle.y - 0.5f * wide.y}, IM_COL32(160, 160, 160, 255),
+                      words.c_str());
+    }
+}
+
+void WatchPanels::draw_figures(const ViewText& text) {
+    const SessionFacts& facts = text.facts;
+    const SessionView& view = text.view;
+    row("session", fmt::format("{}, observer {}", facts.protocol, facts.observer));
+    row("now", view.is_over      ? std::string("the session is over")
+               : view.trial >= 0 ? fmt::format("trial {} of {}, {}", view.trial + 1, facts.trials, view.phase)
+                                 : view.phase);
+    ImGui::ProgressBar(facts.trials > 0 ? static_cast<float>(view.done) / static_cast<float>(facts.trials)
+                                        : 0.0f,
+                       {-1.0f, 0.0f}, fmt::format("{} of {} trials", view.done, facts.trials).c_str());
+    row("time", fmt::format("{} left, {} gone",
+                            duration_text(view.is_over ? std::optional(0.0) : time_left_s(facts, view)),
+                            duration_text(view.time_s)));
+    row("failed attempts", fmt::format("{}", view.failed));
+    if (!view.task.empty())
+        row("stimulus", fmt::format("{}, {}: {}", view.sculpture, view.material, view.question));
+    ImGui::Separator();
+    row("missed refreshes", fmt::format("{} in this trial, {} in all", view.missed_in_trial, view.missed),
+        view.missed_in_trial > 0);
+    if (!facts.has_tracker)
+        row("eye tracker", "none");
+    else {
+        row("eye tracker",
+            view.tracker_is_lost                          ? "lost"
+            : text.gaze.empty() || text.gaze.back().place ? "connected"
+                                                          : "no eye",
+            view.tracker_is_lost);
+        row("without gaze",
+            fmt::format("{} in this trial, {} in all", share(view.samples_in_trial, view.lost_in_trial),
+                        share(view.samples, view.lost)),
+            lost_share(view.samples_in_trial, view.lost_in_trial).value_or(0.0) > noticeable_loss);
+        row("validation",
+            fmt::format("mean {}, largest {}", degrees(view.validation_mean_deg),
+                        degrees(view.validation_max_deg)),
+            view.validation_mean_deg.value_or(0.0) > facts.mean_limit_deg ||
+                view.validation_max_deg.value_or(0.0) > facts.max_limit_deg);
+        row("drift", degrees(view.drift_deg), view.drift_deg.value_or(0.0) > facts.drift_limit_deg);
+    }
+    if (view.level_peak) {
+        ImGui::TextColored(view.is_clipping ? poor : quiet, "%s",
+                           view.is_clipping ? "voice: too loud" : "voice");
+        ImGui::SameLine(130.0f);
+        ImGui::ProgressBar(static_cast<float>(std::sqrt(std::clamp(*view.level_peak, 0.0, 1.0))),
+                           {-1.0f, 0.0f}, "");
+    } else if (!view.answer.empty()) {
+        row("last answer", view.answer);
+    }
+    if (view.dropped > 0)
+        row("this view", fmt::format("{} pieces of news found no room; the record has them", view.dropped));
+    if (text.is_silent && !view.is_over)
+        row("this view", "the session has said nothing for seconds", true);
+}
+
+void WatchPanels::draw_messages(const ViewText& text) {
+    for (const ViewedEvent& event : text.events) {
+        ImGui::TextColored(quiet, "%8.1f s", event.at_s);
+        ImGui::SameLine();
+        ImGui::TextWrapped("%s%s%s", event.kind.c_str(), event.detail.empty() ? "" : ": ",
+                           event.detail.c_str());
+    }
+    // At its end, unless the operator reads further up.
+    if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - 30.0f)
+        ImGui::SetScrollHereY(1.0f);
+}
+
+void WatchPanels::draw_commands(const ViewText& text) {
+    const auto command = [](const char* words) { return operator_command(words).value(); };
+    if (!text.view.asks.empty()) {
+        ImGui::TextColored(poor, "The session asks: %s", text.view.asks.c_str());
+        ImGui::SameLine();
+        if (ImGui::Button("Yes"))
+            send(command("yes"));
+        ImGui::SameLine();
+        if (ImGui::Button("No"))
+            send(command("no"));
+    }
+    const bool is_paused = text.view.phase == name_of(SessionPhase::pause);
+    ImGui::BeginDisabled(text.view.is_over);
+    if (ImGui::Button(is_paused ? "Go on" : "Pause"))
+        send(command("pause"));
+    ImGui::SameLine();
+    if (ImGui::Button("Recalibrate"))
+        asked_ = command("recalibrate");
+    ImGui::BeginDisabled(!is_in_trial(text.view));
+    for (const auto& [label, words] : {std::pair{"Drift check", "drift check"}, std::pair{"Repeat", "repeat"},
+                                       std::pair{"Reject", "reject"}, std::pair{"Skip", "skip"}}) {
+        ImGui::SameLine();
+        if (ImGui::Button(label))
+            asked_ = command(words);
+    }
+    ImGui::EndDisabled();
+    ImGui::SameLine(0.0f, 40.0f);
+    if (ImGui::Button("End the session"))
+        asked_ = command("abort");
+    ImGui::EndDisabled();
+    ImGui::SetNextItemWidth(-110.0f);
+    const bool is_entered = ImGui::InputTextWithHint("##note", "a note for the record", note_.data(),
+                                                     note_.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::SameLine();
+    if ((ImGui::Button("Add note") || is_entered) && note_[0] != '\0') {
+        if (const auto note = operator_command("note " + std::string(note_.data()))) {
+            send(*note);
+            note_.fill('\0');
+        }
+    }
+    ImGui::TextColored(quiet, "%s", says_.c_str());
+}
+
+void WatchPanels::draw_confirmation(const ViewText& text) {
+    if (!asked_)
+        return;
+    constexpr const char* name = "Are you sure?";
+    ImGui::OpenPopup(name);
+    const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
+    ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
+    if (!ImGui::BeginPopupModal(name, nullptr,
+                                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
+        return;
+    ImGui::Text("%s%s", words_of(*asked_).c_str(),
+                text.view.trial >= 0 ? fmt::format(", in trial {}", text.view.trial + 1).c_str() : "");
+    std::optional<OperatorCommand> sure;
+    if (ImGui::Button("Yes, do it", {140.0f, 0.0f}))
+        sure = asked_;
+    if (asked_->key == ResponsePress::Key::skip)
+        for (std::size_t i = 0; i < std::min<std::size_t>(text.facts.skip_reasons.size(), 9); ++i)
+            if (ImGui::Button(fmt::format("Yes: {}", text.facts.skip_reasons[i]).c_str())) {
+                sure = asked_;
+                sure->reason = static_cast<int>(i) + 1;
+            }
+    const bool is_left =
+        ImGui::Button("No", {140.0f, 0.0f}) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    if (sure)
+        send(*sure);
+    if (sure || is_left) {
+        asked_.reset();
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+}
+
+} // namespace overt
