@@ -2,7 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/fuzz/inputs.h"
+#include "tests/fuzz/more_inputs.h"
+#include "tests/support/damaged_bytes.h"
 
 namespace {
 
@@ -38,4 +39,20 @@ TEST_CASE("EyeLink recordings that fuzzers found worth keeping are imported or r
 
 TEST_CASE("session files that fuzzers found worth keeping are exported or refused", "[unit]") {
     CHECK(replay("session", overt::fuzz::take_session) > 0);
+}
+
+TEST_CASE("meshes, maps, included texts and shards, whole and damaged, are read or refused", "[unit]") {
+    using namespace overt::fuzz;
+    CHECK(replay("mesh", [](std::string_view bytes) { overt::test::each_damage(bytes, 200, take_mesh); }) >
+          0);
+    CHECK(replay("map", [](std::string_view bytes) { overt::test::each_damage(bytes, 40, take_map); }) > 0);
+    CHECK(replay("texts", [](std::string_view bytes) { overt::test::each_damage(bytes, 100, take_texts); }) >
+          0);
+    CHECK(replay("shard", [](std::string_view bytes) { overt::test::each_damage(bytes, 100, take_shard); }) >
+          0);
+    for (const char* const target : {"mesh", "map", "texts", "shard"})
+        CHECK(replay(target, target == std::string_view("mesh")    ? take_mesh
+                             : target == std::string_view("map")   ? take_map
+                             : target == std::string_view("texts") ? take_texts
+                                                                   : take_shard) > 0);
 }
