@@ -4,10 +4,12 @@
 #include <memory>
 
 #include "devices/display_box/bits_link.h"
+#include "devices/operator/watched_log.h"
 #include "devices/simulated/simulated_response_panel.h"
 #include "tests/devices/link/in_memory_line.h"
 #include "tests/devices/simulated/sitting.h"
 #include "tests/support/counted_allocations.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace overt;
 
@@ -76,4 +78,53 @@ TEST_CASE("status lines of a display box are read without allocating, noise amon
     const long during = test::allocations - before;
     CHECK(during == 0);
     CHECK(taken > 2000);
+}
+
+TEST_CASE("a session that is watched allocates nothing for it in a presentation, and records the same",
+          "[unit]") {
+    class CountedLog final : public SessionLog {
+      public:
+        void flip(const FlipRecord&) noexcept override { ++flips; }
+        void missed(const MissedRefresh&) noexcept override { ++misses; }
+        void sample(int, const GazeSample&) noexcept override { ++samples; }
+        void tracker_item(int, const TrackerItem&) noexcept override { ++items; }
+        void clock_pair(const ClockPair&) noexcept override { ++pairs; }
+        void event(const SessionEvent&) override {}
+        void trial_started(const Trial&, SessionTime) override {}
+        void trial_finished(const Trial&, const TrialOutcome&) override {}
+        int flips = 0, misses = 0, samples = 0, items = 0, pairs = 0;
+    };
+    const test::TemporaryFolder folder;
+    OperatorServer::Options options;
+    options.socket = folder.path() / "view.sock";
+    options.ring_capacity = 256;
+    OperatorServer server(std::move(options));
+    VirtualClock clock;
+    test::Sitting sitting(31);
+    SimulatedResponsePanel silent(sitting.clock, sitting.observer);
+    OperatorPanel panel(server, clock, silent);
+    CountedLog record;
+    WatchedLog log(record, server, panel, clock);
+    log.trial_started({}, {});
+    const long before = test::allocations;
+    constexpr int refreshes = 1000;
+    for (int refresh = 0; refresh < refreshes; ++refresh) {
+        FlipRecord flip;
+        flip.refresh_in_trial = refresh;
+        flip.pose.value = refresh % 61;
+        log.missed({});
+        log.flip(flip);
+        for (int i = 0; i < 16; ++i)
+            log.sample(0, {tracker_time(1000 * (16 * refresh + i)), Eye::right, ScreenPoint{1.0, 2.0}, 1.0f});
+        log.tracker_item(0, TrackerInput{});
+        log.clock_pair({});
+        panel.poll();
+    }
+    const long during = test::allocations - before;
+    CHECK(during == 0);
+    CHECK(record.flips == refreshes);
+    CHECK(record.misses == refreshes);
+    CHECK(record.samples == 16 * refreshes);
+    CHECK(record.items == refreshes);
+    CHECK(record.pairs == refreshes);
 }
