@@ -80,17 +80,34 @@ class Commands {
     std::optional<OperatorCommand> asked_;
 };
 
-void draw(const ViewText& text, const std::string& says) {
+winsize terminal_size() {
     winsize size{};
     if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 20 || size.ws_row < 10)
         size = {30, 100, 0, 0};
-    std::string lines = screen_of(text, size.ws_col, size.ws_row);
-    lines += says + "\n> ";
-    std::string out = "\x1b[H";
-    for (const char letter : lines)
-        out += letter == '\n' ? std::string("\x1b[K\n") : std::string(1, letter);
-    // What is typed stays where it is: only what is below the last line is cleared.
-    fmt::print("{}\x1b[J", out);
+    return size;
+}
+
+/// Clears the terminal and has what is typed stand in its last row.
+void begin_screen() { fmt::print("\x1b[2J\x1b[{};1H> ", terminal_size().ws_row); }
+
+/// Draws all rows but the last, and leaves the cursor where the operator types.
+void draw(const ViewText& text, const std::string& says) {
+    const winsize size = terminal_size();
+    const std::string screen = screen_of(text, size.ws_col, size.ws_row);
+    std::string out = "\x1b"
+                      "7\x1b[H";
+    int rows = 0;
+    for (std::size_t begin = 0; begin < screen.size() && rows < size.ws_row - 2; ++rows) {
+        const std::size_t end = screen.find('\n', begin);
+        out += screen.substr(begin, end - begin) + "\x1b[K\r\n";
+        begin = end + 1;
+    }
+    for (; rows < size.ws_row - 2; ++rows)
+        out += "\x1b[K\r\n";
+    out += fmt::format("{:.{}}\x1b[K\x1b"
+                       "8",
+                       says, size.ws_col - 1);
+    fmt::print("{}", out);
     std::fflush(stdout);
 }
 
@@ -104,7 +121,7 @@ int watch_in_terminal(OperatorClient& client) {
     Commands commands(client);
     std::string last;
     if (draws)
-        fmt::print("\x1b[2J");
+        begin_screen();
     for (bool goes_on = true; goes_on && !Interruption::requested();) {
         goes_on = watched.read(between_screens);
         while (const std::optional<std::string> line = typed.next()) {
@@ -113,7 +130,7 @@ int watch_in_terminal(OperatorClient& client) {
             if (!draws && !commands.says.empty())
                 fmt::print("{}\n", commands.says);
             if (draws)
-                fmt::print("\x1b[2J");
+                begin_screen();
         }
         if (draws) {
             draw(watched.text(), commands.says);
