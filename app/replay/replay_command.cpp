@@ -6,9 +6,12 @@
 #include "app/cli/progress_bar.h"
 #include "app/cli/this_program.h"
 #include "app/replay/recorded_experiment.h"
+#include "app/replay/remade_session.h"
 #include "app/replay/replay_commands.h"
 #include "app/replay/replay_report.h"
+#include "app/replay/session_copies.h"
 #include "app/replay/sitting_replay.h"
+#include "app/replay/stimuli_again.h"
 #include "experiment/base/bytes_in_words.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/json_text.h"
@@ -25,13 +28,6 @@ namespace fs = std::filesystem;
 std::string version_of(const ProgramBuild& build) {
     return build.commit.empty() ? build.version
                                 : fmt::format("{} ({})", build.version, build.commit.substr(0, 12));
-}
-
-/// The record's own context; a window's pictures are drawn in memory.
-ContextChoice context_of(const ReplayOptions& options, const SessionHeader& header) {
-    if (options.context)
-        return options.context;
-    return header.graphics.context == name_of(ContextKind::egl) ? ContextKind::egl : ContextKind::osmesa;
 }
 
 std::string why_not_again(const SessionRecord& record) {
@@ -73,7 +69,8 @@ void present_again(const SessionRecord& record, const ReplayOptions& options, co
     report.is_presented_again = true;
     for (int sitting = 1; sitting <= sittings; ++sitting) {
         replay = replay_sitting(
-            {record, sitting, experiment, place, cache_folder(), context_of(options, record.header()),
+            {record, sitting, experiment, place, cache_folder(),
+             options.context ? options.context : context_of(record.header()),
              work / fmt::format("sitting_{}", sitting), [&](int done, int all) {
                  bar.update(fmt::format("presenting sitting {} of {} again", sitting, sittings), done, all);
              }});
@@ -94,16 +91,27 @@ void present_again(const SessionRecord& record, const ReplayOptions& options, co
         "meshes, maps, pictures and answers", report);
     if (!report.is_same())
         return;
-    // The hashes of maps are over their dates, too.
-    for (const RecordedMap& map : record.header().maps)
-        fs::copy_file(record.directory() / map.file, replay->folder / map.file,
-                      fs::copy_options::overwrite_existing);
+    take_map_files(record, replay->folder);
     const std::optional<RecordCut> cut = replay->cut ? std::optional(replay->cut->cut) : std::nullopt;
     take_circumstances(replay->recorded_file, replay->folder / session_file_name, cut);
     add(compare_exports(record.directory(), replay->folder, work / "exports",
                         [&](int done, int all) { bar.update("exporting both", done, all); }),
         "exports in all formats", report);
     bar.finish();
+}
+
+void remake(const SessionRecord& record, const ReplayOptions& options, const fs::path& work,
+            ReplayReport& report) {
+    if (record.header().stimuli.empty())
+        throw InputError(fmt::format("{}: this session was imported: the program showed nothing in it that "
+                                     "could be shown again. `overt show` and `overt analyze` take it.",
+                                     options.session.string()));
+    const Experiment experiment =
+        recorded_experiment(record, place_of_protocol(record, options.files), cache_folder());
+    const Interruption interruption;
+    remake_session({record, experiment, cache_folder(),
+                    options.context ? options.context : context_of(record.header()), work},
+                   report);
 }
 
 } // namespace
@@ -124,7 +132,7 @@ int run_replay(const ReplayOptions& options) {
         if (report.why_not.empty())
             present_again(record, options, work.path(), report);
         else
-            throw InputError("to be done");
+            remake(record, options, work.path(), report);
     }
     if (options.json)
         fmt::print("{}", json_text(to_json(report)));

@@ -7,14 +7,14 @@
 
 #include "app/cli/interruption.h"
 #include "app/replay/quiet_output.h"
-#include "app/rig/tracker_devices.h"
+#include "app/replay/session_copies.h"
+#include "app/replay/stimuli_again.h"
 #include "app/session/recorded_options.h"
 #include "app/session/session_commands.h"
 #include "experiment/base/error.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/ports/session_phase.h"
-#include "experiment/ports/tracker_kinds.h"
 #include "experiment/record/manifest.h"
 #include "experiment/record/session_directory.h"
 #include "experiment/record/session_schema.h"
@@ -28,34 +28,6 @@ namespace fs = std::filesystem;
 
 /// All that is to be compared has been presented.
 struct EnoughPresented {};
-
-void copy_file_to(const fs::path& from, const fs::path& to) {
-    std::error_code error;
-    fs::create_directories(to.parent_path(), error);
-    fs::copy_file(from, to, error);
-    if (error)
-        throw RecordError(fmt::format("{}: cannot be copied to {} ({}): make room, or set TMPDIR",
-                                      from.string(), to.string(), error.message()));
-}
-
-/// With what a log still holds; the file itself is not touched.
-void copy_session_file(const fs::path& from, const fs::path& to) {
-    copy_file_to(from, to);
-    const fs::path log = from.string() + "-wal";
-    if (fs::exists(log))
-        copy_file_to(log, to.string() + "-wal");
-}
-
-/// The cache of the program, in which maps, and what is made of frames, are missing.
-fs::path cache_without_maps(const fs::path& cache, const fs::path& work) {
-    fs::create_directories(work);
-    fs::create_directories(cache);
-    for (const char* const kind : {"frames"}) {
-        fs::create_directories(cache / kind);
-        fs::create_directory_symlink(fs::absolute(cache / kind), work / kind);
-    }
-    return work;
-}
 
 std::string faults_of(const SessionRecord& record, int sitting) {
     std::string faults;

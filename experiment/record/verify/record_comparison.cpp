@@ -19,6 +19,23 @@ namespace {
 constexpr std::string_view begun_columns[] = {"trial_id", "sitting",   "trial",    "attempt",
                                               "task",     "sculpture", "material", "started_ns"};
 
+/// The tables that are written before the first trial, and by no sitting.
+constexpr std::string_view header_table_names[] = {"session",
+                                                   "characterisation",
+                                                   "characterisation_file",
+                                                   "schedule",
+                                                   "block",
+                                                   "protocol_file",
+                                                   "task",
+                                                   "part",
+                                                   "material",
+                                                   "stimulus",
+                                                   "pose",
+                                                   "animation_frame",
+                                                   "map",
+                                                   "sculpture",
+                                                   "dataset_entry"};
+
 /// Enough to see what a value is.
 constexpr std::size_t longest_value = 120;
 
@@ -346,26 +363,50 @@ RecordComparison compare_records(const std::filesystem::path& recorded, const st
     return reading_session(recorded, [&] { return compare(a, b, cut); });
 }
 
-void take_circumstances(const std::filesystem::path& recorded, const std::filesystem::path& replayed,
-                        const std::optional<RecordCut>& cut) {
+namespace {
+
+/// Runs `take` on the file with the recorded one attached to it as "recorded".
+template <class Take>
+void take_from(const std::filesystem::path& recorded, const std::filesystem::path& into, const Take& take) {
     const SQLite::Database from = open_session_file(recorded, SessionFileUse::read);
-    SQLite::Database into = open_session_file(replayed, SessionFileUse::write);
+    SQLite::Database database = open_session_file(into, SessionFileUse::write);
     try {
-        SQLite::Statement attach(into, "ATTACH ? AS recorded");
+        SQLite::Statement attach(database, "ATTACH ? AS recorded");
         attach.bind(1, recorded.string());
         attach.exec();
         {
-            SQLite::Transaction transaction(into);
-            into.exec("PRAGMA defer_foreign_keys = ON");
-            take_all(into, from, cut);
+            SQLite::Transaction transaction(database);
+            database.exec("PRAGMA defer_foreign_keys = ON");
+            take(database, from);
             transaction.commit();
         }
         attach.reset();
-        into.exec("DETACH recorded");
-        static_cast<void>(fold_log(into));
+        database.exec("DETACH recorded");
+        static_cast<void>(fold_log(database));
     } catch (const SQLite::Exception& reason) {
-        throw_record_error(replayed, "taking the dates of the record", reason);
+        throw_record_error(into, "taking rows of the record", reason);
     }
+}
+
+} // namespace
+
+void take_circumstances(const std::filesystem::path& recorded, const std::filesystem::path& replayed,
+                        const std::optional<RecordCut>& cut) {
+    take_from(recorded, replayed, [&](SQLite::Database& database, const SQLite::Database& from) {
+        take_all(database, from, cut);
+    });
+}
+
+void take_what_happened(const std::filesystem::path& recorded, const std::filesystem::path& into,
+                        bool with_frames) {
+    take_from(recorded, into, [&](SQLite::Database& database, const SQLite::Database& from) {
+        for (const ComparedTable& table : tables_to_compare(from, database)) {
+            const bool is_header = std::find(std::begin(header_table_names), std::end(header_table_names),
+                                             table.name) != std::end(header_table_names);
+            if (!is_header || (with_frames && table.name == "stimulus"))
+                take_rows(database, table.name, "1");
+        }
+    });
 }
 
 } // namespace overt

@@ -57,4 +57,9 @@ std::string not_compared();
 void take_circumstances(const std::filesystem::path& recorded, const std::filesystem::path& replayed,
                         const std::optional<RecordCut>& cut = {});
 
+/// Puts what happened in a recorded session, all rows that came about after its header, into a session file
+/// that has a header only. `with_frames`: what the header says of the frames, too. Throws RecordError.
+void take_what_happened(const std::filesystem::path& recorded, const std::filesystem::path& into,
+                        bool with_frames);
+
 } // namespace overt

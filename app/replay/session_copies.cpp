@@ -1,0 +1,32 @@
+#include "app/replay/session_copies.h"
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+
+namespace overt {
+
+namespace fs = std::filesystem;
+
+void copy_file_to(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    fs::create_directories(to.parent_path(), error);
+    fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+    if (error)
+        throw RecordError(fmt::format("{}: cannot be copied to {} ({}): make room, or set TMPDIR",
+                                      from.string(), to.string(), error.message()));
+}
+
+void copy_session_file(const fs::path& from, const fs::path& to) {
+    copy_file_to(from, to);
+    const fs::path log = from.string() + "-wal";
+    if (fs::exists(log))
+        copy_file_to(log, to.string() + "-wal");
+}
+
+void take_map_files(const SessionRecord& from, const fs::path& into) {
+    for (const RecordedMap& map : from.header().maps)
+        copy_file_to(from.directory() / map.file, into / map.file);
+}
+
+} // namespace overt
