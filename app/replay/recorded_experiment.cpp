@@ -1,5 +1,7 @@
 #include "app/replay/recorded_experiment.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "app/inputs/protocol_file.h"
@@ -52,12 +54,23 @@ std::optional<RecordDifference> changed_content(const SessionRecord& record) {
     return std::nullopt;
 }
 
-Experiment recorded_experiment(const SessionRecord& record, const fs::path& place, const fs::path& cache) {
+Experiment recorded_experiment(const SessionRecord& record, const fs::path& files, const fs::path& cache) {
+    const fs::path place = place_of_protocol(record, files);
     Diagnostics diagnostics;
     std::optional<Experiment> experiment =
         read_recorded_experiment(record.header().protocol, place, cache, diagnostics);
-    if (experiment)
+    if (experiment) {
+        const auto& sculptures = experiment->protocol.sculptures;
+        const bool has_meshes = std::any_of(sculptures.begin(), sculptures.end(),
+                                            [](const auto& sculpture) { return !sculpture.mesh.empty(); });
+        // The meshes in the session's folder are those that were made of the protocol's.
+        if (has_meshes && files.empty() && record.run_options(1).empty())
+            throw InputError(
+                fmt::format("{}: this session does not say where the files lay that its protocol "
+                            "names: give the folder of the protocol with --files DIR",
+                            record.directory().string()));
         return *std::move(experiment);
+    }
     print_findings(diagnostics);
     fmt::print(stderr,
                "{}: the recorded protocol cannot be used from {}. If the files that it names lie elsewhere "

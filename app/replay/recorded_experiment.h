@@ -18,9 +18,10 @@ std::filesystem::path place_of_protocol(const SessionRecord& record, const std::
 /// they do. Throws InputError for a map that is not there.
 std::optional<RecordDifference> changed_content(const SessionRecord& record);
 
-/// Reads the recorded protocol, with what it names from `place`. What is wrong is printed to standard error;
-/// then throws FindingsPrinted with the remedy.
-Experiment recorded_experiment(const SessionRecord& record, const std::filesystem::path& place,
+/// Reads the recorded protocol, with what it names from place_of_protocol(). What is wrong is printed to
+/// standard error; then throws FindingsPrinted with the remedy. Throws InputError if the session does not say
+/// where the meshes lay, and `files` is empty.
+Experiment recorded_experiment(const SessionRecord& record, const std::filesystem::path& files,
                                const std::filesystem::path& cache);
 
 } // namespace overt

@@ -8,6 +8,7 @@
 #include "app/replay/recorded_experiment.h"
 #include "app/replay/remade_session.h"
 #include "app/replay/replay_commands.h"
+#include "app/replay/replay_picture.h"
 #include "app/replay/replay_report.h"
 #include "app/replay/session_copies.h"
 #include "app/replay/sitting_replay.h"
@@ -61,7 +62,7 @@ void add(const FileComparison& comparison, const char* what, ReplayReport& repor
 void present_again(const SessionRecord& record, const ReplayOptions& options, const fs::path& work,
                    ReplayReport& report) {
     const fs::path place = place_of_protocol(record, options.files);
-    const Experiment experiment = recorded_experiment(record, place, cache_folder());
+    const Experiment experiment = recorded_experiment(record, options.files, cache_folder());
     const int sittings = sittings_of(record);
     ProgressBar bar;
     std::optional<SittingReplay> replay;
@@ -106,8 +107,7 @@ void remake(const SessionRecord& record, const ReplayOptions& options, const fs:
         throw InputError(fmt::format("{}: this session was imported: the program showed nothing in it that "
                                      "could be shown again. `overt show` and `overt analyze` take it.",
                                      options.session.string()));
-    const Experiment experiment =
-        recorded_experiment(record, place_of_protocol(record, options.files), cache_folder());
+    const Experiment experiment = recorded_experiment(record, options.files, cache_folder());
     const Interruption interruption;
     remake_session({record, experiment, cache_folder(),
                     options.context ? options.context : context_of(record.header()), work},
@@ -118,6 +118,10 @@ void remake(const SessionRecord& record, const ReplayOptions& options, const fs:
 
 int run_replay(const ReplayOptions& options) {
     const SessionRecord record(options.session);
+    if (!options.picture.empty() || !options.movie.empty())
+        return draw_trial(record, options);
+    if (options.trial)
+        throw InputError("--trial says of which trial --picture or --movie is made: give one of them");
     const SessionHeader& header = record.header();
     ReplayReport report;
     report.session = options.session.string();

@@ -1,0 +1,94 @@
+#include "app/replay/shown_frames.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/record/read/sample_join.h"
+
+namespace overt {
+
+namespace {
+
+SessionTime first_light_of(const SessionRecord& record, const TrialRecord& trial,
+                           const std::optional<TrialLedger>& ledger) {
+    if (!ledger)
+        throw InputError(fmt::format("{}: nothing was shown in trial {}: choose another with --trial",
+                                     record.directory().string(), trial.trial.index + 1));
+    return ledger->recorded.front().report.vertical_blank + record.header().display.latency;
+}
+
+} // namespace
+
+ShownFrames::ShownFrames(const SessionRecord& record, const TrialRecord& trial, const SurfaceLookup* lookup)
+    : record_(record), lookup_(lookup), history_(record.flip_history(record.ledger(trial))) {
+    const SessionHeader& header = record.header();
+    const std::optional<TrialLedger> ledger = record.ledger(trial);
+    first_light_ = first_light_of(record, trial, ledger);
+    const double refresh_hz = header.display.refresh_hz;
+    const int held = std::max(1, refreshes_per_frame(header.animation.frame_rate_hz, refresh_hz));
+    period_s_ = held / refresh_hz;
+    const SessionTime last = ledger->recorded.back().report.vertical_blank + header.display.latency;
+    const double lit_s = to_seconds(last - first_light_) + 1.0 / refresh_hz;
+    // The last period counts if it was lit for half of its time.
+    count_ = std::max(1, static_cast<int>(std::lround(lit_s / period_s_)));
+    const SampleJoin join(header.display.screen, record.clock_map(trial), record.flip_history(ledger),
+                          nullptr);
+    constexpr std::size_t piece = 4096;
+    record.read_samples(trial, piece, [&](std::span<const GazeSample> samples) {
+        for (const GazeSample& sample : samples) {
+            const JoinedSample joined = join.join(sample);
+            if (joined.at)
+                gaze_.push_back({to_seconds(joined.at->time - first_light_), joined.image_px});
+        }
+    });
+    std::stable_sort(gaze_.begin(), gaze_.end(),
+                     [](const TimedGaze& a, const TimedGaze& b) { return a.at_s < b.at_s; });
+}
+
+ShownFrame ShownFrames::frame(int number) const {
+    OVERT_EXPECTS(number >= 1 && number <= count_);
+    const ScreenGeometry& screen = record_.header().display.screen;
+    ShownFrame frame;
+    frame.number = number;
+    frame.begin_s = (number - 1) * period_s_;
+    frame.end_s = number * period_s_;
+    // The middle row's light in the middle of the period.
+    const double row_px = screen.image_origin_px.y + 0.5 * screen.image_px.y;
+    const SessionTime middle =
+        first_light_ + from_seconds(0.5 * (frame.begin_s + frame.end_s)) +
+        from_seconds(row_px / screen.screen_px.y / record_.header().display.refresh_hz);
+    frame.lit = history_.frame_shown_at(middle, row_px);
+    frame.planned = history_.frame_planned_at(middle, row_px);
+    const auto before = [](const TimedGaze& gaze, double at_s) { return gaze.at_s < at_s; };
+    auto gaze = std::lower_bound(gaze_.begin(), gaze_.end(), frame.begin_s, before);
+    glm::dvec2 sum{0.0};
+    for (; gaze != gaze_.end() && gaze->at_s < frame.end_s; ++gaze) {
+        ++frame.samples;
+        if (gaze->image_px) {
+            frame.gaze_px.push_back(*gaze->image_px);
+            sum += *gaze->image_px;
+        }
+    }
+    if (!frame.gaze_px.empty())
+        frame.mean_px = sum / static_cast<double>(frame.gaze_px.size());
+    if (frame.mean_px && frame.lit && lookup_)
+        frame.surface = lookup_->surface_at(frame.lit->pose, *frame.mean_px);
+    return frame;
+}
+
+const TrialRecord& attempt_at(const SessionRecord& record, int trial) {
+    const TrialRecord* found = nullptr;
+    for (const TrialRecord& attempt : record.trials())
+        if (attempt.trial.index + 1 == trial && (attempt.counts || !found || !found->counts))
+            found = &attempt;
+    if (found)
+        return *found;
+    throw InputError(fmt::format("{}: there is no attempt at trial {}; the session's order has {}, and "
+                                 "`overt show` lists what was attempted",
+                                 record.directory().string(), trial, record.header().schedule.trials.size()));
+}
+
+} // namespace overt
