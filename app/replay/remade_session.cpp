@@ -121,6 +121,10 @@ void remake_session(const RemakeRequest& request, ReplayReport& report) {
               report);
     if (!report.is_same())
         return;
+    if (record.trials().empty()) {
+        report.not_compared.emplace_back("exports: the session has no trials to export");
+        return;
+    }
     take_map_files(record, directory.path());
     take_circumstances(recorded_file, remade_file);
     ProgressBar bar;

@@ -92,6 +92,10 @@ void present_again(const SessionRecord& record, const ReplayOptions& options, co
         "meshes, maps, pictures and answers", report);
     if (!report.is_same())
         return;
+    if (record.trials().empty()) {
+        report.not_compared.emplace_back("exports: the session has no trials to export");
+        return;
+    }
     take_map_files(record, replay->folder);
     const std::optional<RecordCut> cut = replay->cut ? std::optional(replay->cut->cut) : std::nullopt;
     take_circumstances(replay->recorded_file, replay->folder / session_file_name, cut);

@@ -67,6 +67,32 @@ TEST_CASE("a session that was killed is compared up to its last row, and its res
     CHECK_THAT(changed.out, Contains("first difference: table flip, trial 2, n 3, shown: recorded"));
 }
 
+TEST_CASE("a session that a signal ended is compared up to its end", "[session]") {
+    const SmallExperiment experiment(with(small_protocol, "duration_s = 1", "duration_s = 20"));
+    bool was_ended = false;
+    for (int tries = 0; tries < 10 && !was_ended; ++tries) {
+        fs::remove_all(experiment.session());
+        RunningProgram program(run_arguments(experiment, "P01", {"--virtual-time"}),
+                               {"OVERT_CACHE=" + experiment.cache().string()},
+                               experiment.folder().path() / "said");
+        while (program.is_running() && attempts_so_far(experiment.session()).size() < 2)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        program.signal(SIGINT);
+        program.wait();
+        const SessionRecord record(experiment.session());
+        was_ended =
+            record.trials().size() > 1 && record.trials().back().status == TrialRecord::Status::aborted;
+    }
+    REQUIRE(was_ended);
+    const ProgramRun run = replay(experiment);
+    INFO(run.out << run.err);
+    CHECK(run.exit_code == 0);
+    CHECK_THAT(run.out, Contains("it was ended by a signal") && Contains("exports in all formats") &&
+                            Contains("the replay is the same"));
+    change(experiment.session(), "UPDATE flip SET pose = pose + 1 WHERE trial_id = 1 AND n = 2");
+    CHECK_THAT(replay(experiment).out, Contains("first difference: table flip, trial 1, n 2, pose"));
+}
+
 TEST_CASE("each single change of a record is found and named", "[session]") {
     const SmallExperiment experiment(full_protocol());
     const std::string faults = experiment.folder().file("faults.toml", faults_of_both).string();
