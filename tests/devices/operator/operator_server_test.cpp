@@ -213,3 +213,27 @@ TEST_CASE("the command that ends the session does not wait for the one before it
     panel.await_decision(false, {});
     CHECK(panel.poll().value().key == ResponsePress::Key::yes);
 }
+
+TEST_CASE("who sends what is no command, no greeting or another version is cut off", "[unit]") {
+    const TemporaryFolder folder;
+    const OperatorServer server(options_at(folder.path() / "view.sock"));
+    for (const std::string& sent :
+         {std::string("GET / HTTP/1.1\r\n\r\n"), std::string("{\"command\":\"abort\"}\n"),
+          std::string("{\"overt_watch\":99}\n"), line_of_greeting() + "{\"command\":\"stop\"}\n",
+          std::string(5000, '\xff')}) {
+        const int garbage = connect_to(SocketAddress(folder.path() / "view.sock"));
+        REQUIRE(garbage >= 0);
+        REQUIRE(::send(garbage, sent.data(), sent.size(), MSG_NOSIGNAL) > 0);
+        char bytes[4096];
+        ssize_t count = -1;
+        // What it was told before may still come; then the end of the connection.
+        for (int tries = 0; tries < 1000 && count != 0 && !(count < 0 && errno == ECONNRESET); ++tries) {
+            count = ::recv(garbage, bytes, sizeof bytes, MSG_DONTWAIT);
+            if (count < 0 && errno == EAGAIN)
+                std::this_thread::sleep_for(5ms);
+        }
+        INFO(sent.substr(0, 40));
+        CHECK((count == 0 || (count < 0 && errno == ECONNRESET)));
+        ::close(garbage);
+    }
+}
