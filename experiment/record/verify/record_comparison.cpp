@@ -19,23 +19,6 @@ namespace {
 constexpr std::string_view begun_columns[] = {"trial_id", "sitting",   "trial",    "attempt",
                                               "task",     "sculpture", "material", "started_ns"};
 
-/// The tables that are written before the first trial, and by no sitting.
-constexpr std::string_view header_table_names[] = {"session",
-                                                   "characterisation",
-                                                   "characterisation_file",
-                                                   "schedule",
-                                                   "block",
-                                                   "protocol_file",
-                                                   "task",
-                                                   "part",
-                                                   "material",
-                                                   "stimulus",
-                                                   "pose",
-                                                   "animation_frame",
-                                                   "map",
-                                                   "sculpture",
-                                                   "dataset_entry"};
-
 /// Enough to see what a value is.
 constexpr std::size_t longest_value = 120;
 
@@ -292,48 +275,6 @@ RecordComparison compare(const SQLite::Database& recorded, const SQLite::Databas
     return comparison;
 }
 
-/// Columns that two tables of one name have both, separated by commas.
-std::string common_columns(SQLite::Database& database, const std::string& table) {
-    std::string columns;
-    for (Query row(database, fmt::format("SELECT name FROM pragma_table_info('{0}') WHERE name IN "
-                                         "(SELECT name FROM pragma_table_info('{0}', 'recorded'))",
-                                         table)
-                                 .c_str());
-         row.step();)
-        columns += (columns.empty() ? "" : ", ") + row.text();
-    return columns;
-}
-
-void take_rows(SQLite::Database& database, const std::string& table, const std::string& condition) {
-    const std::string columns = common_columns(database, table);
-    database.exec(fmt::format("DELETE FROM main.{0} WHERE {2}; INSERT INTO main.{0} ({1}) SELECT {1} FROM "
-                              "recorded.{0} WHERE {2}",
-                              table, columns, condition));
-}
-
-void take_all(SQLite::Database& database, const SQLite::Database& recorded,
-              const std::optional<RecordCut>& cut) {
-    for (const ComparedTable& table : tables_to_compare(recorded, database)) {
-        std::string same_row;
-        for (const std::string& key : table.keys)
-            same_row += fmt::format("{0}r.{1} = {2}.{1}", same_row.empty() ? "" : " AND ", key, table.name);
-        for (const CircumstanceColumn& of : circumstance_columns)
-            if (of.table == table.name && table.column_called(of.column) >= 0)
-                database.exec(
-                    fmt::format("UPDATE main.{0} SET {1} = (SELECT {1} FROM recorded.{0} AS r WHERE {2})",
-                                table.name, of.column, same_row));
-        if (cut && table.name == "sitting")
-            database.exec("UPDATE main.sitting SET closed = (SELECT closed FROM recorded.sitting AS r "
-                          "WHERE r.sitting = sitting.sitting)");
-        if (cut && table.growth == SealedTable::Growth::by_trial)
-            take_rows(database, table.name, fmt::format("trial_id >= {}", cut->attempt));
-        if ((cut && table.growth == SealedTable::Growth::by_id) || table.name == "event")
-            take_rows(database, table.name, "1");
-        if (cut && table.name == "map")
-            take_rows(database, table.name, "1");
-    }
-}
-
 } // namespace
 
 std::string to_text(const RecordDifference& difference) {
@@ -361,52 +302,6 @@ RecordComparison compare_records(const std::filesystem::path& recorded, const st
     const SQLite::Database a = open_session_file(recorded, SessionFileUse::read);
     const SQLite::Database b = open_session_file(replayed, SessionFileUse::read);
     return reading_session(recorded, [&] { return compare(a, b, cut); });
-}
-
-namespace {
-
-/// Runs `take` on the file with the recorded one attached to it as "recorded".
-template <class Take>
-void take_from(const std::filesystem::path& recorded, const std::filesystem::path& into, const Take& take) {
-    const SQLite::Database from = open_session_file(recorded, SessionFileUse::read);
-    SQLite::Database database = open_session_file(into, SessionFileUse::write);
-    try {
-        SQLite::Statement attach(database, "ATTACH ? AS recorded");
-        attach.bind(1, recorded.string());
-        attach.exec();
-        {
-            SQLite::Transaction transaction(database);
-            database.exec("PRAGMA defer_foreign_keys = ON");
-            take(database, from);
-            transaction.commit();
-        }
-        attach.reset();
-        database.exec("DETACH recorded");
-        static_cast<void>(fold_log(database));
-    } catch (const SQLite::Exception& reason) {
-        throw_record_error(into, "taking rows of the record", reason);
-    }
-}
-
-} // namespace
-
-void take_circumstances(const std::filesystem::path& recorded, const std::filesystem::path& replayed,
-                        const std::optional<RecordCut>& cut) {
-    take_from(recorded, replayed, [&](SQLite::Database& database, const SQLite::Database& from) {
-        take_all(database, from, cut);
-    });
-}
-
-void take_what_happened(const std::filesystem::path& recorded, const std::filesystem::path& into,
-                        bool with_frames) {
-    take_from(recorded, into, [&](SQLite::Database& database, const SQLite::Database& from) {
-        for (const ComparedTable& table : tables_to_compare(from, database)) {
-            const bool is_header = std::find(std::begin(header_table_names), std::end(header_table_names),
-                                             table.name) != std::end(header_table_names);
-            if (!is_header || (with_frames && table.name == "stimulus"))
-                take_rows(database, table.name, "1");
-        }
-    });
 }
 
 } // namespace overt
