@@ -71,7 +71,8 @@ void check_header(const SessionHeader& header, const std::filesystem::path& file
     demand(is_within(header.tracker.sample_rate_hz, 0.0, 1e6), "the tracker's rate");
     demand(is_pose_table(header.poses), "the table of poses");
     // They name folders and files of exports, and files that are read.
-    demand(is_plain_name(header.protocol.name), "the protocol's name");
+    // An imported session may have none.
+    demand(header.protocol.name.empty() || is_plain_name(header.protocol.name), "the protocol's name");
     for (const RecordedSculpture& sculpture : header.sculptures)
         demand(is_plain_name(sculpture.id) &&
                    (sculpture.mesh_file.empty() || stays_inside(sculpture.mesh_file)),

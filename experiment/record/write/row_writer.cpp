@@ -203,6 +203,13 @@ std::optional<std::int64_t> RowWriter::attempt_of(int trial) const {
     return trial >= 0 && trial == open_trial_ ? std::optional(trial_counts_.trial_id) : std::nullopt;
 }
 
+std::optional<std::int64_t> RowWriter::attempt_at(int trial, SessionTime at) const {
+    for (auto attempt = attempts_.rbegin(); attempt != attempts_.rend(); ++attempt)
+        if (attempt->trial == trial && attempt->at <= at)
+            return attempt->trial_id;
+    return {};
+}
+
 void RowWriter::write(const std::vector<RecordedButton>& buttons) {
     begin();
     database_.exec(device_tables_sql);
@@ -230,9 +237,10 @@ void RowWriter::write(const std::vector<RecordedMarker>& markers) {
                    "VALUES (?,?,?,?,?,?,?,?,?,?,?,?)");
     for (const RecordedMarker& marker : markers)
         run_statement(insert, sitting_, marker.at,
-                      marker.trial < 0 ? std::nullopt : std::optional(marker.trial), attempt_of(marker.trial),
-                      marker.output, marker.text, marker.code, marker.is_sent ? 1 : 0, marker.not_before,
-                      marker.not_after, marker.planned_refresh, marker.shown_refresh);
+                      marker.trial < 0 ? std::nullopt : std::optional(marker.trial),
+                      attempt_at(marker.trial, marker.at), marker.output, marker.text, marker.code,
+                      marker.is_sent ? 1 : 0, marker.not_before, marker.not_after, marker.planned_refresh,
+                      marker.shown_refresh);
 }
 
 void RowWriter::write(const ClockPair& pair) {
@@ -319,6 +327,7 @@ void RowWriter::write(const TrialStart& start) {
     begin();
     trial_counts_ = {number(database_, "SELECT COALESCE(MAX(trial_id), 0) + 1 + ?1 FROM trial"), 0, 0};
     open_trial_ = trial.index;
+    attempts_.push_back({trial.index, start.at, trial_counts_.trial_id});
     const std::int64_t attempt =
         1 + number(database_, "SELECT COUNT(*) FROM trial WHERE trial = ?1", trial.index);
     run_statement(insert_trial_, trial_counts_.trial_id, sitting_, trial.index, attempt, trial.task,

@@ -61,6 +61,9 @@ class RowWriter {
   private:
     /// Of what happened in a trial: the attempt that is running or ended last; nothing outside of trials.
     std::optional<std::int64_t> attempt_of(int trial) const;
+    /// The attempt at a trial that was under way at that time. What became of a marker is known a while
+    /// after, when the next trial may have begun.
+    std::optional<std::int64_t> attempt_at(int trial, SessionTime at) const;
     struct Counts {
         std::int64_t trial_id = 0;
         std::int64_t flips = 0;
@@ -87,7 +90,13 @@ class RowWriter {
     int sitting_ = 0;
     int open_trial_ = -1; ///< index of the trial whose rows come in
     Counts trial_counts_;
-    Counts outside_counts_; ///< of rows that belong to no started trial: trial_id 0
+    struct StartedAttempt {
+        int trial = 0;
+        SessionTime at;
+        std::int64_t trial_id = 0;
+    };
+    std::vector<StartedAttempt> attempts_; ///< of this sitting, in their order
+    Counts outside_counts_;                ///< of rows that belong to no started trial: trial_id 0
     SealWriter seals_;
     GazeRows gaze_rows_;                  ///< all but samples
     std::optional<SittingEvents> events_; ///< nothing: nobody looks for them

@@ -160,3 +160,40 @@ TEST_CASE("one session cannot be run twice at the same time", "[unit]") {
     const SessionStore store(session / session_file_name, patient());
     CHECK_THROWS_WITH(SessionStore(session / session_file_name, patient()), Contains("another program"));
 }
+
+TEST_CASE("a marker whose fate is known late belongs to the attempt in which it was set", "[unit]") {
+    const TemporaryFolder root;
+    const SessionHeader header = example_header();
+    create_session_file(root.path() / session_file_name, header);
+    const auto marker_at = [](int trial, SessionTime at) {
+        RecordedMarker marker;
+        marker.trial = trial;
+        marker.at = at;
+        marker.output = "eeg";
+        marker.text = "TRIAL_RESULT";
+        return marker;
+    };
+    {
+        SessionStore store(root.path() / session_file_name, patient());
+        TrialOutcome broken_off = outcome_at(0);
+        broken_off.status = TrialOutcome::Status::aborted;
+        store.trial_started(header.schedule.trials[0], at_ms(0));
+        store.trial_finished(header.schedule.trials[0], broken_off);
+        store.trial_started(header.schedule.trials[0], at_ms(1000)); // again
+        store.trial_finished(header.schedule.trials[0], outcome_at(0));
+        store.trial_started(header.schedule.trials[1], at_ms(2000));
+        store.markers({marker_at(0, at_ms(999)), marker_at(0, at_ms(1999)), marker_at(1, at_ms(2001)),
+                       marker_at(2, at_ms(2001)), marker_at(-1, at_ms(2001))});
+        store.trial_finished(header.schedule.trials[1], outcome_at(0));
+        store.close();
+    }
+    const SessionRecord record(root.path());
+    REQUIRE(record.trials().size() == 3);
+    const std::vector<RecordedMarker> markers = record.markers();
+    REQUIRE(markers.size() == 5);
+    CHECK(markers[0].attempt_id == record.trials()[0].id);
+    CHECK(markers[1].attempt_id == record.trials()[1].id);
+    CHECK(markers[2].attempt_id == record.trials()[2].id);
+    CHECK_FALSE(markers[3].attempt_id); // no such attempt
+    CHECK_FALSE(markers[4].attempt_id);
+}
