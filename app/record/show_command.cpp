@@ -44,13 +44,18 @@ nlohmann::ordered_json session_json(const SessionRecord& record) {
                           {"failure", trial.outcome.failure},
                           {"sitting", trial.sitting},
                           {"shown_refreshes", trial.outcome.shown_refreshes},
-                          {"missed_refreshes", trial.outcome.missed_refreshes},
+                          {"missed_refreshes", header.display.is_timing_unproven()
+                                                   ? nlohmann::ordered_json("unproven")
+                                                   : nlohmann::ordered_json(trial.outcome.missed_refreshes)},
                           {"answer", trial.outcome.answer}});
     }
-    nlohmann::ordered_json json{
-        {"session", record.directory().string()},      {"protocol", header.protocol.name},
-        {"observer", header.schedule.observer.label},  {"seed", header.schedule.seed},
-        {"closed_in_order", record.closed_in_order()}, {"trials", trials}};
+    nlohmann::ordered_json json{{"session", record.directory().string()},
+                                {"protocol", header.protocol.name},
+                                {"observer", header.schedule.observer.label},
+                                {"seed", header.schedule.seed},
+                                {"closed_in_order", record.closed_in_order()},
+                                {"timing_proof", header.display.timing},
+                                {"trials", trials}};
     if (const auto& light = header.characterisation) {
         json["characterisation"] = {{"display", light->display},
                                     {"date", light->date},
@@ -89,14 +94,16 @@ void print_session(const SessionRecord& record) {
                header.graphics.context, header.graphics.renderer);
     for (const auto& [sitting, box] : record.display_boxes())
         fmt::print("display box in sitting {}: {}\n", sitting, describe(box));
-    fmt::print("\n{:>5}  {:<12} {:<12} {:<12} {:<16} {:>9} {:>7}  {}\n", "trial", "task", "sculpture",
+    fmt::print("\n{:>5}  {:<12} {:<12} {:<12} {:<16} {:>9} {:>8}  {}\n", "trial", "task", "sculpture",
                "material", "status", "refreshes", "missed", "answer");
     for (std::size_t i = 0; i < record.trials().size(); ++i) {
         const auto& trial = json["trials"][i];
-        fmt::print("{:>5}  {:<12} {:<12} {:<12} {:<16} {:>9} {:>7}  {}\n", trial["trial"].get<int>(),
+        fmt::print("{:>5}  {:<12} {:<12} {:<12} {:<16} {:>9} {:>8}  {}\n", trial["trial"].get<int>(),
                    trial["task"].get<std::string>(), trial["sculpture"].get<std::string>(),
                    trial["material"].get<std::string>(), fate_of(record.trials()[i]),
-                   trial["shown_refreshes"].get<int>(), trial["missed_refreshes"].get<int>(),
+                   trial["shown_refreshes"].get<int>(),
+                   header.display.is_timing_unproven() ? "unproven"
+                                                       : std::to_string(trial["missed_refreshes"].get<int>()),
                    trial["answer"].get<std::string>());
     }
     if (!record.closed_in_order())

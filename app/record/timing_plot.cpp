@@ -157,9 +157,12 @@ void write_timing_plot(const TimingReport& report, const std::string& title,
                              : report.is_virtual         ? "virtual time; "
                                                          : "";
     drawing.text(0.5 * width, 46.0,
-                 fmt::format("{}{} of {} refreshes missed, measured interval {:.5f} ms ({:.3f} Hz)", kind,
-                             report.missed_refreshes, report.planned_refreshes, report.interval_ms,
-                             report.interval_ms > 0.0 ? 1e3 / report.interval_ms : 0.0));
+                 fmt::format("{}{}, measured interval {:.5f} ms ({:.3f} Hz)", kind,
+                             report.is_unproven
+                                 ? std::string("times and missed refreshes are unproven")
+                                 : fmt::format("{} of {} refreshes missed", report.missed_refreshes,
+                                               report.planned_refreshes),
+                             report.interval_ms, report.interval_ms > 0.0 ? 1e3 / report.interval_ms : 0.0));
     const double rows = std::max(90.0, 14.0 * static_cast<double>(report.trials.size()));
     double top = 66.0;
     draw_histogram(drawing, report, top, top + 200.0);

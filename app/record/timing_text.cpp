@@ -68,12 +68,15 @@ void print_timing(const TimingReport& report) {
         fmt::print("  THE DISPLAY'S FAULTS WERE SIMULATED: a rehearsal, no measurement\n");
     else if (report.is_virtual)
         fmt::print("  in virtual time: nothing could come late\n");
+    if (report.is_unproven)
+        fmt::print("  UNPROVEN: no real vertical blank tells when pictures were lit, nor what was missed\n");
     std::string sources;
     for (const std::string& source : report.sources)
         sources += (sources.empty() ? "" : ", ") + source;
     fmt::print("  time stamps       {}\n", sources);
-    fmt::print("  refreshes         {} planned, {} flipped, {} missed, {} unaccounted for\n",
-               report.planned_refreshes, report.flipped_refreshes, report.missed_refreshes,
+    fmt::print("  refreshes         {} planned, {} flipped, {}, {} unaccounted for\n",
+               report.planned_refreshes, report.flipped_refreshes,
+               report.is_unproven ? "missed: unproven" : fmt::format("{} missed", report.missed_refreshes),
                report.unaccounted);
     for (const MissCause cause : causes)
         if (const int count = report.missed_by_cause[static_cast<int>(cause)]; count > 0)
@@ -93,7 +96,12 @@ void print_timing(const TimingReport& report) {
 
 namespace {
 
-nlohmann::ordered_json to_json(const TrialTiming& trial) {
+/// Of times that nothing proves no number is claimed.
+nlohmann::ordered_json missed_count(int missed, bool is_unproven) {
+    return is_unproven ? nlohmann::ordered_json("unproven") : nlohmann::ordered_json(missed);
+}
+
+nlohmann::ordered_json to_json(const TrialTiming& trial, bool is_unproven) {
     auto runs = nlohmann::ordered_json::array();
     for (const MissedRun& run : trial.missed_runs)
         runs.push_back({{"refresh", run.refresh_in_trial},
@@ -105,7 +113,7 @@ nlohmann::ordered_json to_json(const TrialTiming& trial) {
             {"status", name_of(trial.status)},
             {"planned_refreshes", trial.planned_refreshes},
             {"flipped_refreshes", trial.flipped_refreshes},
-            {"missed_refreshes", trial.missed_refreshes},
+            {"missed_refreshes", missed_count(trial.missed_refreshes, is_unproven)},
             {"unaccounted_refreshes", trial.unaccounted},
             {"missed", runs},
             {"wrong_stamps", trial.wrong_stamps},
@@ -126,7 +134,7 @@ nlohmann::ordered_json to_json(const TrialTiming& trial) {
 nlohmann::ordered_json to_json(const TimingReport& report) {
     auto trials = nlohmann::ordered_json::array();
     for (const TrialTiming& trial : report.trials)
-        trials.push_back(to_json(trial));
+        trials.push_back(to_json(trial, report.is_unproven));
     auto bins = nlohmann::ordered_json::array();
     for (const IntervalBin& bin : interval_histogram(report))
         if (bin.count > 0)
@@ -139,7 +147,8 @@ nlohmann::ordered_json to_json(const TimingReport& report) {
             {"time_stamps", report.sources},
             {"planned_refreshes", report.planned_refreshes},
             {"flipped_refreshes", report.flipped_refreshes},
-            {"missed_refreshes", report.missed_refreshes},
+            {"unproven", report.is_unproven},
+            {"missed_refreshes", missed_count(report.missed_refreshes, report.is_unproven)},
             {"missed_by_cause", by_cause},
             {"unaccounted_refreshes", report.unaccounted},
             {"nominal_interval_ms", report.nominal_interval_ms},

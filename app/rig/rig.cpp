@@ -1,5 +1,8 @@
 #include "app/rig/rig.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "app/rig/response_devices.h"
 #include "app/rig/tracker_devices.h"
 #include "devices/simulated/operator_script.h"
@@ -43,6 +46,20 @@ std::vector<ScreenFinding> examine_screen(const WindowContext& window, const Pro
     return findings;
 }
 
+/// A session may not say "0 missed" of refreshes that nobody saw.
+void refuse_doubtful_times(const std::vector<std::string>& doubts) {
+    if (!doubts.empty())
+        throw InputError(fmt::format(
+            "the protocol's [display] timing = \"proven\", but nothing proves when this window's pictures "
+            "are "
+            "lit:\n  {}\nUse a screen whose driver tells its vertical blanks (`overt doctor --window` "
+            "measures "
+            "it, docs/vblank_sources.md says what is needed), without another screen's or a compositor's "
+            "refreshes. For a rehearsal write timing = \"unproven\" under [display]: the record, its exports "
+            "and its reports then say so. Nothing was recorded.",
+            fmt::join(doubts, "\n  ")));
+}
+
 } // namespace
 
 Rig::Rig(const Protocol& protocol, std::span<const Sculpture> sculptures, const RigRequest& request,
@@ -55,6 +72,10 @@ Rig::Rig(const Protocol& protocol, std::span<const Sculpture> sculptures, const 
       library_(display_.context(), protocol, sculptures, cache) {}
 
 Rig::~Rig() = default;
+
+std::string Rig::timing_word() const {
+    return is_on_a_real_screen() ? std::string(name_of(protocol_->display.timing)) : "none";
+}
 
 bool Rig::maps_are_live() const {
     // Software takes a tenth of a second for a map: far longer than a refresh.
@@ -122,6 +143,10 @@ std::vector<ScreenFinding> Rig::check_timing(double seconds,
     const TimingFacts facts =
         measure_timing(*display_.window(), *display_.window_display(), clock(), seconds, progress);
     std::vector<ScreenFinding> findings = judge_timing(facts, protocol_->display.refresh_hz, "the protocol");
+    if (protocol_->display.timing == TimingClaim::proven)
+        refuse_doubtful_times(doubts_about_times(facts));
+    else
+        findings = without_claim(std::move(findings));
     refuse_spoilt_screen(findings);
     screen_findings_.insert(screen_findings_.end(), findings.begin(), findings.end());
     return findings;

@@ -62,6 +62,9 @@ class Rig {
     /// What may change the signal on its way to the screen; nothing unless is_on_a_real_screen().
     const std::vector<ScreenFinding>& screen_findings() const { return screen_findings_; }
 
+    /// What the record says of the flips' times, see RecordedDisplay::timing.
+    std::string timing_word() const;
+
     /// Whether the hidden maps are drawn while their frames are shown; else they are to be prepared.
     bool maps_are_live() const;
 
@@ -72,7 +75,8 @@ class Rig {
 
     /// Shows a dark screen for so many seconds, watches its refreshes, and adds what it finds to
     /// screen_findings(); gives what was added. Only on a real screen, once open. Throws GraphicsError for a
-    /// refresh that is not the protocol's.
+    /// refresh that is not the protocol's, and InputError for times that nothing proves where the protocol
+    /// says that they are proven.
     std::vector<ScreenFinding> check_timing(double seconds,
                                             const std::function<void(int done, int total)>& progress);
 

@@ -159,6 +159,7 @@ SessionFolder open_folder(const RunOptions& options, const SessionPlace& place, 
     SessionHeader now = make_session_header(
         experiment.protocol, plan.schedule, experiment.sculptures, rig.library(), rig.context().description(),
         rig.tracker().description(), rig.clock_kind(), !rig.maps_are_live());
+    now.display.timing = rig.timing_word();
     if (plan.resumed) {
         require_same_stimuli(*plan.resumed, now);
         reopen_manifest(plan.resumed->folder, plan.resumed->header, this_program());
@@ -295,6 +296,12 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
              seed_of_simulated(options, plan), options.maps, options.monitor, options.operator_keys,
              options.draws_stimuli},
             cache);
+    if (rig.is_on_a_real_screen() && options.refresh_check_s <= 0.0 &&
+        protocol.display.timing == TimingClaim::proven)
+        throw InputError(
+            "--refresh-check 0 measures nothing, and so proves no times, as the protocol's [display] "
+            "timing = \"proven\" asks: leave the option out, or write timing = \"unproven\" "
+            "under [display]; the record then says so");
     say_before(protocol, plan.schedule, rig.context().description(), options);
     say_risks(rig.screen_findings());
     const Interruption interruption;
@@ -400,7 +407,8 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
     if (boxes)
         for (const std::string& warning : boxes->closing_warnings())
             fmt::print(stderr, "{}\n", warning);
-    say_after(options, result, store.lost(), plan.schedule, folder.path);
+    say_after(options, result, store.lost(), plan.schedule, folder.path,
+              folder.header.display.is_timing_unproven());
     return result.aborted ? 1 : 0;
 }
 

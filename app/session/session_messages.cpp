@@ -99,16 +99,17 @@ void TrialProgress::operator()(const Trial& trial, const TrialOutcome& outcome, 
 }
 
 void say_after(const RunOptions& options, const SessionResult& result, const LostRows& lost,
-               const Schedule& schedule, const std::filesystem::path& folder) {
+               const Schedule& schedule, const std::filesystem::path& folder, bool is_unproven) {
     if (lost.flips + lost.samples > 0)
         fmt::print(stderr, "the disk was too slow: {} and {} were not recorded\n",
                    counted(lost.flips, "flip"), counted(lost.samples, "sample"));
     const int planned = static_cast<int>(schedule.trials.size());
     const bool is_short = !result.aborted && result.completed_trials < planned;
-    fmt::print("{} of {} completed{}, {} missed\nsession: {}\n", result.completed_trials,
-               counted(planned, "trial"),
+    fmt::print("{} of {} completed{}, {}\nsession: {}\n", result.completed_trials, counted(planned, "trial"),
                is_short ? fmt::format(", {} skipped", planned - result.completed_trials) : "",
-               counted(result.missed_refreshes, "refresh", "refreshes"), folder.string());
+               is_unproven ? "missed refreshes: unproven"
+                           : counted(result.missed_refreshes, "refresh", "refreshes") + " missed",
+               folder.string());
     if (!options.print_session_to.empty())
         write_to(options.print_session_to, folder.string() + "\n");
     if (result.aborted)

@@ -43,9 +43,10 @@ class TrialProgress {
     ProgressBar bar_;
 };
 
-/// How it ended and where it lies, also into the file of --print-session-to. Throws RecordError if that
+/// How it ended and where it lies, also into the file of --print-session-to. `is_unproven`: nothing proves
+/// the times of its flips. Throws RecordError if that
 /// cannot be written.
 void say_after(const RunOptions& options, const SessionResult& result, const LostRows& lost,
-               const Schedule& schedule, const std::filesystem::path& folder);
+               const Schedule& schedule, const std::filesystem::path& folder, bool is_unproven);
 
 } // namespace overt

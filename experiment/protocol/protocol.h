@@ -46,8 +46,13 @@ template <>
 inline constexpr auto names_of<PatchCorner> = enum_names<PatchCorner>("none", "top-left", "top-right",
                                                                       "bottom-left", "bottom-right");
 
-/// [display]: the screen in front of the observer. Defaults: a Display++ as in the paper; its 698 mm are the
-/// active width.
+/// What a session on a screen in real time says of the times of its flips.
+enum class TimingClaim : std::uint8_t {
+    proven,  ///< it is refused where no real vertical blank tells them
+    unproven ///< it runs, and its record says that nothing proves them
+};
+template <> inline constexpr auto names_of<TimingClaim> = enum_names<TimingClaim>("proven", "unproven");
+
 /// The table on the disk of a Display++ or Bits# that leaves values as they are (Display++ user manual).
 inline constexpr std::string_view linear_box_table = "13bitLinearLUT.txt";
 
@@ -61,6 +66,8 @@ enum class LinearisedBy : std::uint8_t {
 template <>
 inline constexpr auto names_of<LinearisedBy> = enum_names<LinearisedBy>("unsaid", "display", "box", "none");
 
+/// [display]: the screen in front of the observer. Defaults: a Display++ as in the paper; its 698 mm are the
+/// active width.
 struct DisplaySettings {
     int width_px = 1920;
     int height_px = 1080;
@@ -84,6 +91,7 @@ struct DisplaySettings {
     double latency_ms = 0.0;                                 ///< from vertical blank to the first row's light
     double background = 0.0;                                 ///< linear grey, 0 … 1 of the display's white
     double frame_store_mb = 1000.0; ///< what the frames of two stimuli may take on the graphics card
+    TimingClaim timing = TimingClaim::proven;
     PatchCorner photodiode = PatchCorner::none; ///< a square that alternates with the animation frames
     int photodiode_px = 60;                     ///< side of it
     int tags_px = 0;                        ///< side of the AprilTags around the stimulus; 0: there are none

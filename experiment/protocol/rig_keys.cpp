@@ -102,6 +102,13 @@ Section display() {
                       "5 ms; a VPixx device in its Pixel Mode has 24 and raises them for the "
                       "refresh; see [output.md](output.md)."},
                  &D::onset_trigger},
+                {{.name = "timing",
+                  .explanation =
+                      "With `proven`, a session in a window in real time is refused where no real vertical "
+                      "blank tells when its pictures are lit. With `unproven` it runs, and its record, its "
+                      "exports and reports say that times and missed refreshes are unproven. Of no effect in "
+                      "virtual time and without a window; see [vblank_sources.md](vblank_sources.md)."},
+                 &D::timing},
                 {{.name = "photodiode",
                   .explanation =
                       "A square in this corner that changes between white and black with each frame "

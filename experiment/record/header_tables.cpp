@@ -68,6 +68,11 @@ constexpr RowColumn<SessionHeader> session_columns[] = {
                                                 "from the vertical blank to the light of the first row"),
     column<&Header::display, &Display::output_mode>("output_mode", "by the protocol's word"),
     column<&Header::display, &Display::background>("background", "linear grey, 0 … 1 of the display's white"),
+    column<&Header::display, &Display::timing>(
+        "timing",
+        "of the flips: `proven` by real vertical blanks, `unproven`, `none` in virtual time or "
+        "without a screen; empty if not recorded",
+        "''"),
     column<&Header::animation, &Animation::frame_count>("frame_count", "frames of the animation"),
     column<&Header::animation, &Animation::frame_rate_hz>(
         "frame_rate_hz", "frames to a second, by the protocol; the display shows the nearest rate that its "

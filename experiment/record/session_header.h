@@ -63,6 +63,12 @@ struct RecordedDisplay {
     SessionDuration latency{}; ///< from the vertical blank to the first row's light
     std::string output_mode;   ///< by the protocol's word
     double background = 0.0;   ///< linear grey, 0 … 1 of the display's white
+    /// Of the flips: "proven" or "unproven" (TimingClaim); "none" in virtual time and without a screen; empty
+    /// where it is not known, as in sessions of earlier programs and in imported ones.
+    std::string timing = {};
+
+    /// Nothing proves when pictures were lit, nor, therefore, that no refresh was missed.
+    bool is_timing_unproven() const { return timing == "unproven"; }
 };
 
 /// What was known of the display's light: the essentials, and the files that say it, as they were read.

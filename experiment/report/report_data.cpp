@@ -70,7 +70,7 @@ Json json_of(const StudyQuality& q) {
             {"blinked", number(q.blink_share())},
             {"blinks", q.blinks},
             {"refreshes", q.refreshes},
-            {"missed", q.missed_refreshes},
+            {"missed", q.missed_refreshes ? Json(*q.missed_refreshes) : Json("unproven")},
             {"off_plan", number(q.off_plan)}};
 }
 

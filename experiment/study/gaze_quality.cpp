@@ -108,7 +108,10 @@ StudyQuality quality_of_all(std::span<const StudyQuality* const> trials) {
         all.lost_in_blinks += trial->lost_in_blinks;
         all.blinks += trial->blinks;
         all.refreshes += trial->refreshes;
-        all.missed_refreshes += trial->missed_refreshes;
+        if (all.missed_refreshes && trial->missed_refreshes)
+            *all.missed_refreshes += *trial->missed_refreshes;
+        else
+            all.missed_refreshes.reset();
         all.off_plan += trial->off_plan;
     }
     if (!accuracy.empty()) {

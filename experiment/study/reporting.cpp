@@ -19,6 +19,7 @@ constexpr const char* eye_item = "eyes measured";
 constexpr const char* nominal_item = "nominal rate";
 constexpr const char* screen_item = "screen and distance";
 constexpr const char* latency_item = "from vertical blank to light";
+constexpr const char* timing_item = "timing of the display";
 constexpr const char* light_item = "light of the display";
 constexpr const char* instruction_item = "questions asked";
 constexpr const char* calibration_item = "calibration";
@@ -126,6 +127,10 @@ std::vector<StudyKey> setup_of(const SessionRecord& record) {
         ms != 0.0 || header.clock == ClockKind::virtual_time)
         add(latency_item,
             fmt::format("{:g} ms{}", ms, header.clock == ClockKind::virtual_time ? ", simulated" : ""));
+    if (header.display.timing == "proven")
+        add(timing_item, "proven by the display's vertical blanks");
+    else if (header.display.is_timing_unproven())
+        add(timing_item, "unproven: when pictures were lit, and which refreshes were missed, is not known");
     if (header.characterisation)
         add(light_item, fmt::format("white of {:.4g} cd/m2, measured with {} on {}",
                                     header.characterisation->white_cd_m2(),
@@ -176,6 +181,8 @@ std::vector<ReportingItem> reporting_items(const StudyResults& results, const St
              "taken as 0 ms; measure it with a light sensor (overt doctor --photodiode) and set latency_ms");
     add("3 setup and geometry", "head stabilisation", {},
         "say whether there was a chin rest, a bite bar or none");
+    of_setup("3 setup and geometry", timing_item,
+             "time was virtual, or the sessions do not say what proves their times");
     of_setup("3 setup and geometry", light_item, "the display was not characterised: give its luminance");
     add("4 recording environment", "room and its light", {}, "describe both");
     of_setup("5 instructions", instruction_item, "say what observers were asked");

@@ -342,8 +342,11 @@ RowLayout<QualityRow> quality_layout() {
             count_column<Row>("blinks", "Blinks", [](const Row& row) { return row.quality.blinks; }),
             count_column<Row>("refreshes", "Refreshes of presentations",
                               [](const Row& row) { return row.quality.refreshes; }),
-            count_column<Row>("missed_refreshes", "Of these missed",
-                              [](const Row& row) { return row.quality.missed_refreshes; }),
+            StudyColumns<Row>{{{{"missed_refreshes", "Of these missed; n/a where timing is unproven", "", {}},
+                                [](auto& to, const Row& row) {
+                                    const std::optional<int>& missed = row.quality.missed_refreshes;
+                                    missed ? to.integer(*missed) : to.missing();
+                                }}}},
             number("off_plan", "Samples that the planned times would have put on another frame", "",
                    [](auto& q) { return q.off_plan; }))};
 }

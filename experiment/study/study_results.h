@@ -181,7 +181,8 @@ struct StudyQuality {
     double samples = 0.0, lost = 0.0;         ///< numbers of samples; lost ones outside of blinks
     double lost_in_blinks = 0.0;
     int blinks = 0;
-    int refreshes = 0, missed_refreshes = 0;
+    int refreshes = 0;
+    std::optional<int> missed_refreshes = 0; ///< nothing where timing is unproven, or that of a part is
     double off_plan = 0.0; ///< samples that the planned times would have put on another frame
     double lost_share() const { return samples > 0.0 ? lost / samples : 0.0; }
     double blink_share() const { return samples > 0.0 ? lost_in_blinks / samples : 0.0; }

@@ -62,8 +62,11 @@ std::string exclusion_of(const StudyQuality& quality, const ExclusionRules& rule
         return fmt::format("The validation before it had a mean error of {:.2f} deg.", *quality.accuracy_deg);
     if (rules.most_drift_deg && quality.drift_deg && *quality.drift_deg > *rules.most_drift_deg)
         return fmt::format("The drift check found an error of {:.2f} deg.", *quality.drift_deg);
-    if (rules.most_missed_refreshes && quality.missed_refreshes > *rules.most_missed_refreshes)
-        return fmt::format("{} refreshes were missed.", quality.missed_refreshes);
+    // A rule that cannot be looked at is not kept.
+    if (rules.most_missed_refreshes && !quality.missed_refreshes)
+        return "How many refreshes were missed is unproven.";
+    if (rules.most_missed_refreshes && *quality.missed_refreshes > *rules.most_missed_refreshes)
+        return fmt::format("{} refreshes were missed.", *quality.missed_refreshes);
     return {};
 }
 
@@ -112,7 +115,10 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
     }
     if (trial.outcome.drift)
         of.quality.drift_deg = trial.outcome.drift->value;
-    of.quality.missed_refreshes = trial.outcome.missed_refreshes;
+    if (header.display.is_timing_unproven())
+        of.quality.missed_refreshes.reset();
+    else
+        of.quality.missed_refreshes = trial.outcome.missed_refreshes;
     of.quality.refreshes = trial.outcome.shown_refreshes + trial.outcome.missed_refreshes;
     of.quality.off_plan = static_cast<double>(placed.counts.off_plan);
     of.why_excluded = exclusion_of(of.quality, options.exclude);

@@ -84,6 +84,14 @@ ScreenFinding swap_finding(const TimingFacts& facts) {
                     "the compositor, off"};
 }
 
+/// That the window's refreshes may be another screen's.
+constexpr const char* mode_finding = "screen";
+
+bool is_off_its_mode(const TimingFacts& facts) {
+    return facts.output.refresh_hz && facts.measured.mean_hz > 0.0 &&
+           std::abs(facts.measured.mean_hz / *facts.output.refresh_hz - 1.0) > largest_rate_deviation;
+}
+
 void add_output_findings(std::vector<ScreenFinding>& findings, const TimingFacts& facts) {
     if (facts.output.may_vary_its_refresh)
         findings.push_back(
@@ -96,13 +104,13 @@ void add_output_findings(std::vector<ScreenFinding>& findings, const TimingFacts
     if (!facts.output.refresh_hz || measured_hz <= 0.0)
         return;
     const double mode_hz = *facts.output.refresh_hz;
-    if (std::abs(measured_hz / mode_hz - 1.0) <= largest_rate_deviation)
-        findings.push_back({Weight::good, "screen", fmt::format("its mode has {:.3f} Hz", mode_hz)});
+    if (!is_off_its_mode(facts))
+        findings.push_back({Weight::good, mode_finding, fmt::format("its mode has {:.3f} Hz", mode_hz)});
     else
         // Either rate may be the protocol's: with the wrong one every refresh would be recorded as shown in
         // time.
         findings.push_back(
-            {Weight::refusal, "screen",
+            {Weight::refusal, mode_finding,
              fmt::format(
                  "its mode has {:.3f} Hz, the window is shown at {:.3f}: times are told by {}; switch "
                  "other screens and the compositor off, or make this screen the primary",
@@ -118,6 +126,27 @@ std::string describe(const RefreshMeasurement& measured) {
                        "refreshes missed",
                        measured.mean_hz, measured.mean_se_hz, measured.interval_sd_ms, measured.outliers,
                        measured.flips, measured.missed);
+}
+
+std::vector<std::string> doubts_about_times(const TimingFacts& facts) {
+    std::vector<std::string> doubts;
+    if (facts.measured.source == VblankSource::swap_return)
+        doubts.emplace_back("no source tells when a vertical blank begins, only when swaps return");
+    else if (!facts.blanks_are_real)
+        doubts.push_back(fmt::format("{} is no real vertical blank: the server counts by a timer",
+                                     name_of(facts.measured.source)));
+    if (is_off_its_mode(facts))
+        doubts.push_back(
+            fmt::format("the window is shown at {:.3f} Hz, but the mode of its screen has {:.3f}",
+                        facts.measured.mean_hz, *facts.output.refresh_hz));
+    return doubts;
+}
+
+std::vector<ScreenFinding> without_claim(std::vector<ScreenFinding> findings) {
+    for (ScreenFinding& finding : findings)
+        if (finding.what == mode_finding && finding.weight == Weight::refusal)
+            finding.weight = Weight::risk;
+    return findings;
 }
 
 std::vector<ScreenFinding> judge_timing(const TimingFacts& facts, double nominal_hz,

@@ -85,6 +85,9 @@ void write_header(AscWriter& writer, const SessionRecord& record, int sitting) {
             writer.line("** REMARK: " + ascii_of(origin));
         writer.line("**");
     }
+    if (header.display.is_timing_unproven())
+        writer.line("** REMARK: the timing of the display is unproven: no real vertical blank tells when "
+                    "pictures were lit, nor which refreshes were missed");
     if (const std::int64_t base = writer.layout().base_ms; base != 0)
         writer.line(fmt::format("** REMARK: {} ms were taken from the tracker's times", base));
     writer.line("");

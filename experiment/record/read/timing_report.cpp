@@ -112,6 +112,7 @@ TimingReport timing_report(const SessionRecord& record) {
     // Imported sessions have no flips, and may not know their display's rate.
     report.nominal_interval_ms = header.display.refresh_hz > 0.0 ? 1e3 / header.display.refresh_hz : 0.0;
     report.is_virtual = header.clock == ClockKind::virtual_time;
+    report.is_unproven = header.display.is_timing_unproven();
     std::multimap<int, std::string> disturbances;
     for (const RecordedEvent& event : record.events()) {
         report.has_simulated_faults |= event.kind == simulated_faults_event;

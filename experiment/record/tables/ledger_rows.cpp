@@ -63,8 +63,14 @@ RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHea
             {std::string(name_of(VblankSource::drm_vblank)),
              "the kernel's count for the screen: the first refresh after the swap"}}},
           [](auto& to, auto& row) { to.text(name_of(row.lit.report.source)); }},
-         {{"missed", "Refreshes that went by with the old picture before this one", "", {}},
-          [](auto& to, auto& row) { to.integer(row.missed_before); }},
+         {{"missed",
+           "Refreshes that went by with the old picture before this one; n/a: the session's timing is "
+           "unproven",
+           "",
+           {}},
+          [&header](auto& to, auto& row) {
+              header.display.is_timing_unproven() ? to.missing() : to.integer(row.missed_before);
+          }},
          {{"cause",
            "Why a refresh was missed",
            "",

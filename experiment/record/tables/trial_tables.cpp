@@ -96,9 +96,23 @@ RowLayout<TrialRow> trials_layout(const SharedColumns& shared, const SessionHead
              [](auto& to, auto& row) {
                  row.trial.has_outcome() ? to.integer(row.trial.outcome.shown_refreshes) : to.missing();
              }},
-            {{"missed_refreshes", "Refreshes that went by with an old picture", "", {}},
-             [](auto& to, auto& row) {
-                 row.trial.has_outcome() ? to.integer(row.trial.outcome.missed_refreshes) : to.missing();
+            {{"timing",
+              "What proves the times of flips, and with them missed refreshes; n/a: not recorded",
+              "",
+              {{"proven", "real vertical blanks of the display"},
+               {"unproven", "nothing: which refreshes were missed is not known"},
+               {"none", "time was virtual, or there was no display"}}},
+             [&header](auto& to, auto&) {
+                 header.display.timing.empty() ? to.missing() : to.word(header.display.timing);
+             }},
+            {{"missed_refreshes",
+              "Refreshes that went by with an old picture; n/a also where timing is unproven",
+              "",
+              {}},
+             [&header](auto& to, auto& row) {
+                 row.trial.has_outcome() && !header.display.is_timing_unproven()
+                     ? to.integer(row.trial.outcome.missed_refreshes)
+                     : to.missing();
              }},
             {{"drift_deg", "Gaze error at the drift check", "deg", {}},
              [](auto& to, auto& row) {

@@ -43,7 +43,8 @@ skip = "Durchgang überspringen?"
 std::string typed_protocol() {
     return with(
         with(fmt::format("{}{}", small_protocol, surroundings), "refresh_hz = 120", "refresh_hz = 60"),
-        "output = \"color++\"", "output = \"native-8bit\"\ngamma = 2.2\nlinearised_by = \"none\"");
+        "output = \"color++\"",
+        "output = \"native-8bit\"\ngamma = 2.2\nlinearised_by = \"none\"\ntiming = \"unproven\"");
 }
 
 /// The session in its window, and somebody at that window's keyboard.

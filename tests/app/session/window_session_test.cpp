@@ -1,7 +1,11 @@
 #include <catch2/catch.hpp>
 
+#include <nlohmann/json.hpp>
+
+#include "experiment/base/whole_file.h"
 #include "experiment/record/read/session_record.h"
 #include "tests/app/session/windowed_run.h"
+#include "tests/support/tsv_file.h"
 #include "tests/support/virtual_screen.h"
 
 using namespace overt;
@@ -45,9 +49,10 @@ std::vector<std::string> in_real_time(const SmallExperiment& experiment) {
     return windowed_run(experiment, {"--simulate-observer", "5", "--trials", "1", "--refresh-check", "2"});
 }
 
-std::string native_at(int refresh_hz) {
+std::string native_at(int refresh_hz, const std::string& timing = "timing = \"unproven\"") {
     return with(with(small_protocol, "refresh_hz = 120", "refresh_hz = " + std::to_string(refresh_hz)),
-                "output = \"color++\"", "output = \"native-8bit\"\ngamma = 2.2\nlinearised_by = \"none\"");
+                "output = \"color++\"",
+                "output = \"native-8bit\"\ngamma = 2.2\nlinearised_by = \"none\"\n" + timing);
 }
 
 } // namespace
@@ -75,6 +80,80 @@ TEST_CASE("a session in real time is stamped by the server's vertical blanks, an
     // Xvfb counts 60 refreshes a second by a timer.
     CHECK(std::stod("0" + measured.substr(std::min(measured.size(), sizeof "measured refresh:"))) ==
           Approx(60.0).epsilon(0.005));
+}
+
+TEST_CASE("a session whose times nothing proves is refused with the remedy, and leaves nothing",
+          "[session]") {
+    const auto screen = VirtualScreen::start(800, 600, 24);
+    for (const char* const timing : {"", "timing = \"proven\""}) {
+        const SmallExperiment experiment(native_at(60, timing));
+        const ProgramRun run = run_overt(in_real_time(experiment), x_server_alone);
+        INFO(run.err);
+        CHECK(run.exit_code == 2);
+        CHECK(run.err.find("[display]") != std::string::npos);
+        CHECK(run.err.find("by a timer") != std::string::npos);
+        CHECK(run.err.find("timing = \"unproven\"") != std::string::npos);
+        CHECK_FALSE(std::filesystem::exists(experiment.sessions()));
+        // What measures nothing proves nothing.
+        const ProgramRun unmeasured = run_overt(
+            windowed_run(experiment, {"--simulate-observer", "5", "--trials", "1", "--refresh-check", "0"}),
+            x_server_alone);
+        INFO(unmeasured.err);
+        CHECK(unmeasured.exit_code == 2);
+        CHECK(unmeasured.err.find("--refresh-check 0") != std::string::npos);
+        CHECK_FALSE(std::filesystem::exists(experiment.sessions()));
+    }
+}
+
+TEST_CASE("where nothing proves the times, the record, its exports and reports claim no missed refreshes",
+          "[session]") {
+    const auto screen = VirtualScreen::start(800, 600, 24);
+    const SmallExperiment experiment(native_at(60));
+    const ProgramRun run = run_overt(in_real_time(experiment), x_server_alone);
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    CHECK(run.out.find("missed refreshes: unproven") != std::string::npos);
+    const std::string session = experiment.session(1).string();
+    CHECK(SessionRecord(session).header().display.timing == "unproven");
+
+    const ProgramRun shown = experiment.overt({"show", session});
+    CHECK(shown.out.find("missed: unproven") != std::string::npos);
+    CHECK(shown.out.find("0 missed") == std::string::npos);
+    const auto json = nlohmann::json::parse(experiment.overt({"show", session, "--json"}).out);
+    CHECK(json["timing_proof"] == "unproven");
+    CHECK(json["timing"]["missed_refreshes"] == "unproven");
+    CHECK(json["trials"][0]["missed_refreshes"] == "unproven");
+
+    const auto out = experiment.folder().path();
+    REQUIRE(experiment.overt({"export", session, "--out", (out / "tables").string()}).exit_code == 0);
+    const TsvFile trials(out / "tables" / "trials.tsv"), flips(out / "tables" / "flips.tsv");
+    CHECK(trials.text(0, "timing") == "unproven");
+    CHECK(trials.text(0, "missed_refreshes") == "n/a");
+    CHECK(flips.text(0, "missed") == "n/a");
+    CHECK(read_whole_file(out / "tables" / "dictionary.json").find("unproven") != std::string::npos);
+
+    REQUIRE(
+        experiment.overt({"export", session, "--format", "asc", "--out", (out / "asc").string()}).exit_code ==
+        0);
+    REQUIRE(experiment.overt({"export", session, "--format", "bids", "--out", (out / "bids").string()})
+                .exit_code == 0);
+    REQUIRE(experiment.overt({"analyze", session, "--out", (out / "study").string()}).exit_code == 0);
+    const auto says_unproven = [&](const char* folder, const std::string& ending) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(out / folder))
+            if (entry.is_regular_file() && entry.path().string().ends_with(ending) &&
+                read_whole_file(entry.path()).find("unproven") != std::string::npos)
+                return true;
+        return false;
+    };
+    CHECK(says_unproven("asc", ".asc"));
+    CHECK(says_unproven("bids", "_events.tsv"));
+    CHECK(says_unproven("study", ".html"));
+}
+
+TEST_CASE("sessions in virtual time need no proof of their times, and say none", "[session]") {
+    const SmallExperiment experiment;
+    REQUIRE(experiment.run({"--trials", "1"}).exit_code == 0);
+    CHECK(SessionRecord(experiment.session(1)).header().display.timing == "none");
 }
 
 TEST_CASE("a screen that is measured at another rate refuses the session, which leaves nothing",

@@ -261,7 +261,8 @@ TEST_CASE("a session that asks for more than is there is refused, with what to d
 TEST_CASE("a person is not shown previews unless somebody says so", "[session]") {
     const auto screen = VirtualScreen::start(800, 600, 24);
     std::string text = with(traced_protocol(), "refresh_hz = 120", "refresh_hz = 60");
-    text = with(text, "output = \"color++\"", "output = \"native-8bit\"\nlinearised_by = \"display\"");
+    text = with(text, "output = \"color++\"",
+                "output = \"native-8bit\"\nlinearised_by = \"display\"\ntiming = \"unproven\"");
     const auto refused = [](const SmallExperiment& experiment) {
         return experiment.overt({"run", experiment.protocol().string(), "--observer", "P01", "--context",
                                  "window", "--windowed", "--refresh-check", "0", "--sessions",

@@ -160,3 +160,32 @@ TEST_CASE("a screen that runs at another rate than the protocol says is refused,
     CHECK(refused.finding.find("120.00") != std::string::npos);
     CHECK(refused.finding.find("refresh_hz") != std::string::npos);
 }
+
+TEST_CASE("times are doubted without a source, without real blanks, and off the mode's rate; else not",
+          "[unit]") {
+    CHECK(doubts_about_times(good_facts()).empty());
+    TimingFacts facts = good_facts();
+    facts.output.refresh_hz.reset(); // a screen that names no rate cannot be asked
+    CHECK(doubts_about_times(facts).empty());
+    facts = good_facts();
+    facts.measured.source = VblankSource::swap_return;
+    CHECK(doubts_about_times(facts).size() == 1);
+    facts = good_facts();
+    facts.blanks_are_real = false;
+    CHECK(doubts_about_times(facts).size() == 1);
+    facts.output.refresh_hz = 60.0;
+    CHECK(doubts_about_times(facts).size() == 2);
+    facts = good_facts();
+    facts.output.refresh_hz = 120.0 * 1.004;
+    CHECK(doubts_about_times(facts).empty());
+    facts.output.refresh_hz = 120.0 * 1.006;
+    CHECK(doubts_about_times(facts).size() == 1);
+
+    // Without the claim another mode is a risk, and another rate than the protocol's still refused.
+    for (const ScreenFinding& finding : without_claim(judge_timing(facts, 60.0, "the protocol"))) {
+        INFO(finding.what);
+        CHECK((finding.weight == Weight::refusal) == (finding.what == "measured refresh"));
+        if (finding.what == "screen")
+            CHECK(finding.weight == Weight::risk);
+    }
+}
