@@ -84,6 +84,7 @@ void remake_session(const RemakeRequest& request, ReplayReport& report) {
         make_session_header(experiment.protocol, schedule, experiment.sculptures, stimuli.library(),
                             stimuli.context().description(), header.tracker, header.clock, true);
     now.session_number = header.session_number;
+    now.display.timing = header.display.timing; // what the display proved cannot be found again
     keep_recorded_maps(header, now);
     SessionDirectory directory(
         {request.work / "sessions", header.protocol.name, header.schedule.observer.label},
