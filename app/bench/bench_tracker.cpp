@@ -39,7 +39,7 @@ class Metronome final : public TrackerDriver {
     }
     void start() override { first_ = next_ = due() + 1; }
     void stop() noexcept override {}
-    /// As a library does that is asked again and again: returns at once with what there is, else after half a
+    /// As EyeLink's library is asked, again and again: returns at once with what there is, else after a
     /// millisecond.
     RecordingState read(TrackerItemSink& sink, SessionTime deadline) noexcept override {
         if (due() < next_)
@@ -59,7 +59,7 @@ class Metronome final : public TrackerDriver {
         return static_cast<std::int64_t>(std::floor(to_seconds(clock_.now() - SessionTime{}) * rate_hz));
     }
     void wait_a_little(SessionTime deadline) const noexcept {
-        const SessionTime until = std::min(deadline, clock_.now() + std::chrono::microseconds(500));
+        const SessionTime until = std::min(deadline, clock_.now() + std::chrono::milliseconds(1));
         const auto ns = std::max<std::int64_t>(0, (until - clock_.now()).count());
         const timespec time{0, static_cast<long>(ns)};
         ::nanosleep(&time, nullptr);

@@ -18,8 +18,8 @@ struct Parabola {
     int from; ///< first x at which it is the lowest
 };
 
-} // namespace
-
+/// By pixel, the row of the nearest pixel of the set in the same column, of two at the same distance the
+/// upper one; -1 if the column has none.
 std::vector<std::int16_t> nearest_rows(const std::vector<std::uint8_t>& in_set, glm::ivec2 size) {
     const auto width = static_cast<std::size_t>(size.x), height = static_cast<std::size_t>(size.y);
     std::vector<std::int16_t> rows(in_set.size());
@@ -40,6 +40,8 @@ std::vector<std::int16_t> nearest_rows(const std::vector<std::uint8_t>& in_set, 
     }
     return rows;
 }
+
+} // namespace
 
 std::vector<glm::i16vec2> nearest_pixels(const std::vector<std::uint8_t>& in_set, glm::ivec2 size) {
     OVERT_EXPECTS(size.x > 0 && size.y > 0 && size.x <= 16384 && size.y <= 16384);

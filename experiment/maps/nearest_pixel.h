@@ -16,10 +16,6 @@ namespace overt {
 /// algorithm for computing distance transforms in linear time", 2000. Sizes up to 16,384.
 std::vector<glm::i16vec2> nearest_pixels(const std::vector<std::uint8_t>& in_set, glm::ivec2 size_px);
 
-/// By pixel, the row of the nearest pixel of the set in the same column, of two at the same distance the
-/// upper one; -1 if the column has none.
-std::vector<std::int16_t> nearest_rows(const std::vector<std::uint8_t>& in_set, glm::ivec2 size_px);
-
 /// The place of a pixel's square that is nearest to a point.
 inline glm::dvec2 nearest_place_of(glm::ivec2 pixel, glm::dvec2 point_px) {
     return glm::clamp(point_px, glm::dvec2(pixel), glm::dvec2(pixel + 1));

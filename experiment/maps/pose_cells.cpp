@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "experiment/base/error.h"
 #include "experiment/maps/nearest_pixel.h"
@@ -54,7 +55,7 @@ PoseCells::PoseCells(const TriangleMap& map) : size_px_(map.size_px) {
         }
     }
     if (any_uncovered_)
-        find_rows_of_other_kind(map);
+        find_column_borders(map);
 }
 
 void PoseCells::measure_extents(const TriangleMap& map) {
@@ -125,35 +126,35 @@ void PoseCells::find_outline_from_inside(const TriangleMap& map) {
     OVERT_EXPECTS(rim_.size() <= 1u << 24);
 }
 
-void PoseCells::find_rows_of_other_kind(const TriangleMap& map) {
-    // Uncovered pixels also above and below the box, where the image has any.
-    const int top = std::max(box_begin_.y - 1, 0), bottom = std::min(box_end_.y + 1, size_px_.y);
-    const glm::ivec2 size(cells_size_.x, bottom - top);
-    PixelFlags covered(area_of(size)), uncovered(area_of(size));
-    std::size_t i = 0;
-    for (int y = top; y < bottom; ++y) {
-        for (int x = box_begin_.x; x < box_end_.x; ++x, ++i) {
-            covered[i] = map.code_at(x, y) != 0;
-            uncovered[i] = !covered[i];
-        }
-    }
-    const std::vector<std::int16_t> to_covered = nearest_rows(covered, size),
-                                    to_uncovered = nearest_rows(uncovered, size);
-    row_of_other_kind_.resize(area_of(cells_size_));
-    const std::size_t skipped =
-        static_cast<std::size_t>(box_begin_.y - top) * static_cast<std::size_t>(size.x);
-    for (std::size_t k = 0; k < row_of_other_kind_.size(); ++k) {
-        const std::int16_t row = covered[k + skipped] ? to_uncovered[k + skipped] : to_covered[k + skipped];
-        row_of_other_kind_[k] = static_cast<std::int16_t>(row < 0 ? row : row + top);
-    }
+void PoseCells::find_column_borders(const TriangleMap& map) {
+    const auto for_borders = [&](const auto& take) {
+        // The first row has no pixels above it, and the last none below.
+        for (int y = std::max(box_begin_.y, 1); y < std::min(box_end_.y + 1, size_px_.y); ++y)
+            for (int x = box_begin_.x; x < box_end_.x; ++x)
+                if ((map.code_at(x, y - 1) != 0) != (map.code_at(x, y) != 0))
+                    take(static_cast<std::size_t>(x - box_begin_.x), y);
+    };
+    first_border_.assign(static_cast<std::size_t>(cells_size_.x) + 1, 0);
+    for_borders([&](std::size_t column, int) { ++first_border_[column + 1]; });
+    std::partial_sum(first_border_.begin(), first_border_.end(), first_border_.begin());
+    borders_.resize(first_border_.back());
+    std::vector<std::uint32_t> next(first_border_);
+    for_borders(
+        [&](std::size_t column, int row) { borders_[next[column]++] = static_cast<std::int16_t>(row); });
 }
 
 /// The row of a column's pixel that is nearest to a row and covered, or not; -1 if there is none. Uncovered
 /// ones are only asked for from within the box.
 int PoseCells::nearest_row_in_column(int column, int row, bool covered) const {
     if (is_in_box({column, row})) {
-        const std::size_t place = place_in_box({column, row});
-        return cells_[place].is_covered() == covered ? row : row_of_other_kind_[place];
+        if (cells_[place_in_box({column, row})].is_covered() == covered)
+            return row;
+        const auto number = static_cast<std::size_t>(column - box_begin_.x);
+        const auto begin = borders_.begin() + first_border_[number],
+                   end = borders_.begin() + first_border_[number + 1];
+        const auto next = std::upper_bound(begin, end, row);
+        const int above = next == begin ? -1 : *(next - 1) - 1, below = next == end ? -1 : *next;
+        return below < 0 || (above >= 0 && row - above <= below - row) ? above : below;
     }
     if (!covered)
         return row;
@@ -231,7 +232,7 @@ std::optional<glm::dvec2> PoseCells::outline_near(glm::dvec2 point, bool on_surf
     const PixelCell here = cell(pixel);
     if (here.is_covered() != on_surface)
         return point;
-    if (!row_of_other_kind_.empty())
+    if (!first_border_.empty())
         return nearest_place_of(nearest_along_row(pixel, !on_surface), point);
     return nearest_place_of(on_surface ? nearest_uncovered(pixel) : pixel + here.to_outline(), point);
 }
@@ -244,8 +245,6 @@ void PoseCells::fetch(glm::ivec2 pixel) const {
         return;
     if (!nearest_rim_.empty())
         __builtin_prefetch(&nearest_rim_[place_in_box(pixel)]);
-    else if (!row_of_other_kind_.empty())
-        __builtin_prefetch(&row_of_other_kind_[place_in_box(pixel)]);
 }
 
 TriangleMap PoseCells::map() const {
@@ -263,7 +262,7 @@ TriangleMap PoseCells::map() const {
 std::size_t PoseCells::memory_bytes() const {
     return cells_.capacity() * sizeof(PixelCell) + rim_.capacity() * sizeof(glm::i16vec2) +
            nearest_rim_.capacity() * sizeof(std::uint16_t) + nearest_rim_high_.capacity() +
-           row_of_other_kind_.capacity() * sizeof(std::int16_t) +
+           borders_.capacity() * sizeof(std::int16_t) + first_border_.capacity() * sizeof(std::uint32_t) +
            (row_extents_.capacity() + column_extents_.capacity()) * sizeof(Extent);
 }
 
