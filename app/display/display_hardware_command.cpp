@@ -3,8 +3,10 @@
 
 #include "app/cli/figures.h"
 #include "app/cli/state_folder.h"
+#include "app/cli/this_program.h"
 #include "app/display/display_commands.h"
 #include "app/rig/open_display.h"
+#include "app/rig/video_check.h"
 #include "devices/display_box/display_plus_plus_search.h"
 #include "devices/host/clocks.h"
 #include "devices/link/serial_port.h"
@@ -124,6 +126,10 @@ int run_display_hardware_check(const DisplayHardwareOptions& options) {
         },
         readings_per_line);
     box->restore_desktop();
+    // What a session asks for, see require_video_check().
+    const std::filesystem::path kept = video_check_file();
+    keep_video_check(kept, {video_path(box->identity(), display.context().description(), monitor), utc_now(),
+                            report.good(), report.description()});
 
     const BenchFigures figures = figures_of(report);
     if (options.json) {
@@ -133,12 +139,13 @@ int run_display_hardware_check(const DisplayHardwareOptions& options) {
         json["monitor"] = describe(monitor);
         json["video_rate_hz"] = rate_hz;
         json["verdict"] = report.description();
+        json["kept_in"] = kept.string();
         fmt::print("{}\n", json.dump(2));
     } else {
         fmt::print("{} ({}) at {} receives {:.2f} Hz; drawn on {}\n", box->identity().product,
                    box->identity().serial_number, box->identity().port, rate_hz, describe(monitor));
         print_table(figures);
-        fmt::print("{}\n", report.description());
+        fmt::print("{}\nkept for sessions in {}\n", report.description(), kept.string());
         for (const ScreenFinding& finding : findings)
             if (finding.weight != ScreenFinding::Weight::good)
                 fmt::print("{}: {}\n", finding.what, finding.finding);

@@ -49,6 +49,13 @@ void add_screens(std::vector<DoctorFinding>& lines) {
                                                "and the night light off",
                                                monitor.name)
                                  : ""});
+            for (const WireSetting& setting : facts.wire) {
+                const WireVerdict verdict =
+                    judge_wire_setting(setting, OutputMode::color_plus_plus, monitor.name);
+                lines.push_back(
+                    {"  " + setting.name, setting.value,
+                     verdict.is_safe ? "" : "for 16 bits through a display box: " + verdict.finding});
+            }
             if (monitor.content_scale != glm::vec2(1.0f))
                 lines.push_back({"  scaling", fmt::format("{:.0f} %", 100.0 * static_cast<double>(
                                                                                   monitor.content_scale.x))});

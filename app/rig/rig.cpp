@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/cli/this_program.h"
 #include "app/rig/response_devices.h"
 #include "app/rig/tracker_devices.h"
+#include "app/rig/video_check.h"
 #include "devices/simulated/operator_script.h"
 #include "devices/simulated/simulated_observer.h"
 #include "experiment/base/error.h"
@@ -150,6 +152,15 @@ std::vector<ScreenFinding> Rig::check_timing(double seconds,
     refuse_spoilt_screen(findings);
     screen_findings_.insert(screen_findings_.end(), findings.begin(), findings.end());
     return findings;
+}
+
+const ScreenFinding& Rig::check_video(const BoxIdentity& box) {
+    OVERT_EXPECTS(is_on_a_real_screen());
+    screen_findings_.push_back(
+        require_video_check(read_video_checks(video_check_file()),
+                            video_path(box, context().description(), display_.window()->monitor()),
+                            protocol_->display.video_check_days, utc_now()));
+    return screen_findings_.back();
 }
 
 } // namespace overt

@@ -21,6 +21,7 @@
 
 namespace overt {
 
+struct BoxIdentity;
 class FaultyTracker;
 class SimulatedObserver;
 struct ScriptedOperatorKey;
@@ -79,6 +80,10 @@ class Rig {
     /// says that they are proven.
     std::vector<ScreenFinding> check_timing(double seconds,
                                             const std::function<void(int done, int total)>& progress);
+
+    /// Adds to screen_findings() what proves that a box receives the bytes that are drawn; gives it. Only on
+    /// a real screen. Throws InputError if nothing does, see require_video_check().
+    const ScreenFinding& check_video(const BoxIdentity& box);
 
     PagePresenter& presenter() { return *presenter_; }
     EyeTracker& tracker() { return *tracker_; }

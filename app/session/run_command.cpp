@@ -302,6 +302,8 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
             "--refresh-check 0 measures nothing, and so proves no times, as the protocol's [display] "
             "timing = \"proven\" asks: leave the option out, or write timing = \"unproven\" "
             "under [display]; the record then says so");
+    if (found_box.identity)
+        rig.check_video(*found_box.identity);
     say_before(protocol, plan.schedule, rig.context().description(), options);
     say_risks(rig.screen_findings());
     const Interruption interruption;

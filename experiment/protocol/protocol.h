@@ -80,6 +80,8 @@ struct DisplaySettings {
     PairFilter pair_filter = PairFilter::box; ///< of the modes that join pixels in pairs
     /// The box that reads mono++, color++ and bits++: "auto", "none", or its serial port.
     std::string box = "auto";
+    /// So old may the proof be that the box receives the bytes that are drawn; 0: none is asked for.
+    int video_check_days = 30;
     int onset_trigger = 0; ///< digital outputs that a presentation's first refresh raises, a bit each
     /// Exponent between signal and light; 1 for a display that linearises itself. Without a
     /// characterisation.

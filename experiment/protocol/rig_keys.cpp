@@ -153,6 +153,16 @@ Section display() {
                   .explanation = "The table that the display box is told to use, a file on its disk. "
                                  "`13bitLinearLUT.txt` leaves values as they are."},
                  &D::box_gamma_table},
+                {{.name = "video_check_days",
+                  .unit = "days",
+                  .low = 0,
+                  .high = 3650,
+                  .explanation =
+                      "So old may the last `overt display verify --hardware` be before a session that goes "
+                      "through a display box: it proves, for one box, graphics card, driver, output and "
+                      "mode, that the bytes arrive as they are drawn. 0: none is asked for, and the record "
+                      "says so."},
+                 &D::video_check_days},
                 {{.name = "characterisation",
                   .if_left_out = "none",
                   .explanation = "File with what was measured of the display, instead of `gamma`: primaries, "

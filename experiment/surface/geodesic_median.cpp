@@ -67,8 +67,8 @@ class Corners {
         std::ranges::sort(all_);
     }
     std::span<const OfNode> at(std::uint32_t node) const {
-        const auto found = std::ranges::equal_range(all_, node, {}, &OfNode::first);
-        return {found.begin(), found.end()};
+        return {std::ranges::lower_bound(all_, node, {}, &OfNode::first),
+                std::ranges::upper_bound(all_, node, {}, &OfNode::first)};
     }
 
   private:

@@ -3,6 +3,9 @@
 #
 #     sbatch --dependency=afterok:JOB join.sh shards analysis
 #
+# Where a task failed and was queued again (scontrol requeue), Slurm holds this job back as DependencyNeverSatisfied, also
+# when the task has ended well since; then it is released by hand: scontrol update JobId=… Dependency=
+#
 #SBATCH --job-name=overt-join
 #SBATCH --requeue
 #SBATCH --open-mode=append

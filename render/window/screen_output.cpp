@@ -1,17 +1,14 @@
 #include "render/window/screen_output.h"
 
-#include <cstdlib>
 #include <cstring>
-#include <memory>
 #include <string_view>
 
 #include <xcb/randr.h>
 
+#include "render/window/xcb_reply.h"
+
 namespace overt {
 namespace {
-
-template <class T> using Reply = std::unique_ptr<T, decltype(&std::free)>;
-template <class T> Reply<T> owned(T* reply) { return {reply, &std::free}; }
 
 /// The first 32 bits of a property of an output.
 std::optional<std::uint32_t> property_of(xcb_connection_t* link, std::uint32_t output,
@@ -61,8 +58,7 @@ ScreenOutput examine_output(const NativeWindow& window) {
     ScreenOutput output;
     if (window.x11_server.empty() || window.randr_output == 0)
         return output;
-    const std::unique_ptr<xcb_connection_t, decltype(&xcb_disconnect)> link(
-        xcb_connect(window.x11_server.c_str(), nullptr), &xcb_disconnect);
+    const XcbLink link = link_to(window.x11_server.c_str());
     const xcb_query_extension_reply_t* const extension =
         xcb_connection_has_error(link.get()) ? nullptr : xcb_get_extension_data(link.get(), &xcb_randr_id);
     if (!extension || !extension->present)

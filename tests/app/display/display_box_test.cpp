@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <thread>
 
 #include <catch2/catch.hpp>
@@ -33,6 +34,7 @@ struct Rigged {
         const std::string at_60_hz = with(small_protocol, "refresh_hz = 120", "refresh_hz = 60");
         const std::string light = box.find("none") == std::string::npos
                                       ? "linearised_by = \"box\"\nbox_gamma_table = \"lab3.txt\"\n"
+                                        "video_check_days = 0\n"
                                       : "linearised_by = \"display\"\n";
         return with(at_60_hz, "output = \"color++\"\n",
                     "output = \"color++\"\ntiming = \"unproven\"\n" + light + box);
@@ -348,4 +350,54 @@ TEST_CASE("display verify --hardware finds what the way from the graphics card t
     }
     CHECK(rig.box->mode() == "BitsPlusPlus");
     CHECK_FALSE(std::filesystem::exists(rig.note()));
+}
+
+TEST_CASE("a session through a box wants to know that its bytes arrive, and has on record who said so",
+          "[session]") {
+    const Rigged rig;
+    const std::vector<std::string> verify{"display", "verify", "--hardware", "--port", rig.box->port()};
+    const std::string asked = with(text_of(rig.experiment->protocol()), "video_check_days = 0\n", "");
+    std::ofstream(rig.experiment->protocol()) << asked;
+    const auto screen_events = [&] {
+        std::string all;
+        const SessionRecord record(rig.experiment->session());
+        for (const RecordedEvent& event : record.events())
+            all += event.detail + "\n";
+        return all;
+    };
+
+    const ProgramRun before = rig.overt(rig.session(1));
+    INFO(before.out << before.err);
+    CHECK(before.exit_code == 2);
+    CHECK_THAT(before.err, Contains("never checked with the box DPP-0042") &&
+                               Contains("overt display verify --hardware") &&
+                               Contains("video_check_days = 0"));
+    CHECK_FALSE(std::filesystem::exists(rig.experiment->sessions()));
+    CHECK(rig.box->mode() == "BitsPlusPlus");
+
+    SECTION("once it was seen, the session runs") {
+        REQUIRE(rig.overt(verify).exit_code == 0);
+        const ProgramRun run = rig.overt(rig.session(1));
+        INFO(run.out << run.err);
+        REQUIRE(run.exit_code == 0);
+        CHECK_THAT(screen_events(), Contains("bytes at the box: as drawn: checked on"));
+    }
+    SECTION("a check that failed takes the place of one that passed") {
+        REQUIRE(rig.overt(verify).exit_code == 0);
+        rig.box->spoil([](const SeenScreen& seen, int x, int y) {
+            return x == 0 ? RgbBytes{} : RgbBytes(seen.at(x - 1, y));
+        });
+        REQUIRE(rig.overt(verify).exit_code == 1);
+        const ProgramRun run = rig.overt(rig.session(1));
+        CHECK(run.exit_code == 2);
+        CHECK_THAT(run.err, Contains("failed") && Contains("moved 1 px to the right"));
+    }
+    SECTION("without the wish for one, the record says that there was none") {
+        std::ofstream(rig.experiment->protocol())
+            << with(asked, "linearised_by", "video_check_days = 0\nlinearised_by");
+        const ProgramRun run = rig.overt(rig.session(1));
+        INFO(run.out << run.err);
+        REQUIRE(run.exit_code == 0);
+        CHECK_THAT(screen_events(), Contains("bytes at the box: not checked, as the protocol says"));
+    }
 }

@@ -1,0 +1,22 @@
+/// Answers of an X server, freed at their end.
+#pragma once
+
+#include <cstdlib>
+#include <memory>
+
+#include <xcb/xcb.h>
+
+namespace overt {
+
+template <class T> using XcbReply = std::unique_ptr<T, decltype(&std::free)>;
+
+/// Takes what an xcb_…_reply() function gave; may be null.
+template <class T> XcbReply<T> owned(T* reply) { return {reply, &std::free}; }
+
+using XcbLink = std::unique_ptr<xcb_connection_t, decltype(&xcb_disconnect)>;
+
+/// A connection of its own. `server`: as DISPLAY names it, which is taken for null. What it gives may have an
+/// error: xcb_connection_has_error().
+inline XcbLink link_to(const char* server) { return {xcb_connect(server, nullptr), &xcb_disconnect}; }
+
+} // namespace overt

@@ -1,0 +1,194 @@
+#include "render/window/wire_settings.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+#include <xcb/randr.h>
+
+#include "render/window/program_answer.h"
+#include "render/window/screen_check.h"
+#include "render/window/xcb_reply.h"
+#include "tests/support/skip.h"
+#include "tests/support/two_monitors.h"
+
+using namespace overt;
+using namespace overt::test;
+using Catch::Matchers::Contains;
+using Source = WireSetting::Source;
+using Weight = ScreenFinding::Weight;
+
+namespace {
+
+constexpr OutputMode packed = OutputMode::color_plus_plus;
+
+/// What a graphics driver does when it begins: gives an output a property.
+class PropertyWriter {
+  public:
+    explicit PropertyWriter(const std::string& output) {
+        REQUIRE_FALSE(xcb_connection_has_error(link_.get()));
+        owned(
+            xcb_randr_query_version_reply(link_.get(), xcb_randr_query_version(link_.get(), 1, 3), nullptr));
+        const auto root = xcb_setup_roots_iterator(xcb_get_setup(link_.get())).data->root;
+        const auto resources = owned(xcb_randr_get_screen_resources_reply(
+            link_.get(), xcb_randr_get_screen_resources(link_.get(), root), nullptr));
+        const auto* const outputs = xcb_randr_get_screen_resources_outputs(resources.get());
+        for (int i = 0; i < xcb_randr_get_screen_resources_outputs_length(resources.get()); ++i) {
+            const auto info = owned(xcb_randr_get_output_info_reply(
+                link_.get(), xcb_randr_get_output_info(link_.get(), outputs[i], XCB_CURRENT_TIME), nullptr));
+            if (std::string(reinterpret_cast<const char*>(xcb_randr_get_output_info_name(info.get())),
+                            info->name_len) == output)
+                output_ = outputs[i];
+        }
+        REQUIRE(output_ != 0);
+    }
+    void put_word(const std::string& name, const std::string& word) {
+        const xcb_atom_t value = atom(word);
+        put(name, XCB_ATOM_ATOM, &value, 1);
+    }
+    void put_numbers(const std::string& name, const std::vector<std::int32_t>& numbers) {
+        put(name, XCB_ATOM_INTEGER, numbers.data(), numbers.size());
+    }
+
+  private:
+    xcb_atom_t atom(const std::string& name) {
+        return owned(
+                   xcb_intern_atom_reply(
+                       link_.get(),
+                       xcb_intern_atom(link_.get(), 0, static_cast<std::uint16_t>(name.size()), name.data()),
+                       nullptr))
+            ->atom;
+    }
+    void put(const std::string& name, xcb_atom_t type, const void* data, std::size_t count) {
+        const auto cookie = xcb_randr_change_output_property_checked(link_.get(), output_, atom(name), type,
+                                                                     32, XCB_PROP_MODE_REPLACE,
+                                                                     static_cast<std::uint32_t>(count), data);
+        const auto error = owned(xcb_request_check(link_.get(), cookie));
+        REQUIRE_FALSE(error);
+    }
+
+    XcbLink link_ = link_to(nullptr);
+    xcb_randr_output_t output_ = 0;
+};
+
+std::string value_of(const std::vector<WireSetting>& settings, const std::string& name) {
+    const auto found = std::ranges::find(settings, name, &WireSetting::name);
+    return found == settings.end() ? "(none)" : found->value;
+}
+
+Weight weight_of(const WireSetting& setting, OutputMode mode = packed) {
+    return judge_wire(std::vector{setting}, mode, "DP-1").front().weight;
+}
+
+std::string finding_of(const WireSetting& setting) {
+    return judge_wire(std::vector{setting}, packed, "DP-1").front().finding;
+}
+
+} // namespace
+
+TEST_CASE("the settings of an output's driver are read from the server, each in its own words", "[gl]") {
+    const auto desk = TwoMonitors::start();
+    if (!desk)
+        OVERT_SKIP("no Xorg with the dummy driver (packages.txt), or it may not be started here");
+    CHECK(value_of(read_wire_settings("DUMMY1"), "rotation") == "normal");
+    CHECK(value_of(read_wire_settings("DUMMY1"), "transformation") == "none");
+    CHECK(value_of(read_wire_settings("DUMMY1"), "max bpc") == "(none)");
+    CHECK(read_wire_settings("DP-7").empty());
+
+    PropertyWriter driver("DUMMY1");
+    driver.put_numbers("max bpc", {12});
+    driver.put_word("Broadcast RGB", "Limited 16:235");
+    const std::vector<std::int32_t> identity{0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1};
+    driver.put_numbers("CTM", identity);
+    driver.put_numbers("GAMMA_LUT", std::vector<std::int32_t>(256, 7)); // a table is no setting
+    driver.put_numbers("below zero", {-3});
+    const std::vector<WireSetting> settings = read_wire_settings("DUMMY1");
+    CHECK(value_of(settings, "max bpc") == "12");
+    CHECK(value_of(settings, "Broadcast RGB") == "Limited 16:235");
+    CHECK(value_of(settings, "CTM") == "0 1 0 0 0 0 0 0 0 1 0 0 0 0 0 0 0 1");
+    CHECK(value_of(settings, "GAMMA_LUT") == "(none)");
+    CHECK(value_of(settings, "below zero") == "-3");
+    CHECK(value_of(read_wire_settings("DUMMY0"), "max bpc") == "(none)"); // the other monitor's own
+
+    const std::vector<ScreenFinding> findings = judge_wire(settings, packed, "DUMMY1");
+    CHECK_THROWS_WITH(refuse_spoilt_screen(findings),
+                      Contains("xrandr --output DUMMY1 --set \"max bpc\" 8") &&
+                          Contains("xrandr --output DUMMY1 --set \"Broadcast RGB\" Full") &&
+                          !Contains("CTM"));
+    // The command that is given mends it.
+    REQUIRE(TwoMonitors::xrandr("--output DUMMY1 --set \"max bpc\" 8"));
+    CHECK(value_of(read_wire_settings("DUMMY1"), "max bpc") == "8");
+}
+
+TEST_CASE("what changes bytes is refused where they are packed, and is a risk elsewhere", "[unit]") {
+    struct Case {
+        WireSetting safe;
+        std::string unsafe, command;
+    };
+    const Case cases[] = {
+        {{"max bpc", "8"}, "10", "xrandr --output DP-1 --set \"max bpc\" 8"},
+        {{"max bpc", "8"}, "6", "xrandr --output DP-1 --set \"max bpc\" 8"},
+        {{"Broadcast RGB", "Full"}, "Automatic", "xrandr --output DP-1 --set \"Broadcast RGB\" Full"},
+        {{"dither", "off"}, "on", "xrandr --output DP-1 --set dither off"},
+        {{"dithering mode", "off"}, "auto", "xrandr --output DP-1 --set \"dithering mode\" off"},
+        {{"underscan", "off"}, "auto", "xrandr --output DP-1 --set underscan off"},
+        {{"Colorspace", "Default"}, "BT2020_YCC", "--set Colorspace Default"},
+        {{"CTM", "0 1 0 0 0 0 0 0 0 1 0 0 0 0 0 0 0 1"},
+         "0 1 0 0 0 0 0 0 0 2 0 0 0 0 0 0 0 1",
+         "--set CTM 0,1,0,0,0,0,0,0,0,1,0,0,0,0,0,0,0,1"},
+        {{"rotation", "normal", Source::randr_crtc}, "left", "--rotate normal"},
+        {{"transformation", "none", Source::randr_crtc}, "another", "--transform none"},
+        {{"ColorRange", "0", Source::nvidia}, "1", "nvidia-settings -a '[dpy:DP-1]/ColorRange=0'"},
+        {{"CurrentDithering", "0", Source::nvidia}, "1", "nvidia-settings -a '[dpy:DP-1]/Dithering=2'"},
+    };
+    for (const Case& one : cases) {
+        CAPTURE(one.safe.name);
+        CHECK(weight_of(one.safe) == Weight::good);
+        const WireSetting unsafe{one.safe.name, one.unsafe, one.safe.source};
+        CHECK(weight_of(unsafe) == Weight::refusal);
+        CHECK(weight_of(unsafe, OutputMode::native_8bit) == Weight::risk);
+        CHECK_THAT(finding_of(unsafe), Contains(one.unsafe) && Contains(one.command));
+    }
+    CHECK(weight_of({"audio", "auto"}) == Weight::good);
+    CHECK(weight_of({"max bpc", "10"}, OutputMode::native_10bit) == Weight::good);
+    CHECK(weight_of({"max bpc", "8"}, OutputMode::native_10bit) == Weight::risk);
+    CHECK(judge_wire({}, packed, "DP-1").front().weight == Weight::risk);
+    CHECK(judge_wire({}, OutputMode::native_8bit, "DP-1").empty());
+}
+
+TEST_CASE("NVIDIA's settings are asked of its own program, and its silence is told", "[unit]") {
+    const TemporaryFolder folder;
+    const std::filesystem::path program = folder.path() / "nvidia-settings";
+    std::ofstream(program) << "#!/bin/sh\n"
+                              "[ \"$1 $2\" = \"-t -q\" ] || exit 1\n"
+                              "case $3 in\n"
+                              "'[dpy:DP-4]/ColorRange') echo 1 ;;\n"
+                              "'[dpy:DP-4]/ColorSpace') echo 0 ;;\n"
+                              "'[dpy:DP-4]/CurrentDithering') echo 0 ;;\n"
+                              "*) exit 1 ;;\n"
+                              "esac\n";
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    CHECK(read_nvidia_settings("DP-4", program) ==
+          std::vector<WireSetting>{{"ColorRange", "1", Source::nvidia},
+                                   {"ColorSpace", "0", Source::nvidia},
+                                   {"CurrentDithering", "0", Source::nvidia}});
+    for (const auto& [output, asked] :
+         {std::pair{"DP-5", program.string()}, std::pair{"DP-4", std::string("no-such-program-here")}}) {
+        const std::vector<WireSetting> none = read_nvidia_settings(output, asked);
+        REQUIRE(none.size() == 1);
+        CHECK(weight_of(none.front()) == Weight::refusal);
+        CHECK_THAT(finding_of(none.front()), Contains("apt-get install nvidia-settings"));
+    }
+}
+
+TEST_CASE("a program's answer comes whole, or not at all", "[unit]") {
+    using namespace std::chrono_literals;
+    CHECK(program_answer({"printf", "a\\nb"}) == "a\nb");
+    CHECK_FALSE(program_answer({}));
+    CHECK_FALSE(program_answer({"false"}));
+    CHECK_FALSE(program_answer({"no-such-program-here"}));
+    CHECK_FALSE(program_answer({"sleep", "1000"}, 50ms));
+    CHECK_FALSE(program_answer({"sh", "-c", "yes | head -c 200000"})); // more than anybody reads
+    CHECK(program_answer({"cat"}) == "");                              // there is nothing to read
+}
