@@ -99,6 +99,13 @@ struct PartEvidence {
     double head = 0.0, elsewhere = 0.0;
 };
 
+/// Lightness at a fixation's samples (LightScores), means.
+struct FixationLight {
+    double met = 0.0;      ///< of what gaze met
+    double at_place = 0.0; ///< at the fixation's mean place on the screen, over the whole animation
+    double at_point = 0.0; ///< of its point of the surface, over all the time that this is visible
+};
+
 /// A fixation, re-projected sample by sample through the frames lit meanwhile.
 struct StudyFixation {
     int trial = 0;           ///< index into StudyResults::trials
@@ -131,15 +138,9 @@ struct StudyFixation {
     /// Of its samples, in deg^2: means of the products of gaze's and its surface point's ways on the screen
     /// from their means, and of the squares of the point's; both 0 where it is not known.
     double gaze_with_surface_deg2 = 0.0, surface_way_deg2 = 0.0;
-    double surface_deg_s = 0.0; ///< mean speed of the surface point on the screen
-    /// Lightness at its samples (LightScores), means; nothing without pictures of the stimulus's light.
-    struct Light {
-        double met = 0.0;      ///< of what gaze met
-        double at_place = 0.0; ///< at the fixation's mean place on the screen, over the whole animation
-        double at_point = 0.0; ///< of its point of the surface, over all the time that this is visible
-    };
-    std::optional<Light> light;
-    std::optional<double> lut_mm; ///< distance of the point that the map gave from the line of sight
+    double surface_deg_s = 0.0;         ///< mean speed of the surface point on the screen
+    std::optional<FixationLight> light; ///< nothing without pictures of the stimulus's light
+    std::optional<double> lut_mm;       ///< distance of the point that the map gave from the line of sight
     bool counted() const { return why == NotCounted::counted; }
 };
 

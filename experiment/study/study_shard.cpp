@@ -72,7 +72,7 @@ template <class Archive> void fields(Archive& archive, StudyTrial& trial) {
     archive(session, sculpture, label, number, keys, presentation_s, excluded, why, first_fixation, fixations,
             turns, clock_uncertainty_s, quality);
 }
-template <class Archive> void fields(Archive& archive, StudyFixation::Light& light) {
+template <class Archive> void fields(Archive& archive, FixationLight& light) {
     auto& [met, at_place, at_point] = light;
     archive(met, at_place, at_point);
 }

@@ -191,7 +191,7 @@ std::optional<double> mean_over_poses(std::span<const double> pose_seconds, cons
 }
 
 /// How bright what gaze met was, and how bright the same place of the screen and the same point of the
-/// surface are at other times: see StudyFixation::Light.
+/// surface are at other times: see FixationLight.
 void find_light(StudyFixation& fixation, std::span<const PlacedSample* const> placed,
                 const FixationContext& context) {
     const auto* maps = dynamic_cast<const CoordinateMaps*>(context.lookup);
