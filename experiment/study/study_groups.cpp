@@ -87,7 +87,7 @@ std::vector<StudyGroup> make_groups(const StudyResults& results, const std::vect
     for (auto& [place, group] : groups) {
         group.observers = static_cast<int>(by_observer(results, group.trials).size());
         for (const int trial : group.trials)
-            for_each_counted(results, trial, [&](const StudyFixation&) { ++group.fixations; });
+            for_each_counted(results, trial, [&group = group](const StudyFixation&) { ++group.fixations; });
         made.push_back(std::move(group));
     }
     return made;
