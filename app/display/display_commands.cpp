@@ -202,13 +202,20 @@ void add_doctor(CLI::App& app, ChosenCommand& chosen) {
     CLI::App& command =
         add_command(app, "doctor", "What this machine offers for a session, and what is missing",
                     "overt doctor --json\n"
+                    "  overt doctor --photodiode --protocol protocols/overt_2019.toml --sensor simulated "
+                    "--context osmesa\n"
                     "  overt doctor --window --monitor 1 --seconds 30 --report rig.md");
     command.add_flag("--json", options.json, "Print JSON");
     command.add_flag("--window", options.window,
                      "Show a dark screen, measure its refreshes, and say what may spoil their times");
     command.add_flag("--photodiode", options.photodiode,
-                     "Show a square in the top left corner that changes, and compare what a sensor sees "
-                     "with the times of the flips");
+                     "Show a square in a corner that changes, and compare what a sensor sees with the times "
+                     "of the flips");
+    command
+        .add_option("--protocol", options.protocol,
+                    "Show the square as a session of this protocol would: its screen, mode, display box and "
+                    "corner")
+        ->type_name("FILE");
     command
         .add_option(
             "--sensor", options.sensor,

@@ -21,12 +21,13 @@ struct DoctorOptions {
     bool json = false;
     bool window = false; ///< show a dark screen and measure its refreshes
     bool windowed = false;
-    std::optional<int> monitor;   ///< from 1
-    double seconds = 10.0;        ///< of measuring
-    bool photodiode = false;      ///< show a square for a sensor
-    std::string sensor;           ///< serial port or "simulated"; empty: no comparison
-    ContextChoice context;        ///< of the square; headless: in virtual time
-    std::filesystem::path report; ///< a page (Markdown) to be written of all that is found; empty: none
+    std::optional<int> monitor;     ///< from 1
+    double seconds = 10.0;          ///< of measuring
+    bool photodiode = false;        ///< show a square for a sensor
+    std::filesystem::path protocol; ///< whose screen and mode the square is shown in; empty: 8 bits
+    std::string sensor;             ///< serial port or "simulated"; empty: no comparison
+    ContextChoice context;          ///< of the square; headless: in virtual time
+    std::filesystem::path report;   ///< a page (Markdown) to be written of all that is found; empty: none
 };
 int run_doctor(const DoctorOptions& options);
 

@@ -8,10 +8,15 @@
 
 #include "app/cli/progress_bar.h"
 #include "app/display/screen_doctor.h"
+#include "app/inputs/protocol_file.h"
+#include "app/rig/display_box_session.h"
 #include "app/rig/open_display.h"
 #include "devices/light/light_sensor.h"
 #include "devices/link/serial_port.h"
 #include "experiment/base/error.h"
+#include "experiment/stimulus/photodiode_patch.h"
+#include "render/presenter/page_presenter.h"
+#include "render/window/screen_check.h"
 
 namespace overt {
 namespace {
@@ -19,7 +24,7 @@ namespace {
 /// Long enough for any screen to reach its light, and for delays of some refreshes to be told apart.
 constexpr int refreshes_of_light = 6;
 
-/// Of the side of the screen that is shorter.
+/// Of the side of the screen that is shorter, where no protocol says how large the square is.
 constexpr int share_of_square = 6;
 
 /// What the sensor that is not there is like.
@@ -28,42 +33,82 @@ constexpr double simulated_latency_ms = 5.0, simulated_jitter_ms = 0.2;
 /// Of the display that only keeps time.
 constexpr double simulated_hz = 120.0;
 
-/// Dark, with a square in its top left corner.
-void draw_square(const GlContext& context, const Framebuffer& canvas, glm::ivec2 size_px, bool is_light) {
-    const GladGLContext& gl = context.gl();
-    canvas.bind();
-    gl.ClearColor(0.0f, 0.0f, 0.0f, 1.0f);
-    gl.Clear(GL_COLOR_BUFFER_BIT);
-    if (!is_light)
-        return;
-    const int side = std::min(size_px.x, size_px.y) / share_of_square;
-    gl.Enable(GL_SCISSOR_TEST);
-    gl.Scissor(0, 0, side, side); // a canvas has its top row first
-    gl.ClearColor(1.0f, 1.0f, 1.0f, 1.0f);
-    gl.Clear(GL_COLOR_BUFFER_BIT);
-    gl.Disable(GL_SCISSOR_TEST);
-}
+/// Two frames: dark, and light.
+class SquareFrames final : public FrameSource {
+  public:
+    explicit SquareFrames(glm::ivec2 size_px) : size_px_(size_px) {}
+    std::vector<int> page_of_frame(const Condition&) const override { return {0, 1}; }
+    LinearImage page(const Condition&, int page) const override {
+        LinearImage image(size_px_);
+        const auto light = static_cast<float>(page);
+        std::ranges::fill(image.pixels, glm::vec4(light, light, light, 1.0F));
+        return image;
+    }
 
-struct Screen {
-    OpenDisplay display;
-    glm::ivec2 size_px;
+  private:
+    glm::ivec2 size_px_;
 };
 
-Screen open_screen(const DoctorOptions& options) {
+/// What is shown, on what.
+struct SquareScreen {
+    DisplaySettings display;
+    ScreenGeometry geometry; ///< whose image is the square
+    bool is_of_protocol = false;
+    std::optional<int> monitor; ///< nothing: by the protocol's size
+};
+
+/// The screen and the mode of a protocol, and the place of its square; else a screen of 8 bits as it is.
+SquareScreen square_screen(const DoctorOptions& options, bool headless) {
     constexpr glm::ivec2 window_px{320, 180};
-    if (!options.windowed && options.context && *options.context != ContextKind::window)
-        return {OpenDisplay({.context = options.context, .refresh_hz = simulated_hz, .virtual_time = true}),
-                window_px};
-    const MonitorInfo monitor = chosen_monitor(options);
-    const glm::ivec2 size_px = options.windowed ? window_px : monitor.size_px;
-    return {OpenDisplay({.context = ContextKind::window,
-                         .size_px = size_px,
-                         .title = "overt doctor",
-                         .refresh_hz = monitor.refresh_hz > 0 ? monitor.refresh_hz : 60.0,
-                         .windowed = options.windowed,
-                         .monitor = monitor.number,
-                         .finds_blanks = true}),
-            size_px};
+    SquareScreen screen;
+    screen.is_of_protocol = !options.protocol.empty();
+    screen.monitor = options.monitor;
+    if (screen.is_of_protocol) {
+        screen.display = read_protocol_or_report(options.protocol).display;
+    } else {
+        DisplaySettings& display = screen.display;
+        display.output = OutputMode::native_8bit;
+        display.refresh_hz = simulated_hz;
+        glm::ivec2 size_px = window_px;
+        if (!headless) {
+            const MonitorInfo monitor = chosen_monitor(options);
+            screen.monitor = monitor.number;
+            display.refresh_hz = monitor.refresh_hz > 0 ? monitor.refresh_hz : 60.0;
+            size_px = options.windowed ? window_px : monitor.size_px;
+        }
+        display.width_px = size_px.x;
+        display.height_px = size_px.y;
+    }
+    DisplaySettings& display = screen.display;
+    if (display.photodiode == PatchCorner::none) {
+        display.photodiode = PatchCorner::top_left;
+        display.photodiode_px = std::min(display.width_px, display.height_px) / share_of_square;
+    }
+    const PatchPlace place = *photodiode_patch_of(display);
+    // The square is the stimulus here, and goes the way of one; around it all is dark.
+    display.photodiode = PatchCorner::none;
+    display.tags_px = display.onset_trigger = 0;
+    display.background = 0.0;
+    screen.geometry.screen_px = {display.width_px, display.height_px};
+    screen.geometry.image_px = place.size_px;
+    screen.geometry.image_origin_px = place.origin_px;
+    return screen;
+}
+
+OpenDisplay open_display(const SquareScreen& screen, const DoctorOptions& options, bool headless) {
+    if (headless)
+        return OpenDisplay({.context = options.context,
+                            .refresh_hz = screen.display.refresh_hz,
+                            .bits_per_channel = row_of(screen.display.output).framebuffer_bits,
+                            .virtual_time = true});
+    return OpenDisplay({.context = ContextKind::window,
+                        .size_px = screen.geometry.screen_px,
+                        .title = "overt doctor",
+                        .refresh_hz = screen.display.refresh_hz,
+                        .bits_per_channel = row_of(screen.display.output).framebuffer_bits,
+                        .windowed = options.windowed,
+                        .monitor = screen.monitor,
+                        .finds_blanks = true});
 }
 
 std::unique_ptr<LightSensor> open_sensor(const DoctorOptions& options, const Clock& clock) {
@@ -77,14 +122,27 @@ std::unique_ptr<LightSensor> open_sensor(const DoctorOptions& options, const Clo
 } // namespace
 
 MeasuredLight measure_light(const DoctorOptions& options) {
-    auto [display, size_px] = open_screen(options);
+    const bool headless = !options.windowed && options.context && *options.context != ContextKind::window;
+    const SquareScreen screen = square_screen(options, headless);
+    // The box first, as before a session: without it no window need flash up.
+    const BoxPlan plan = plan_box(screen.display, !headless, false);
+    const std::optional<BoxIdentity> identity =
+        plan.use == RecordedBox::Use::box ? std::optional(require_box(plan)) : std::nullopt;
+    OpenDisplay display = open_display(screen, options, headless);
+    if (display.is_real() && screen.is_of_protocol)
+        refuse_spoilt_screen(judge_screen(facts_of(*display.window()), screen.display));
     display.start();
     Clock& clock = display.clock();
     if (options.sensor.starts_with('/') && !display.is_real())
         throw InputError("a sensor has nothing to see of a display that is not there: give no --context");
     const std::unique_ptr<LightSensor> sensor = open_sensor(options, clock);
-    const Texture2D picture(display.context(), size_px, PixelFormat::rgba8);
-    const Framebuffer canvas(display.context(), {&picture}, false);
+    const SquareFrames frames(screen.geometry.image_px);
+    PagePresenter presenter(display.context(), display.surface(), frames, screen.geometry, screen.display,
+                            {});
+    std::optional<DisplayBoxSession> box;
+    if (identity)
+        box.emplace(*identity, screen.display, clock, presenter);
+    presenter.load_frames({0, 0});
 
     std::vector<LightEdge> changes;
     ProgressBar bar;
@@ -93,12 +151,11 @@ MeasuredLight measure_light(const DoctorOptions& options) {
     const SessionTime start = clock.now();
     const auto passed_s = [&] { return to_seconds(clock.now() - start); };
     const int total = static_cast<int>(std::ceil(options.seconds));
-    for (int i = 0; passed_s() < options.seconds && !display.surface().closed(); ++i) {
+    for (int i = 0; passed_s() < options.seconds && !presenter.closed(); ++i) {
         // The first are dark: the screen was something else before.
         const bool change = i > 0 && i % refreshes_of_light == 0;
         is_light = change ? !is_light : is_light;
-        draw_square(display.context(), canvas, size_px, is_light);
-        flip = display.surface().present(canvas);
+        flip = presenter.flip({is_light ? 1 : 0});
         if (!change)
             continue;
         changes.push_back({flip.vertical_blank, is_light});
@@ -108,15 +165,18 @@ MeasuredLight measure_light(const DoctorOptions& options) {
     }
     bar.finish();
     clock.wait_until(clock.now() + std::chrono::milliseconds(200));
-    return {std::string(name_of(flip.source)), static_cast<int>(changes.size()),
+    const double scan_ms =
+        1e3 * screen.geometry.image_origin_px.y / (screen.geometry.screen_px.y * screen.display.refresh_hz);
+    return {std::string(name_of(flip.source)), std::string(name_of(screen.display.output)),
+            static_cast<int>(changes.size()), scan_ms,
             sensor ? compare_light(changes, sensor->edges()) : LightLatency()};
 }
 
 int run_photodiode_doctor(const DoctorOptions& options) {
     const MeasuredLight light = measure_light(options);
     if (options.sensor.empty()) {
-        fmt::print("{} changes shown, times by {}; give --sensor PORT to compare them\n", light.changes,
-                   light.source);
+        fmt::print("{} changes shown in {}, times by {}; give --sensor PORT to compare them\n", light.changes,
+                   light.mode, light.source);
         return 0;
     }
     const LightLatency& found = light.found;
@@ -127,22 +187,26 @@ int run_photodiode_doctor(const DoctorOptions& options) {
         fmt::print("{}\n",
                    nlohmann::ordered_json{
                        {"source", light.source},
+                       {"mode", light.mode},
                        {"sensor", options.sensor},
                        {"figures",
                         {figure("changes", light.changes, ""), figure("seen", found.matched, ""),
                          figure("latency", found.mean_ms, "ms"),
+                         figure("scan-out above the square", light.scan_ms, "ms"),
+                         figure("latency of the first row", light.first_row_ms(), "ms"),
                          figure("standard deviation of the latency", found.sd_ms, "ms"),
                          figure("unseen", found.unseen, ""), figure("unasked", found.unasked, "")}}}
                        .dump(2));
     } else {
-        fmt::print("times by {}; {} of {} changes seen, {} edges without a change\n", light.source,
-                   found.matched, light.changes, found.unasked);
+        fmt::print("{}, times by {}; {} of {} changes seen, {} edges without a change\n", light.mode,
+                   light.source, found.matched, light.changes, found.unasked);
         fmt::print(
             "from vertical blank to light: {:.3f} ms, standard deviation {:.3f} ms ({:.3f} … {:.3f})\n",
             found.mean_ms, found.sd_ms, found.lowest_ms, found.highest_ms);
         if (found.matched > 0)
-            fmt::print("for a sensor at the top of the screen: [display] latency_ms = {:.2f}\n",
-                       found.mean_ms);
+            fmt::print("of the first row, with {:.3f} ms for the rows above the square: [display] "
+                       "latency_ms = {:.2f}\n",
+                       light.scan_ms, light.first_row_ms());
     }
     return light.is_whole() ? 0 : 1;
 }

@@ -10,15 +10,22 @@ namespace overt {
 
 /// What a sensor before the screen saw.
 struct MeasuredLight {
-    std::string source; ///< of the flips' times
-    int changes = 0;    ///< of the square
-    LightLatency found; ///< nothing was seen, of no sensor
+    std::string source;   ///< of the flips' times
+    std::string mode;     ///< in which it was packed, as a protocol names it
+    int changes = 0;      ///< of the square
+    double scan_ms = 0.0; ///< that the rows above the square take, borders of the signal left out
+    LightLatency found;   ///< nothing was seen, of no sensor
 
+    /// From the vertical blank to the light of the screen's first row: what [display] latency_ms is.
+    double first_row_ms() const { return found.mean_ms - scan_ms; }
     bool is_whole() const { return found.matched > 0 && found.unseen == 0; }
 };
 
-/// Shows a square in the top left corner that changes every six refreshes, and compares what a sensor before
-/// it saw with the times of the flips. Throws DeviceError for a sensor that is not there.
+/// Shows a square that changes every six refreshes, and compares what a sensor before it saw with the times
+/// of the flips. The square goes the way of a stimulus: through the session's presenter, in the mode, on the
+/// screen and through the display box of options.protocol, in the corner that it names; without a protocol in
+/// 8 bits, in the top left corner. Throws DeviceError for a sensor or a box that is not there, InputError or
+/// GraphicsError where a session of the protocol would be refused for its screen.
 MeasuredLight measure_light(const DoctorOptions& options);
 
 /// The same, and prints it; 1 if the sensor missed a change.

@@ -133,6 +133,9 @@ void check_marker_output(ProtocolExamination& examination, std::size_t index) {
         check_t_lock(examination, index);
     else if (!output.refresh_codes.empty())
         examination.error({path("refresh_codes")}, "only outputs of kind t-lock are bound to refreshes");
+    if (output.kind != MarkerOutputKind::t_lock && output.offset_ms)
+        examination.error({path("offset_ms")}, "only outputs of kind t-lock ride on the picture",
+                          "leave it out: others are told when they are sent, and the record says when");
     if (output.kind != MarkerOutputKind::lsl && output.codes.empty() && output.refresh_codes.empty())
         examination.error({path("kind")}, "nothing would be marked: \"codes\" are missing",
                           "such as codes = [\"onset 10\", \"response 2\"]");

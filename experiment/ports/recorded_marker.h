@@ -17,7 +17,7 @@ struct RecordedMarker {
     int code = 0;       ///< that was sent; 0: none, the text alone
     bool is_sent = true;
     /// It was handed to the system between these two, or that was tried; of an output that rides on the video
-    /// signal, when its picture was handed over and when its refresh began.
+    /// signal, when its picture was handed over and when its outputs rose (MarkerOutputSettings::offset_ms).
     SessionTime not_before, not_after;
     std::optional<int> planned_refresh = {};     ///< of the presentation, from 0: for which it was meant
     std::optional<int> shown_refresh = {};       ///< at which it came, by the display's count

@@ -113,6 +113,17 @@ Section marker_output() {
                   .explanation = "Of `t-lock`, a refresh of the animation, from 0, and its code, such as "
                                  "`[\"120 4\"]`."},
                  &M::refresh_codes},
+                {{.name = "offset_ms",
+                  .unit = "ms",
+                  .low = 0,
+                  .high = 1000,
+                  .if_left_out = "one refresh",
+                  .explanation =
+                      "Of `t-lock`, from the vertical blank of the refresh that is marked to the edge of the "
+                      "outputs, as an oscilloscope shows it. A box acts on a row of the picture at the "
+                      "refresh after it, by the vendor's own software (psychopy-crs); that default was not "
+                      "measured here. The record's not_after_s of a code has it added."},
+                 &M::offset_ms},
                 {{.name = "required",
                   .explanation =
                       "Whether a session needs it. `false`: where it cannot be opened, a session goes "

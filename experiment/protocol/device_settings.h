@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,9 @@ struct MarkerOutputSettings {
     double pulse_ms = 5.0;                                          ///< 0: codes are not taken back
     std::string library;                                            ///< of lsl; empty: where the system looks
     std::vector<std::string> codes, condition_codes, refresh_codes; ///< see MarkerCodes
+    /// Of t-lock, from the vertical blank of the refresh that shows a code to the outputs' edge; nothing: one
+    /// refresh, as Cambridge Research Systems' psychopy-crs has it.
+    std::optional<double> offset_ms;
     bool required = true;
 };
 

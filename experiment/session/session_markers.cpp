@@ -25,6 +25,9 @@ SessionMarkers::SessionMarkers(const Protocol& protocol, const std::vector<Marke
         if (protocol.marker_outputs[i].kind == MarkerOutputKind::t_lock)
             t_lock_ = i;
     }
+    if (t_lock_)
+        outputs_after_ = from_seconds(
+            protocol.marker_outputs[*t_lock_].offset_ms.value_or(1e3 / protocol.display.refresh_hz) / 1e3);
     marks_.reserve(most_marks);
     if (t_lock_)
         raised_.reserve(most_marks);
@@ -105,7 +108,7 @@ void SessionMarkers::keep_raised(SessionTime at, std::string_view text, int code
     Raised raised{number, code, flip != nullptr, {}, {}};
     if (flip) {
         raised.not_before = flip->swapped;
-        raised.not_after = flip->vertical_blank;
+        raised.not_after = flip->vertical_blank + outputs_after_;
     }
     raised_.push_back(raised);
 }

@@ -65,6 +65,7 @@ class SessionMarkers {
     const Protocol& protocol_;
     const std::vector<MarkerSink*>& sinks_;
     std::vector<MarkerCodes> codes_;    ///< by output
+    SessionDuration outputs_after_{};   ///< from the vertical blank of its refresh to its outputs' edge
     std::optional<std::size_t> t_lock_; ///< which output rides on the video signal, if it is used
     Trial trial_;
     bool is_silent_ = true;

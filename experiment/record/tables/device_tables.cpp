@@ -74,7 +74,8 @@ RowLayout<RecordedMarker> markers_layout() {
                  }},
                 {session_seconds("not_after_s",
                                  "And not after; of an output that rides on the picture, the begin of "
-                                 "its refresh"),
+                                 "its refresh and the protocol's offset_ms (of earlier programs "
+                                 "without it)"),
                  [](auto& to, auto& row) {
                      row.not_after == SessionTime() ? to.missing() : to.seconds(row.not_after);
                  }},

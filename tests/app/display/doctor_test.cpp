@@ -1,10 +1,12 @@
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/display/machine_doctor.h"
+#include "tests/app/small_experiment.h"
 #include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/virtual_screen.h"
@@ -31,6 +33,36 @@ TEST_CASE("the doctor finds the latency of a simulated light sensor again", "[se
     CHECK(figure("seen") == figure("changes"));
     CHECK(figure("latency") == Approx(5.0).margin(0.05));
     CHECK(figure("standard deviation of the latency") == Approx(0.2).epsilon(0.2));
+}
+
+TEST_CASE("the light of a square is measured in the mode and the corner of the session's protocol",
+          "[session]") {
+    const SmallExperiment experiment(
+        with(small_protocol, "output = \"color++\"\n",
+             "output = \"color++\"\nphotodiode = \"bottom-right\"\nphotodiode_px = 20\n"));
+    const ProgramRun run =
+        run_overt({"doctor", "--photodiode", "--sensor", "simulated", "--context", "osmesa", "--seconds", "2",
+                   "--protocol", experiment.protocol().string(), "--json"},
+                  {});
+    INFO(run.out << run.err);
+    REQUIRE(run.exit_code == 0);
+    const auto report = nlohmann::json::parse(run.out);
+    CHECK(report["mode"] == "color++");
+    std::map<std::string, double> figures;
+    for (const auto& entry : report["figures"])
+        figures[entry["figure"]] = entry["value"];
+    // The square stands at the bottom: its first row is sent after all above it.
+    const DisplaySettings display = experiment.read().display;
+    CHECK(figures["scan-out above the square"] ==
+          Approx(1e3 * (display.height_px - 20) / (display.height_px * display.refresh_hz)));
+    CHECK(figures["latency of the first row"] ==
+          Approx(figures["latency"] - figures["scan-out above the square"]));
+
+    const ProgramRun wrong = run_overt({"doctor", "--photodiode", "--context", "osmesa", "--protocol",
+                                        (experiment.protocol().parent_path() / "none.toml").string()},
+                                       {});
+    CHECK(wrong.exit_code == 2);
+    CHECK(wrong.err.find("none.toml") != std::string::npos);
 }
 
 TEST_CASE("a sensor of light at a display that is not there, or a port that is none, is refused",

@@ -176,8 +176,32 @@ TEST_CASE(
     CHECK(rows ==
           std::vector<Row>{
               {1, 0, 0, true}, {4, 2, 2, true}, {2, 4, 5, true}, {8, 5, -1, false}, {18, 7, 7, true}});
-    CHECK(log.all[2].not_after == flip_at(5, 1).report.vertical_blank);
+    // The box acts a refresh later, where the protocol does not say what was measured.
+    CHECK(log.all[2].not_after ==
+          flip_at(5, 1).report.vertical_blank + from_seconds(1.0 / protocol.display.refresh_hz));
     log.all.clear();
     markers.write_down(log);
     CHECK(log.all.empty());
+}
+
+TEST_CASE("outputs of the picture have on record when they rose, by the offset that was measured", "[unit]") {
+    const auto risen_after = [](const std::string& offset) {
+        const Protocol protocol = marked_protocol("[[marker_output]]\nid = \"box\"\nkind = \"t-lock\"\n"
+                                                  "codes = [\"onset 1\"]\n" +
+                                                  offset);
+        const std::vector<MarkerSink*> none{nullptr};
+        SessionMarkers markers(protocol, none);
+        RaisingPresenter presenter;
+        MarkerLog log;
+        markers.begin_trial({}, false);
+        markers.begin_presentation();
+        markers.before_flip(0, {0}, presenter);
+        markers.flipped(flip_at(0, 0));
+        markers.write_down(log);
+        REQUIRE(log.all.size() == 1);
+        CHECK(log.all[0].at == flip_at(0, 0).report.vertical_blank);
+        return log.all[0].not_after - log.all[0].at;
+    };
+    CHECK(risen_after("offset_ms = 11.5\n") == from_seconds(0.0115));
+    CHECK(risen_after("offset_ms = 0\n") == SessionDuration::zero());
 }
