@@ -27,14 +27,21 @@ namespace {
 
 void add_screens(std::vector<DoctorFinding>& lines) {
     const WindowSystem system = examine_window_system();
-    lines.push_back({"window system", system.description(),
-                     system.is_wayland       ? "log in to a session of X11"
-                     : system.has_compositor ? "switch compositing off, in the desktop's settings"
-                                             : ""});
+    lines.push_back(
+        {"window system", system.description(),
+         system.is_wayland && !system.is_xwayland ? "log in to a session of X11" : system.go_between()});
     if (!display_is_available())
         return;
     try {
-        for (const MonitorInfo& monitor : list_monitors()) {
+        const std::vector<MonitorInfo> monitors = list_monitors();
+        if (monitors.size() > 1 && system.is_x11)
+            lines.push_back({"monitors of the X screen",
+                             fmt::format("{}: pictures beside another monitor's are usually copied, and may "
+                                         "follow its refreshes",
+                                         monitors.size()),
+                             "switch the others off for sessions (xrandr --output NAME --off), or give the "
+                             "observer's monitor an X screen of its own (docs/rig.md)"});
+        for (const MonitorInfo& monitor : monitors) {
             const ScreenFacts facts = facts_at(monitor);
             std::string finding = fmt::format(
                 "{} x {} px at {}, from {}, {} on the desktop", monitor.size_px.x, monitor.size_px.y,

@@ -20,6 +20,15 @@ constexpr double assumed_hz = 60.0;
 /// A window that is not the whole screen is large enough to be seen, and small enough to be no bother.
 constexpr glm::ivec2 window_px{640, 360};
 
+nlohmann::ordered_json json_of(const std::optional<SwapModes>& modes) {
+    if (!modes)
+        return nullptr;
+    return {{"flipped", modes->flipped},
+            {"copied", modes->copied},
+            {"suboptimal_copied", modes->suboptimal_copied},
+            {"skipped", modes->skipped}};
+}
+
 nlohmann::ordered_json json_of(const TimingFacts& facts, const std::vector<ScreenFinding>& findings) {
     const RefreshMeasurement& measured = facts.measured;
     auto list = nlohmann::ordered_json::array();
@@ -32,6 +41,7 @@ nlohmann::ordered_json json_of(const TimingFacts& facts, const std::vector<Scree
     return {{"screen", list},
             {"source", overt::name_of(measured.source)},
             {"refused_sources", facts.refused_sources},
+            {"swaps", json_of(facts.swap_modes)},
             {"figures",
              {figure("refresh rate", measured.mean_hz, "Hz"),
               figure("standard error of the refresh rate", measured.mean_se_hz, "Hz"),

@@ -53,10 +53,10 @@ void refuse_doubtful_times(const std::vector<std::string>& doubts) {
     if (!doubts.empty())
         throw InputError(fmt::format(
             "the protocol's [display] timing = \"proven\", but nothing proves when this window's pictures "
-            "are "
-            "lit:\n  {}\nUse a screen whose driver tells its vertical blanks (`overt doctor --window` "
-            "measures "
-            "it, docs/vblank_sources.md says what is needed), without another screen's or a compositor's "
+            "are lit, and at which refresh:\n  {}\nUse a screen whose driver tells its vertical blanks "
+            "(`overt doctor --window` "
+            "measures it, docs/vblank_sources.md says what is needed), without another screen's or a "
+            "compositor's "
             "refreshes. For a rehearsal write timing = \"unproven\" under [display]: the record, its exports "
             "and its reports then say so. Nothing was recorded.",
             fmt::join(doubts, "\n  ")));

@@ -8,6 +8,7 @@
 #include "experiment/flip_report.h"
 #include "experiment/ports/setup_stage.h"
 #include "experiment/session_time.h"
+#include "experiment/swap_modes.h"
 #include "experiment/trial.h"
 
 namespace overt {
@@ -95,6 +96,10 @@ class Presenter {
     /// Raises these digital outputs of the display box, a bit each, with the refresh that the next flip()
     /// lights, for this long; in the modes that carry them, else nothing. Allocates and throws nothing.
     virtual void raise_with_next_flip(std::uint16_t /*outputs*/, double /*pulse_ms*/) noexcept {}
+
+    /// How the pictures shown since the last call came to the screen; nothing where no server tells it. May
+    /// wait for the server: not for use between a presentation's first and last flip.
+    virtual std::optional<SwapModes> take_swap_modes() noexcept { return {}; }
 
     /// The window was closed or the display went away. The session ends the trial and then itself.
     virtual bool closed() const noexcept = 0;

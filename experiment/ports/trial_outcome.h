@@ -6,6 +6,7 @@
 #include <string>
 
 #include "experiment/session_time.h"
+#include "experiment/swap_modes.h"
 #include "experiment/units.h"
 
 namespace overt {
@@ -21,6 +22,8 @@ struct TrialOutcome {
     SessionTime task_screen_onset, presentation_onset, presentation_end, response_screen_onset, responded_at;
     int shown_refreshes = 0;
     int missed_refreshes = 0;
+    /// Of the presentation's pictures and the dark screen after them; nothing where no server tells it.
+    std::optional<SwapModes> swaps = {};
     std::optional<Degrees> drift;
     std::string answer;
 };

@@ -171,6 +171,7 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
     wait_and_take_items(trial.index, state_.now() + lead);
     for (PresentationListener* listener : ports.listeners)
         listener->presentation_begins(trial);
+    ports.presenter.take_swap_modes(); // those before are not the presentation's
 
     const auto is_broken_off = [&] { return pressed_ && pressed_->key == ResponsePress::Key::abort; };
     // From here to the last flip nothing allocates, opens, throws or formats.
@@ -204,6 +205,7 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
             static_cast<double>(lost_count_) / static_cast<double>(sample_count_);
 
     outcome.presentation_end = state_.show({});
+    outcome.swaps = ports.presenter.take_swap_modes();
     mark(MarkedEvent::end, outcome.presentation_end, "PRESENTATION_END");
     state_.ends_by_itself();
     wait_and_take_items(trial.index, state_.now() + lead);

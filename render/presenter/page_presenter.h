@@ -40,6 +40,7 @@ class PagePresenter final : public Presenter {
         if (has_t_lock(display_.output))
             send_with_next_flip(t_lock::outputs_row, t_lock::pulse(outputs, 0.0, pulse_ms));
     }
+    std::optional<SwapModes> take_swap_modes() noexcept override { return surface_->take_swap_modes(); }
     bool closed() const noexcept override { return surface_->closed() || is_interrupted(); }
     std::string why_closed() const override;
 

@@ -35,7 +35,8 @@ WindowDisplay::WindowDisplay(WindowContext& window, Clock& clock, double refresh
       virtual_refresh_(clock, refresh_hz, std::move(faults)), blanks_are_real_(vblanks.is_real),
       refused_sources_(std::move(vblanks.refused)),
       flips_(window, clock, refresh_hz, std::move(vblanks.clock),
-             vblanks.is_real ? kernel_precision : server_timer) {
+             vblanks.is_real ? kernel_precision : server_timer),
+      watch_(virtual_time ? nullptr : SwapWatch::of(window.native())) {
     window.set_swap_interval(virtual_time ? 0 : 1);
 }
 

@@ -5,6 +5,7 @@
 #include "experiment/ports/presenter.h"
 #include "experiment/timing/virtual_refresh.h"
 #include "render/gl/gl_objects.h"
+#include "render/vblank/swap_watch.h"
 #include "render/vblank/window_flips.h"
 
 namespace overt {
@@ -18,6 +19,9 @@ class DisplaySurface {
     /// nothing.
     virtual FlipReport present(const Framebuffer& canvas) noexcept = 0;
     virtual bool closed() const noexcept = 0;
+
+    /// See Presenter::take_swap_modes().
+    virtual std::optional<SwapModes> take_swap_modes() noexcept { return {}; }
 
     /// Why, once closed().
     virtual std::string why_closed() const { return "the display was closed"; }
@@ -66,6 +70,9 @@ class WindowDisplay final : public DisplaySurface {
     /// refused, why.
     bool blanks_are_real() const { return blanks_are_real_; }
     const std::vector<std::string>& refused_sources() const { return refused_sources_; }
+    std::optional<SwapModes> take_swap_modes() noexcept override {
+        return watch_ ? watch_->take() : std::nullopt;
+    }
     bool closed() const noexcept override {
         return window_->close_requested() || window_->disturbance() != WindowDisturbance::none;
     }
@@ -86,6 +93,7 @@ class WindowDisplay final : public DisplaySurface {
     bool blanks_are_real_;
     std::vector<std::string> refused_sources_;
     WindowFlips flips_;
+    std::unique_ptr<SwapWatch> watch_; ///< in real time, where the server tells it
 };
 
 } // namespace overt

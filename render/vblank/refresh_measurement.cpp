@@ -103,6 +103,7 @@ TimingFacts measure_timing(WindowContext& window, WindowDisplay& display, Clock&
                            const std::function<void(int done, int total)>& progress) {
     for (int i = 0; i < flips_to_fall_into_step; ++i)
         display.present_dark();
+    display.take_swap_modes(); // the first pictures may be copied while a window comes up
     const SessionTime start = clock.now();
     const auto passed_s = [&] { return to_seconds(clock.now() - start); };
     const int total = std::max(1, static_cast<int>(std::ceil(seconds)));
@@ -115,6 +116,9 @@ TimingFacts measure_timing(WindowContext& window, WindowDisplay& display, Clock&
     progress(total, total);
 
     TimingFacts facts;
+    facts.swap_modes = display.take_swap_modes();
+    facts.system = examine_window_system();
+    facts.is_software = window.description().is_software;
     facts.measured = summarise_refreshes(flips);
     facts.blanks_are_real = display.blanks_are_real();
     facts.refused_sources = display.refused_sources();

@@ -7,6 +7,7 @@
 
 #include "render/vblank/display_surface.h"
 #include "render/window/screen_output.h"
+#include "render/window/window_system.h"
 
 namespace overt {
 
@@ -42,6 +43,9 @@ struct TimingFacts {
     bool blanks_are_real = false;             ///< stamps_stand_still() of the source
     std::vector<std::string> refused_sources; ///< better ones, and why not
     ScreenOutput output;
+    WindowSystem system;
+    std::optional<SwapModes> swap_modes; ///< of the pictures shown meanwhile; nothing: no server tells it
+    bool is_software = false;            ///< no graphics card draws
 };
 
 /// Shows a dark screen for that long and watches its refreshes. `progress`: seconds done, and in all. Main

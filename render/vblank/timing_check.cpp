@@ -17,6 +17,13 @@ constexpr double regular_share = 0.05;
 /// Of all stamps, or refreshes: more are a machine that is busy with something else.
 constexpr double tolerable_share = 0.01;
 
+/// What is looked at, where a finding may be a doubt about times.
+constexpr const char* blank_finding = "vertical blank";
+constexpr const char* way_finding = "pictures";
+constexpr const char* go_between_finding = "compositor";
+/// That the window's refreshes may be another screen's.
+constexpr const char* mode_finding = "screen";
+
 bool knows_swaps(VblankSource source) {
     return source == VblankSource::glx_sync_control || source == VblankSource::egl_sync_control ||
            source == VblankSource::present_swap;
@@ -28,12 +35,12 @@ ScreenFinding source_finding(const TimingFacts& facts) {
                                     : fmt::format(" (not {})", fmt::join(facts.refused_sources, "; not "));
     const std::string source(name_of(facts.measured.source));
     if (facts.measured.source == VblankSource::swap_return)
-        return {Weight::risk, "vertical blank",
+        return {Weight::refusal, blank_finding,
                 fmt::format("no source tells when it begins, times are those of the {}{}", source, refused)};
     if (!facts.blanks_are_real)
-        return {Weight::risk, "vertical blank",
+        return {Weight::refusal, blank_finding,
                 fmt::format("{}: not a real one, the server counts by a timer{}", source, refused)};
-    return {Weight::good, "vertical blank", source + refused};
+    return {Weight::good, blank_finding, source + refused};
 }
 
 ScreenFinding rate_finding(const TimingFacts& facts, double nominal_hz, std::string_view nominal_from) {
@@ -84,12 +91,66 @@ ScreenFinding swap_finding(const TimingFacts& facts) {
                     "the compositor, off"};
 }
 
-/// That the window's refreshes may be another screen's.
-constexpr const char* mode_finding = "screen";
-
 bool is_off_its_mode(const TimingFacts& facts) {
     return facts.output.refresh_hz && facts.measured.mean_hz > 0.0 &&
            std::abs(facts.measured.mean_hz / *facts.output.refresh_hz - 1.0) > largest_rate_deviation;
+}
+
+/// Why pictures come to the screen by being copied; empty if they do not, or nobody tells.
+std::string how_copied(const TimingFacts& facts) {
+    const SwapModes modes = facts.swap_modes.value_or(SwapModes());
+    const auto remedy = [&] {
+        const bool is_shared = !facts.output.neighbours.empty();
+        return fmt::format("let the window fill its X screen (no --windowed){}, without a compositor",
+                           is_shared
+                               ? fmt::format(", with no other monitor on it (xrandr --output {} --off, or "
+                                             "an X screen of its own, docs/rig.md)",
+                                             fmt::join(facts.output.neighbours, " --off --output "))
+                               : "");
+    };
+    if (modes.all_copied() > tolerable_share * modes.all())
+        return fmt::format("of {} pictures {} were copied to the screen and {} flipped, by X Present: a copy "
+                           "may be torn, and lit at another refresh than its swap's; {}",
+                           modes.all(), modes.all_copied(), modes.flipped, remedy());
+    if (modes.all() == 0 && facts.is_software)
+        return "pictures are drawn by software and copied into the window whenever they are ready; install "
+               "the "
+               "graphics card's driver of OpenGL";
+    return {};
+}
+
+ScreenFinding find_way(const TimingFacts& facts) {
+    if (std::string copied = how_copied(facts); !copied.empty())
+        return {Weight::refusal, way_finding, std::move(copied)};
+    if (!facts.swap_modes)
+        return {Weight::risk, way_finding,
+                "whether they are flipped or copied is not told: there is no X Present"};
+    const SwapModes& modes = *facts.swap_modes;
+    if (modes.all() == 0)
+        return {Weight::risk, way_finding,
+                "whether they are flipped or copied is not told: the driver shows none through X Present; "
+                "prove times with a photodiode"};
+    const std::string found = fmt::format("{} of {} flipped", modes.flipped, modes.all());
+    if (modes.skipped > 0)
+        return {Weight::risk, way_finding,
+                fmt::format("{}, {} replaced before they were shown", found, modes.skipped)};
+    return {Weight::good, way_finding, found};
+}
+
+void add_surroundings(std::vector<ScreenFinding>& findings, const TimingFacts& facts) {
+    if (std::string between = facts.system.go_between(); !between.empty())
+        findings.push_back({Weight::refusal, go_between_finding, std::move(between)});
+    else
+        findings.push_back({Weight::good, go_between_finding, "none"});
+    if (const auto& others = facts.output.neighbours; !others.empty())
+        findings.push_back(
+            {Weight::risk, "other monitors",
+             fmt::format(
+                 "{} shows another part of the same X screen: pictures of a window beside it are "
+                 "usually copied, and their refreshes may be told by the other monitor; switch it off "
+                 "for the session (xrandr --output {} --off), or give the observer's monitor an X "
+                 "screen of its own (docs/rig.md)",
+                 fmt::join(others, " and "), fmt::join(others, " --off --output "))});
 }
 
 void add_output_findings(std::vector<ScreenFinding>& findings, const TimingFacts& facts) {
@@ -135,6 +196,9 @@ std::vector<std::string> doubts_about_times(const TimingFacts& facts) {
     else if (!facts.blanks_are_real)
         doubts.push_back(fmt::format("{} is no real vertical blank: the server counts by a timer",
                                      name_of(facts.measured.source)));
+    for (std::string doubt : {how_copied(facts), facts.system.go_between()})
+        if (!doubt.empty())
+            doubts.push_back(std::move(doubt));
     if (is_off_its_mode(facts))
         doubts.push_back(
             fmt::format("the window is shown at {:.3f} Hz, but the mode of its screen has {:.3f}",
@@ -144,15 +208,18 @@ std::vector<std::string> doubts_about_times(const TimingFacts& facts) {
 
 std::vector<ScreenFinding> without_claim(std::vector<ScreenFinding> findings) {
     for (ScreenFinding& finding : findings)
-        if (finding.what == mode_finding && finding.weight == Weight::refusal)
-            finding.weight = Weight::risk;
+        for (const std::string_view doubted : {blank_finding, way_finding, go_between_finding, mode_finding})
+            if (finding.what == doubted && finding.weight == Weight::refusal)
+                finding.weight = Weight::risk;
     return findings;
 }
 
 std::vector<ScreenFinding> judge_timing(const TimingFacts& facts, double nominal_hz,
                                         std::string_view nominal_from) {
     std::vector<ScreenFinding> findings{source_finding(facts), rate_finding(facts, nominal_hz, nominal_from),
-                                        regularity_finding(facts.measured), swap_finding(facts)};
+                                        regularity_finding(facts.measured), swap_finding(facts),
+                                        find_way(facts)};
+    add_surroundings(findings, facts);
     add_output_findings(findings, facts);
     return findings;
 }

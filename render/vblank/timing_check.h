@@ -16,8 +16,8 @@ std::vector<ScreenFinding> judge_timing(const TimingFacts& facts, double nominal
                                         std::string_view nominal_from);
 
 /// What keeps the times of flips from being proven, a part of a sentence each; none: a real vertical blank
-/// tells them, at the rate of the screen's own mode. A screen that names no rate of its mode is not doubted
-/// for that.
+/// tells them, at the rate of the screen's own mode, and nothing copies or holds back pictures on their way.
+/// A screen that names no rate of its mode is not doubted for that.
 std::vector<std::string> doubts_about_times(const TimingFacts& facts);
 
 /// The same findings for a session whose times are not claimed to be proven: what doubts_about_times() would

@@ -95,7 +95,7 @@ ScreenFinding scaling_finding(const ScreenFacts& facts) {
     const glm::vec2 scale = facts.monitor.content_scale;
     const bool is_whole = scale == glm::vec2(1.0f);
     // Under X11 the scale is advice on the size of text and changes no pixel.
-    if (is_whole || (facts.system.is_x11 && !facts.system.is_wayland))
+    if (is_whole || (facts.system.is_x11 && !facts.system.is_wayland && !facts.system.is_xwayland))
         return {Weight::good, "scaling", "pixel for pixel"};
     return {Weight::refusal, "scaling",
             fmt::format("the desktop enlarges by {:.0f} %: set its scaling to 100 %",
@@ -117,7 +117,7 @@ ScreenFinding rate_finding(const ScreenFacts& facts, const DisplaySettings& disp
 
 ScreenFinding system_finding(const ScreenFacts& facts) {
     const WindowSystem& system = facts.system;
-    if (system.is_wayland)
+    if (system.is_wayland || system.is_xwayland)
         return {Weight::risk, "window system",
                 system.description() +
                     ": its compositor decides when and how a window is shown; take an X11 session"};

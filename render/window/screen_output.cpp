@@ -52,6 +52,30 @@ std::optional<double> rate_of_crtc(xcb_connection_t* link, const NativeWindow& w
     return std::nullopt;
 }
 
+/// What shows something with another controller's refreshes than the window's; of several outputs that mirror
+/// each other, the first.
+std::vector<std::string> neighbours_of(xcb_connection_t* link, const NativeWindow& window) {
+    std::vector<std::string> names;
+    const auto resources = owned(xcb_randr_get_screen_resources_current_reply(
+        link, xcb_randr_get_screen_resources_current(link, window.x11_window), nullptr));
+    const int count = resources ? xcb_randr_get_screen_resources_current_crtcs_length(resources.get()) : 0;
+    for (int i = 0; i < count; ++i) {
+        const std::uint32_t crtc = xcb_randr_get_screen_resources_current_crtcs(resources.get())[i];
+        const auto lit = owned(xcb_randr_get_crtc_info_reply(
+            link, xcb_randr_get_crtc_info(link, crtc, XCB_CURRENT_TIME), nullptr));
+        if (crtc == window.randr_crtc || !lit || lit->mode == XCB_NONE || lit->num_outputs < 1)
+            continue;
+        const auto output = owned(xcb_randr_get_output_info_reply(
+            link,
+            xcb_randr_get_output_info(link, xcb_randr_get_crtc_info_outputs(lit.get())[0], XCB_CURRENT_TIME),
+            nullptr));
+        if (output)
+            names.emplace_back(reinterpret_cast<const char*>(xcb_randr_get_output_info_name(output.get())),
+                               output->name_len);
+    }
+    return names;
+}
+
 } // namespace
 
 ScreenOutput examine_output(const NativeWindow& window) {
@@ -66,6 +90,7 @@ ScreenOutput examine_output(const NativeWindow& window) {
     // A server answers in the version that it has been told, and with none as if it had none.
     owned(xcb_randr_query_version_reply(link.get(), xcb_randr_query_version(link.get(), 1, 3), nullptr));
     output.refresh_hz = rate_of_crtc(link.get(), window);
+    output.neighbours = neighbours_of(link.get(), window);
     output.connector = property_of(link.get(), window.randr_output, "CONNECTOR_ID");
     if (const auto capable = property_of(link.get(), window.randr_output, "vrr_capable"))
         output.may_vary_its_refresh = *capable != 0;

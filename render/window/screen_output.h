@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "render/window/native_window.h"
 
@@ -13,6 +15,8 @@ struct ScreenOutput {
     std::optional<double> refresh_hz;         ///< of the mode, from its pixel clock and totals
     std::optional<std::uint32_t> connector;   ///< the kernel's number of it (property CONNECTOR_ID)
     std::optional<bool> may_vary_its_refresh; ///< property vrr_capable: the screen waits for late pictures
+    /// The outputs of the same X screen that show something with a refresh of their own: "DP-2".
+    std::vector<std::string> neighbours;
 };
 
 /// Asks the server over a connection of its own. Never throws.

@@ -7,9 +7,15 @@ namespace overt {
 
 struct WindowSystem {
     bool is_x11 = false;         ///< an X server answers
-    bool is_wayland = false;     ///< the desktop is Wayland's: windows of X11 reach it through XWayland
+    bool is_wayland = false;     ///< the environment says that the desktop is Wayland's
+    bool is_xwayland = false;    ///< the X server is Xwayland, by its own word: it shows nothing itself
     bool has_compositor = false; ///< on X11: somebody owns the selection _NET_WM_CM_Sn
+    std::string compositor;      ///< what its owner calls itself: "picom"; empty if it does not
     std::string desktop;         ///< as XDG_CURRENT_DESKTOP names it; empty if it does not
+
+    /// What else than the X server decides when pictures are shown, as a part of a sentence with its remedy;
+    /// empty: nothing that can be seen from here.
+    std::string go_between() const;
 
     /// "X11 with a compositor (GNOME)".
     std::string description() const;

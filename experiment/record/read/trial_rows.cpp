@@ -77,6 +77,20 @@ void add_response_boxes(const SQLite::Database& database, std::vector<TrialRecor
     }
 }
 
+void add_swap_modes(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
+    if (!has_table(database, "swap_modes"))
+        return;
+    for (Query row(database, "SELECT trial_id, flipped, copied, suboptimal_copied, skipped FROM swap_modes");
+         row.step();) {
+        const auto trial = std::ranges::find(trials, row.integer(), &TrialRecord::id);
+        SwapModes swaps;
+        for (int* const count : {&swaps.flipped, &swaps.copied, &swaps.suboptimal_copied, &swaps.skipped})
+            *count = row.small();
+        if (trial != trials.end())
+            trial->outcome.swaps = swaps;
+    }
+}
+
 } // namespace
 
 std::string_view name_of(TrialOutcome::Afterwards afterwards) {
@@ -100,6 +114,7 @@ std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
                         : "NULL, NULL, 0"),
         read_trial);
     add_response_boxes(database, trials);
+    add_swap_modes(database, trials);
     return trials;
 }
 

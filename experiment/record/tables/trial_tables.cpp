@@ -17,6 +17,14 @@ void write_reached(TableCells& to, const TrialRecord& trial, SessionTime at) {
     trial.reached(at) ? to.seconds(at) : to.missing();
 }
 
+/// A column of the trials' table: how so many of a presentation's pictures came to the screen.
+RowLayout<TrialRow>::Column swaps_column(const char* name, const char* meaning, int SwapModes::*count) {
+    return {{name, meaning, "", {}}, [count](auto& to, auto& row) {
+                const std::optional<SwapModes>& swaps = row.trial.outcome.swaps;
+                swaps ? to.integer(*swaps.*count) : to.missing();
+            }};
+}
+
 } // namespace
 
 RowLayout<TrialRow> trials_layout(const SharedColumns& shared, const SessionHeader& header) {
@@ -114,6 +122,22 @@ RowLayout<TrialRow> trials_layout(const SharedColumns& shared, const SessionHead
                      ? to.integer(row.trial.outcome.missed_refreshes)
                      : to.missing();
              }},
+            swaps_column(
+                "swaps_flipped",
+                "Pictures of the presentation, and the dark screen after it, whose memory was scanned "
+                "out itself, by the X server's word; n/a: no such server. 0 in all four columns: the "
+                "driver does not show pictures through the server, which cannot tell then",
+                &SwapModes::flipped),
+            swaps_column(
+                "swaps_copied",
+                "Likewise, those copied into what is scanned out: when they were lit, and whether in "
+                "one piece, is not proved by a vertical blank",
+                &SwapModes::copied),
+            swaps_column("swaps_suboptimal_copied",
+                         "Likewise, copied although other buffers could have been flipped to",
+                         &SwapModes::suboptimal_copied),
+            swaps_column("swaps_skipped", "Likewise, replaced by the next before they were shown",
+                         &SwapModes::skipped),
             {{"drift_deg", "Gaze error at the drift check", "deg", {}},
              [](auto& to, auto& row) {
                  const auto& drift = row.trial.outcome.drift;

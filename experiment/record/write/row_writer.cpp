@@ -354,6 +354,13 @@ void RowWriter::write(const TrialFinish& finish) {
         outcome.answer, finish.lost_flips, finish.lost_samples,
         outcome.failure.empty() ? std::nullopt : std::optional(outcome.failure),
         afterwards.empty() ? std::nullopt : std::optional(std::string(afterwards)), trial_counts_.trial_id);
+    if (const std::optional<SwapModes>& swaps = outcome.swaps) {
+        SQLite::Statement insert(database_,
+                                 "INSERT INTO swap_modes (trial_id, flipped, copied, suboptimal_copied, "
+                                 "skipped) VALUES (?,?,?,?,?)");
+        run_statement(insert, trial_counts_.trial_id, swaps->flipped, swaps->copied, swaps->suboptimal_copied,
+                      swaps->skipped);
+    }
     seals_.seal_trial(sitting_, trial_counts_.trial_id);
     forget_file_hash(database_);
     commit_to_disk();

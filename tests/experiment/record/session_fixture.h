@@ -95,6 +95,7 @@ inline TrialOutcome outcome_at(std::int64_t start_ms) {
     outcome.responded_at = at_ms(start_ms + 4000);
     outcome.shown_refreshes = 200;
     outcome.missed_refreshes = 1;
+    outcome.swaps = SwapModes{.flipped = 195, .copied = 3, .suboptimal_copied = 2, .skipped = 1};
     outcome.drift = Degrees{0.5};
     outcome.answer = "forty\tor\nfifty";
     return outcome;

@@ -35,6 +35,8 @@ TimingFacts good_facts() {
     facts.blanks_are_real = true;
     facts.output.refresh_hz = 120.0;
     facts.output.may_vary_its_refresh = false;
+    facts.system.is_x11 = true;
+    facts.swap_modes = SwapModes{.flipped = 600};
     return facts;
 }
 
@@ -118,11 +120,11 @@ TEST_CASE("a good screen has no risk, and each thing that may spoil its times is
 
     facts = good_facts();
     facts.blanks_are_real = false;
-    CHECK(finding_of(facts, "vertical blank").weight == Weight::risk);
+    CHECK(finding_of(facts, "vertical blank").weight == Weight::refusal);
     facts = good_facts();
     facts.measured.source = VblankSource::swap_return;
     facts.refused_sources = {"GLX_OML_sync_control: the server does not offer it"};
-    CHECK(finding_of(facts, "vertical blank").weight == Weight::risk);
+    CHECK(finding_of(facts, "vertical blank").weight == Weight::refusal);
     CHECK(finding_of(facts, "vertical blank").finding.find("does not offer") != std::string::npos);
 
     facts = good_facts();

@@ -55,6 +55,7 @@ TEST_CASE("rows, outcomes, events and clock pairs come back as they were written
     CHECK(first.outcome.responded_at == expected.responded_at);
     CHECK(first.outcome.shown_refreshes == expected.shown_refreshes);
     CHECK(first.outcome.missed_refreshes == expected.missed_refreshes);
+    CHECK(first.outcome.swaps == expected.swaps);
     CHECK(first.outcome.drift == expected.drift);
     CHECK(first.outcome.answer == expected.answer);
     CHECK(first.lost_flips == 0);
