@@ -6,36 +6,26 @@
 #include "app/rig/display_box_session.h"
 #include "experiment/base/error.h"
 #include "experiment/protocol/protocol_keys.h"
+#include "render/window/monitor_choice.h"
 #include "render/window/screen_check.h"
 #include "render/window/window_system.h"
 
 namespace overt {
 namespace {
 
-/// The screen that a session takes; nothing if none has the protocol's resolution.
-std::optional<MonitorInfo> monitor_for(const DisplaySettings& display,
-                                       const std::vector<MonitorInfo>& monitors) {
-    for (const MonitorInfo& monitor : monitors)
-        if (monitor.size_px == glm::ivec2(display.width_px, display.height_px))
-            return monitor;
-    return std::nullopt;
-}
-
 void add_screen(const DisplaySettings& display, std::vector<ForecastLine>& forecast) {
     const std::vector<MonitorInfo> monitors = list_monitors();
-    const std::optional<MonitorInfo> monitor = monitor_for(display, monitors);
-    if (!monitor) {
-        std::string list;
-        for (const MonitorInfo& other : monitors)
-            list += (list.empty() ? "" : ", ") + describe(other);
-        forecast.push_back({"screen",
-                            fmt::format("none shows {} x {} px now; there is {}", display.width_px,
-                                        display.height_px, list.empty() ? "none" : list),
-                            true});
+    MonitorInfo monitor;
+    try {
+        monitor = choose_monitor(monitors, {.which = display.monitor,
+                                            .size_px = glm::ivec2(display.width_px, display.height_px),
+                                            .refresh_hz = display.refresh_hz});
+    } catch (const InputError& none) {
+        forecast.push_back({"screen", none.what(), true});
         return;
     }
-    const ScreenFacts facts = facts_at(*monitor, row_of(display.output).framebuffer_bits);
-    forecast.push_back({"screen", "the whole of " + describe(*monitor)});
+    const ScreenFacts facts = facts_at(monitor, row_of(display.output).framebuffer_bits);
+    forecast.push_back({"screen", "the whole of " + describe(monitor)});
     for (const ScreenFinding& finding : judge_screen(facts, display))
         if (finding.weight != ScreenFinding::Weight::good)
             forecast.push_back({"", fmt::format("{}: {}", finding.what, finding.finding),

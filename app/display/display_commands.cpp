@@ -78,9 +78,11 @@ void add_characterise(CLI::App& display, ChosenCommand& chosen) {
         ->check(CLI::Range(0.0, 0.5))
         ->needs(simulated);
     command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
-    command.add_option("--monitor", options.monitor, "The screen to take, as `overt doctor` numbers them")
-        ->type_name("N")
-        ->check(above_zero());
+    command
+        .add_option(
+            "--monitor", options.monitor,
+            "The screen to take: its number as `overt doctor` lists them, or the name of its output or EDID")
+        ->type_name("WHICH");
     add_context_option(command, options.context);
     command.add_flag("--force", options.force, "Replace files that are there");
     command.add_flag("--json", options.json, "Print JSON");
@@ -183,10 +185,11 @@ void add_verify(CLI::App& display, ChosenCommand& chosen) {
         ->type_name("PORT");
     command
         .add_option("--monitor", given->hardware.monitor,
-                    "The screen behind the box, as `overt doctor` numbers them (default: 1)")
+                    "The screen behind the box: its number as `overt doctor` lists them, or the name of its "
+                    "output or "
+                    "EDID (default: the only one)")
         ->needs(&on_hardware_flag)
-        ->type_name("N")
-        ->check(above_zero());
+        ->type_name("WHICH");
     for (const char* other : {"PROTOCOL", "--stimulus", "--mode", "--context"})
         on_hardware_flag.excludes(command.get_option(other));
     run_when_chosen(command, chosen, [given] {
@@ -229,9 +232,11 @@ void add_doctor(CLI::App& app, ChosenCommand& chosen) {
         ->type_name("FILE.md");
     add_context_option(command, options.context);
     command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
-    command.add_option("--monitor", options.monitor, "The screen to take, as this command numbers them")
-        ->type_name("N")
-        ->check(above_zero());
+    command
+        .add_option(
+            "--monitor", options.monitor,
+            "The screen to take: its number as this command lists them, or the name of its output or EDID")
+        ->type_name("WHICH");
     command.add_option("--seconds", options.seconds, "How long to measure")
         ->type_name("SECONDS")
         ->check(CLI::Range(0.1, 3600.0))

@@ -21,7 +21,7 @@ struct DoctorOptions {
     bool json = false;
     bool window = false; ///< show a dark screen and measure its refreshes
     bool windowed = false;
-    std::optional<int> monitor;     ///< from 1
+    std::string monitor;            ///< see MonitorWish; empty: the protocol's
     double seconds = 10.0;          ///< of measuring
     bool photodiode = false;        ///< show a square for a sensor
     std::filesystem::path protocol; ///< whose screen and mode the square is shown in; empty: 8 bits
@@ -58,7 +58,7 @@ struct DisplayCharacteriseOptions {
     double surround = 0.0;  ///< signal around the patch
     double crosstalk = 0.0; ///< of the simulated display
     ContextChoice context;
-    std::optional<int> monitor; ///< from 1
+    std::string monitor; ///< see MonitorWish; empty: the protocol's
     bool windowed = false;
     bool force = false;
     bool json = false;
@@ -76,8 +76,8 @@ struct DisplayColourOptions {
 int run_display_colour(const DisplayColourOptions& options);
 
 struct DisplayHardwareOptions {
-    std::string port;           ///< of the box; empty: look for it
-    std::optional<int> monitor; ///< that is connected to the box, from 1; nothing: the primary one
+    std::string port;    ///< of the box; empty: look for it
+    std::string monitor; ///< that is connected to the box, see MonitorWish; empty: the only one
     bool json = false;
 };
 /// Draws known lines and has the display box send back what it received.

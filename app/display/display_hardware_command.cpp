@@ -104,11 +104,11 @@ int run_display_hardware_check(const DisplayHardwareOptions& options) {
                                             options.port.empty() ? std::nullopt : std::optional(options.port),
                                             serial_port_opener(clock), clock, settings);
     const std::vector<MonitorInfo> monitors = list_monitors();
-    const MonitorInfo& monitor = choose_monitor(monitors, {.number = options.monitor});
+    const MonitorInfo& monitor = choose_monitor(monitors, {.which = options.monitor});
     OpenDisplay display({.context = ContextKind::window,
                          .size_px = monitor.size_px,
                          .title = "overt display verify",
-                         .monitor = monitor.number});
+                         .monitor = std::to_string(monitor.number)});
     display.start();
     const std::vector<DrawnLine> lines = lines_for(monitor.size_px);
 

@@ -84,7 +84,7 @@ DisplayRequest display_of(const PatchDisplayRequest& request) {
             .bits_per_channel = row_of(display.output).framebuffer_bits,
             .virtual_time = request.virtual_time,
             .windowed = request.windowed,
-            .monitor = request.monitor,
+            .monitor = request.monitor.empty() ? display.monitor : request.monitor,
             .headless = request.virtual_time};
 }
 

@@ -14,9 +14,9 @@ struct PatchDisplayRequest {
     ContextChoice context;
     bool virtual_time = false;
     bool windowed = false;
-    std::optional<int> monitor; ///< from 1; see WindowRequest
-    double size_deg = 0.0;      ///< side of the square patch; 0: the whole screen
-    double surround = 0.0;      ///< signal around it
+    std::string monitor;   ///< see WindowRequest
+    double size_deg = 0.0; ///< side of the square patch; 0: the whole screen
+    double surround = 0.0; ///< signal around it
 };
 
 /// The whole way to the display without its last curve: what is shown is the signal itself.

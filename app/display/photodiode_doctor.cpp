@@ -54,7 +54,7 @@ struct SquareScreen {
     DisplaySettings display;
     ScreenGeometry geometry; ///< whose image is the square
     bool is_of_protocol = false;
-    std::optional<int> monitor; ///< nothing: by the protocol's size
+    std::string monitor; ///< see WindowRequest
 };
 
 /// The screen and the mode of a protocol, and the place of its square; else a screen of 8 bits as it is.
@@ -65,6 +65,8 @@ SquareScreen square_screen(const DoctorOptions& options, bool headless) {
     screen.monitor = options.monitor;
     if (screen.is_of_protocol) {
         screen.display = read_protocol_or_report(options.protocol).display;
+        if (screen.monitor.empty())
+            screen.monitor = screen.display.monitor;
     } else {
         DisplaySettings& display = screen.display;
         display.output = OutputMode::native_8bit;
@@ -72,7 +74,7 @@ SquareScreen square_screen(const DoctorOptions& options, bool headless) {
         glm::ivec2 size_px = window_px;
         if (!headless) {
             const MonitorInfo monitor = chosen_monitor(options);
-            screen.monitor = monitor.number;
+            screen.monitor = std::to_string(monitor.number);
             display.refresh_hz = monitor.refresh_hz > 0 ? monitor.refresh_hz : 60.0;
             size_px = options.windowed ? window_px : monitor.size_px;
         }

@@ -55,7 +55,7 @@ nlohmann::ordered_json json_of(const TimingFacts& facts, const std::vector<Scree
 
 MonitorInfo chosen_monitor(const DoctorOptions& options) {
     const std::vector<MonitorInfo> monitors = list_monitors();
-    return choose_monitor(monitors, {.number = options.monitor});
+    return choose_monitor(monitors, {.which = options.monitor});
 }
 
 std::string_view name_of(ScreenFinding::Weight weight) {
@@ -84,7 +84,7 @@ ExaminedScreen measure_screen(const DoctorOptions& options) {
                          .title = "overt doctor",
                          .refresh_hz = nominal_hz,
                          .windowed = options.windowed,
-                         .monitor = monitor.number,
+                         .monitor = std::to_string(monitor.number),
                          .finds_blanks = true});
     display.start();
     ProgressBar bar;

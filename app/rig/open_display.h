@@ -21,8 +21,8 @@ struct DisplayRequest {
     int bits_per_channel = 8;
     bool virtual_time = false; ///< nothing is lit for as long as it should be: no window takes a screen over
     bool windowed = false;     ///< a window instead of the whole screen
-    std::optional<int> monitor = {}; ///< see WindowRequest
-    bool headless = false;           ///< no window, unless `context` says so
+    std::string monitor = {};  ///< see WindowRequest
+    bool headless = false;     ///< no window, unless `context` says so
     /// In a window in real time, times are those of the best source there is; else of the swaps.
     bool finds_blanks = false;
 };

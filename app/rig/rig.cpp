@@ -38,7 +38,7 @@ DisplayRequest display_of(const Protocol& protocol, const RigRequest& request) {
             .bits_per_channel = row_of(display.output).framebuffer_bits,
             .virtual_time = request.virtual_time,
             .windowed = request.windowed,
-            .monitor = request.monitor,
+            .monitor = request.monitor.empty() ? display.monitor : request.monitor,
             .finds_blanks = true};
 }
 

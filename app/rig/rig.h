@@ -36,7 +36,7 @@ struct RigRequest {
     bool simulate_observer = false; ///< else the observer answers at the window's keyboard
     std::uint64_t seed = 0;         ///< of everything simulated
     MapTime maps = MapTime::automatic;
-    std::optional<int> monitor = {};             ///< from 1; see WindowRequest
+    std::string monitor = {};                    ///< see WindowRequest
     std::vector<std::string> operator_keys = {}; ///< of a simulated operator, see read_operator_key()
     bool draws_stimuli = true; ///< without: see UndrawnFrames; for a display that only keeps time
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -40,7 +41,7 @@ VideoCheck check_from(const Json& json) {
     const auto text = [&](const char* name) { return json.at(name).get<std::string>(); };
     const auto number = [&](const char* name) { return json.at(name).get<int>(); };
     return {{text("product"), text("serial_number"), text("graphics"), text("driver"), text("output"),
-             number("width_px"), number("height_px"), number("refresh_hz")},
+             number("width_px"), number("height_px"), json.at("refresh_hz").get<double>()},
             text("checked_utc"),
             json.at("passed").get<bool>(),
             text("verdict")};
@@ -91,8 +92,9 @@ std::string what_is_missing(const std::vector<VideoCheck>& checks, const VideoPa
 } // namespace
 
 VideoPath video_path(const BoxIdentity& box, const GlDescription& graphics, const MonitorInfo& monitor) {
-    return {box.product,  box.serial_number, graphics.renderer, graphics.version,
-            monitor.name, monitor.size_px.x, monitor.size_px.y, monitor.refresh_hz};
+    return {
+        box.product,  box.serial_number, graphics.renderer, graphics.version,
+        monitor.name, monitor.size_px.x, monitor.size_px.y, std::round(100.0 * monitor.refresh_hz) / 100.0};
 }
 
 std::filesystem::path video_check_file() { return state_folder() / "video_checks.json"; }

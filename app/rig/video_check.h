@@ -17,7 +17,8 @@ struct VideoPath {
     std::string product, serial_number; ///< of the box
     std::string graphics, driver;       ///< renderer and version as OpenGL names them
     std::string output;                 ///< of the graphics card, such as "DP-1"
-    int width_px = 0, height_px = 0, refresh_hz = 0;
+    int width_px = 0, height_px = 0;
+    double refresh_hz = 0.0; ///< of the mode, to 0.01 Hz
     bool operator==(const VideoPath&) const = default;
 };
 

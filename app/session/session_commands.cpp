@@ -94,11 +94,12 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
         "and says so");
     command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
     command
-        .add_option("--monitor", options.monitor,
-                    "The screen to take, as `overt doctor` numbers them (default: the first that has the "
-                    "protocol's resolution)")
-        ->type_name("N")
-        ->check(above_zero());
+        .add_option(
+            "--monitor", options.monitor,
+            "The screen to take: its number as `overt doctor` lists them, or the name of its output or "
+            "of its EDID (default: [display] monitor, or the only one with the protocol's resolution "
+            "and rate)")
+        ->type_name("WHICH");
     command.add_option("--sessions", options.sessions, "Folder for sessions")
         ->type_name("DIR")
         ->capture_default_str();

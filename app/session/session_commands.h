@@ -51,7 +51,7 @@ struct RunOptions {
     std::filesystem::path print_session_to;
     std::optional<std::filesystem::path>
         operator_socket;          ///< for `overt watch`; empty: in the session's folder
-    std::optional<int> monitor;   ///< from 1
+    std::string monitor;          ///< see MonitorWish; empty: the protocol's
     double refresh_check_s = 5.0; ///< measure a real screen's refresh for so long; 0: not at all
     std::optional<BakeQuality>
         quality; ///< that the frames have at least; nothing: the protocol's for this observer

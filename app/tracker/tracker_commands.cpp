@@ -57,9 +57,11 @@ void add_calibrate(CLI::App& app, ChosenCommand& chosen) {
     command.add_flag("--virtual-time", options.virtual_time,
                      "Run as fast as the machine can, on a clock of its own");
     command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
-    command.add_option("--monitor", options.monitor, "The screen to take, as `overt doctor` numbers them")
-        ->type_name("N")
-        ->check(above_zero());
+    command
+        .add_option(
+            "--monitor", options.monitor,
+            "The screen to take: its number as `overt doctor` lists them, or the name of its output or EDID")
+        ->type_name("WHICH");
     command.add_option("--picture", options.picture, "Draw the validation: measured gaze beside the targets")
         ->type_name("FILE.png");
     add_context_option(command, options.context);

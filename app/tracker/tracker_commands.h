@@ -36,7 +36,7 @@ struct TrackerCalibrateOptions {
     bool by_overt = false; ///< by the program, on top of what the tracker measures
     ContextChoice context;
     bool virtual_time = false, windowed = false;
-    std::optional<int> monitor;                     ///< from 1
+    std::string monitor;                            ///< see MonitorWish; empty: the protocol's
     std::optional<std::uint64_t> simulate_observer; ///< its seed
     std::filesystem::path picture;                  ///< of the validation, PNG; empty: none
 };

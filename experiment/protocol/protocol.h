@@ -78,6 +78,9 @@ struct DisplaySettings {
     OutputMode output = OutputMode::color_plus_plus;
     Dithering dither = Dithering::none;       ///< of the native modes
     PairFilter pair_filter = PairFilter::box; ///< of the modes that join pixels in pairs
+    /// Which of several monitors: the name of its output ("DP-1") or of its EDID, or its number from 1.
+    /// Empty: the only one of this size and rate.
+    std::string monitor;
     /// The box that reads mono++, color++ and bits++: "auto", "none", or its serial port.
     std::string box = "auto";
     /// So old may the proof be that the box receives the bytes that are drawn; 0: none is asked for.

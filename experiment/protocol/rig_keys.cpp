@@ -85,6 +85,15 @@ Section display() {
                   .explanation = "How pixels become the one colour of a pair, in linear light: the mean of "
                                  "the two, or a Lanczos filter over twelve."},
                  &D::pair_filter},
+                {{.name = "monitor",
+                  .explanation =
+                      "Which of several monitors the observer sees: the name of its output, such as `DP-1`, "
+                      "or "
+                      "the one in its EDID, such as `Display++`, or its number; `overt doctor` lists all "
+                      "three. "
+                      "Without it, the only one of this size, or of this size and rate. A session is refused "
+                      "where that leaves none or several. `--monitor` goes before it."},
+                 &D::monitor},
                 {{.name = "box",
                   .explanation =
                       "The Display++ or Bits# that shows `mono++`, `color++` and `bits++`: `auto` looks for "

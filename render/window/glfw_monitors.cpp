@@ -10,6 +10,7 @@
 
 #include "experiment/base/error.h"
 #include "render/window/monitor_choice.h"
+#include "render/window/screen_output.h"
 
 namespace overt {
 namespace {
@@ -77,17 +78,23 @@ MonitorInfo info_of(GLFWmonitor* monitor, int number) {
         info.size_px = {mode->width, mode->height};
         info.refresh_hz = std::max(0, mode->refreshRate);
     }
+    const ScreenOutput output = examine_output(native_monitor_of(monitor));
+    info.edid_name = output.edid_name;
+    if (output.refresh_hz) {
+        info.refresh_hz = *output.refresh_hz;
+        info.rate_is_exact = true;
+    }
     glfwGetMonitorPos(monitor, &info.position_px.x, &info.position_px.y);
     glfwGetMonitorPhysicalSize(monitor, &info.size_mm.x, &info.size_mm.y);
     glfwGetMonitorContentScale(monitor, &info.content_scale.x, &info.content_scale.y);
     return info;
 }
 
-GLFWmonitor* monitor_numbered(int number) { return monitor_as_wished({.number = number}); }
+GLFWmonitor* monitor_numbered(int number) { return monitor_as_wished({.which = std::to_string(number)}); }
 
 GLFWmonitor* monitor_to_fill(const WindowRequest& request) {
     return monitor_as_wished(
-        {.number = request.monitor, .size_px = request.size_px, .refresh_hz = request.refresh_hz});
+        {.which = request.monitor, .size_px = request.size_px, .refresh_hz = request.refresh_hz});
 }
 
 GLFWmonitor* monitor_under(GLFWwindow* window) {
@@ -132,11 +139,17 @@ GammaRamp gamma_ramp_of(int monitor) {
     return ramp_of(monitor_numbered(monitor));
 }
 
+std::string describe_rate(const MonitorInfo& monitor) {
+    if (monitor.refresh_hz <= 0.0)
+        return "an unknown rate";
+    return fmt::format(monitor.rate_is_exact ? "{:.2f} Hz" : "{:.0f} Hz", monitor.refresh_hz);
+}
+
 std::string describe(const MonitorInfo& monitor) {
-    return fmt::format("monitor {} ({}, {} x {} px at {})", monitor.number,
-                       monitor.name.empty() ? "no name" : monitor.name, monitor.size_px.x, monitor.size_px.y,
-                       monitor.refresh_hz > 0 ? fmt::format("{} Hz", monitor.refresh_hz)
-                                              : std::string("an unknown rate"));
+    return fmt::format("monitor {} ({}{}, {} x {} px at {})", monitor.number,
+                       monitor.name.empty() ? "no name" : monitor.name,
+                       monitor.edid_name.empty() ? "" : ", " + monitor.edid_name, monitor.size_px.x,
+                       monitor.size_px.y, describe_rate(monitor));
 }
 
 } // namespace overt

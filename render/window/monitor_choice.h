@@ -4,16 +4,19 @@
 
 #include <optional>
 #include <span>
+#include <string>
 
 #include "render/window/window_context.h"
 
 namespace overt {
 
 struct MonitorWish {
-    std::optional<int> number = {};         ///< in list_monitors(), from 1: this one, if it has the size
+    /// This one, if it has the size: by its number in list_monitors(), from 1, or by the name of its output
+    /// or of its EDID. Empty: by its size, then by its rate.
+    std::string which = {};
     std::optional<glm::ivec2> size_px = {}; ///< that its mode must have now
-    /// Tells monitors of one size apart. Window systems name whole rates (60 for 59.94), so it is met within
-    /// 1 Hz.
+    /// Tells monitors of one size apart: the one that has it within 0.05 % (59.94 and 60 Hz lie 0.1 % apart),
+    /// or else within 0.5 %. Where the window system names whole rates only, within 1 Hz.
     std::optional<double> refresh_hz = {};
 };
 

@@ -23,6 +23,10 @@ struct NativeWindow {
     void (*(*function)(const char* name))() = nullptr;
 };
 
+/// The server, its root window in the place of a window, and the monitor's output; nothing of a context. Main
+/// thread only.
+NativeWindow native_monitor_of(GLFWmonitor* monitor);
+
 /// Main thread only; `monitor` may be null.
 NativeWindow native_window_of(GLFWwindow* window, GLFWmonitor* monitor);
 

@@ -13,7 +13,8 @@ namespace {
 using Weight = ScreenFinding::Weight;
 
 /// GLFW rounds rates to whole hertz: 59.94 Hz may be 59 or 60.
-constexpr double rate_tolerance_hz = 1.0;
+constexpr double whole_rate_tolerance_hz = 1.0;
+constexpr double rate_tolerance = 0.005; ///< as that of the rate that is measured before a session
 
 /// The value an entry of 16 bits stands for in a table of so many entries.
 std::size_t level_of(std::uint16_t entry, std::size_t entries) {
@@ -103,16 +104,18 @@ ScreenFinding scaling_finding(const ScreenFacts& facts) {
 }
 
 ScreenFinding rate_finding(const ScreenFacts& facts, const DisplaySettings& display) {
-    const int has = facts.monitor.refresh_hz;
-    if (has == 0)
+    const double has = facts.monitor.refresh_hz;
+    if (has <= 0.0)
         return {Weight::risk, "refresh rate",
                 fmt::format("the screen does not say its own; the protocol says {} Hz", display.refresh_hz)};
-    if (std::abs(has - display.refresh_hz) <= rate_tolerance_hz)
-        return {Weight::good, "refresh rate", fmt::format("{} Hz", has)};
+    const double tolerance_hz =
+        facts.monitor.rate_is_exact ? rate_tolerance * display.refresh_hz : whole_rate_tolerance_hz;
+    if (std::abs(has - display.refresh_hz) <= tolerance_hz)
+        return {Weight::good, "refresh rate", describe_rate(facts.monitor)};
     return {Weight::refusal, "refresh rate",
-            fmt::format("the screen runs at {} Hz, the protocol says {} Hz: frames would be lit for another "
+            fmt::format("the screen runs at {}, the protocol says {} Hz: frames would be lit for another "
                         "time; set its mode, or correct [display] refresh_hz",
-                        has, display.refresh_hz)};
+                        describe_rate(facts.monitor), display.refresh_hz)};
 }
 
 ScreenFinding system_finding(const ScreenFacts& facts) {

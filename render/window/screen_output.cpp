@@ -1,28 +1,45 @@
 #include "render/window/screen_output.h"
 
+#include <algorithm>
 #include <cstring>
 #include <string_view>
+#include <vector>
 
 #include <xcb/randr.h>
 
+#include "render/window/edid.h"
 #include "render/window/xcb_reply.h"
 
 namespace overt {
 namespace {
 
-/// The first 32 bits of a property of an output.
-std::optional<std::uint32_t> property_of(xcb_connection_t* link, std::uint32_t output,
-                                         std::string_view name) {
+/// The first bytes of a property of an output whose items have so many bits; empty if there is no such.
+std::vector<std::byte> bytes_of_property(xcb_connection_t* link, std::uint32_t output, std::string_view name,
+                                         int bits, std::size_t byte_count) {
     const auto atom = owned(xcb_intern_atom_reply(
         link, xcb_intern_atom(link, 1, static_cast<std::uint16_t>(name.size()), name.data()), nullptr));
     if (!atom || atom->atom == XCB_ATOM_NONE)
-        return std::nullopt;
+        return {};
     const auto value = owned(xcb_randr_get_output_property_reply(
-        link, xcb_randr_get_output_property(link, output, atom->atom, XCB_ATOM_ANY, 0, 1, 0, 0), nullptr));
-    if (!value || value->format != 32 || value->num_items < 1)
-        return std::nullopt;
+        link,
+        xcb_randr_get_output_property(link, output, atom->atom, XCB_ATOM_ANY, 0,
+                                      static_cast<std::uint32_t>(byte_count / 4), 0, 0),
+        nullptr));
+    if (!value || value->format != bits)
+        return {};
+    const auto* const data =
+        reinterpret_cast<const std::byte*>(xcb_randr_get_output_property_data(value.get()));
+    const auto length = static_cast<std::size_t>(xcb_randr_get_output_property_data_length(value.get()));
+    return {data, data + std::min(length, byte_count)};
+}
+
+std::optional<std::uint32_t> number_of_property(xcb_connection_t* link, std::uint32_t output,
+                                                std::string_view name) {
     std::uint32_t number = 0;
-    std::memcpy(&number, xcb_randr_get_output_property_data(value.get()), sizeof number);
+    const std::vector<std::byte> bytes = bytes_of_property(link, output, name, 32, sizeof number);
+    if (bytes.size() < sizeof number)
+        return std::nullopt;
+    std::memcpy(&number, bytes.data(), sizeof number);
     return number;
 }
 
@@ -91,8 +108,10 @@ ScreenOutput examine_output(const NativeWindow& window) {
     owned(xcb_randr_query_version_reply(link.get(), xcb_randr_query_version(link.get(), 1, 3), nullptr));
     output.refresh_hz = rate_of_crtc(link.get(), window);
     output.neighbours = neighbours_of(link.get(), window);
-    output.connector = property_of(link.get(), window.randr_output, "CONNECTOR_ID");
-    if (const auto capable = property_of(link.get(), window.randr_output, "vrr_capable"))
+    output.edid_name =
+        product_name_of(bytes_of_property(link.get(), window.randr_output, "EDID", 8, edid_block_bytes));
+    output.connector = number_of_property(link.get(), window.randr_output, "CONNECTOR_ID");
+    if (const auto capable = number_of_property(link.get(), window.randr_output, "vrr_capable"))
         output.may_vary_its_refresh = *capable != 0;
     return output;
 }

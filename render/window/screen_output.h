@@ -13,6 +13,7 @@ namespace overt {
 /// What the server does not say is empty.
 struct ScreenOutput {
     std::optional<double> refresh_hz;         ///< of the mode, from its pixel clock and totals
+    std::string edid_name;                    ///< the monitor's own, from property EDID
     std::optional<std::uint32_t> connector;   ///< the kernel's number of it (property CONNECTOR_ID)
     std::optional<bool> may_vary_its_refresh; ///< property vrr_capable: the screen waits for late pictures
     /// The outputs of the same X screen that show something with a refresh of their own: "DP-2".

@@ -21,10 +21,9 @@ struct WindowRequest {
     bool fullscreen = false; ///< on the monitor whose resolution is size_px; throws if there is no single one
     bool visible = true;
     int bits_per_channel = 8; ///< of the framebuffer, 8 or 10; what came of it is bits_per_channel()
-    /// By its number in list_monitors(), from 1: a whole screen takes this one, a window stands in its top
-    /// left corner. Left out: the only one of that resolution, see choose_monitor(); wherever the desktop
-    /// puts a window.
-    std::optional<int> monitor = {};
+    /// See MonitorWish::which: a whole screen takes this one, a window stands in its top left corner. Empty:
+    /// the only one of that resolution and rate; wherever the desktop puts a window.
+    std::string monitor = {};
     /// Tells monitors of one resolution apart. The window asks for no other rate than the monitor has now.
     std::optional<double> refresh_hz = {};
 };
@@ -67,19 +66,24 @@ struct WindowKeyPress {
 
 /// A screen as the window system knows it.
 struct MonitorInfo {
-    int number = 1; ///< the first is the primary one
-    std::string name;
-    glm::ivec2 size_px{0};         ///< of the mode it shows now
-    glm::ivec2 position_px{0};     ///< of its top left corner on the desktop
-    int refresh_hz = 0;            ///< nominal, whole; 0 if it does not say
-    glm::ivec2 size_mm{0};         ///< by its own word, often wrong; 0 if it does not say
+    int number = 1;             ///< the first is the primary one
+    std::string name;           ///< of the output that it is connected to, such as "DP-1"; under X11 RandR's
+    std::string edid_name;      ///< its own, as its EDID has it ("Display++"); empty if that cannot be read
+    glm::ivec2 size_px{0};      ///< of the mode it shows now
+    glm::ivec2 position_px{0};  ///< of its top left corner on the desktop
+    double refresh_hz = 0.0;    ///< of that mode; 0 if it does not say
+    bool rate_is_exact = false; ///< from the mode's pixel clock and totals, not a whole number
+    glm::ivec2 size_mm{0};      ///< by its own word, often wrong; 0 if it does not say
     glm::vec2 content_scale{1.0f}; ///< by which the desktop enlarges what it draws
 };
 
 /// All of them. Throws GraphicsError if there is no window system. Main thread only.
 std::vector<MonitorInfo> list_monitors();
 
-/// "monitor 2 (DP-1, 1920 x 1080 px at 120 Hz)".
+/// "119.98 Hz", or "120 Hz" where only a whole rate is known, or "an unknown rate".
+std::string describe_rate(const MonitorInfo& monitor);
+
+/// "monitor 2 (DP-1, Display++, 1920 x 1080 px at 119.98 Hz)".
 std::string describe(const MonitorInfo& monitor);
 
 /// The system's table from a channel's value to what is sent, in 16 bits; empty if it cannot be read.

@@ -62,7 +62,8 @@ TEST_CASE("an operator's monitor on the same X screen is seen, until it is switc
     if (!desk)
         OVERT_SKIP("there is no Xorg with a dummy card here");
     const auto neighbours_at = [](int monitor) {
-        WindowContext window({.size_px = {1920, 1080}, .fullscreen = true, .monitor = monitor});
+        WindowContext window(
+            {.size_px = {1920, 1080}, .fullscreen = true, .monitor = std::to_string(monitor)});
         return examine_output(window.native()).neighbours;
     };
     CHECK(neighbours_at(1) == std::vector<std::string>{"DUMMY1"});

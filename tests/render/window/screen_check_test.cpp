@@ -152,6 +152,12 @@ TEST_CASE("59.94 Hz is 60 Hz to a screen that counts whole hertz", "[unit]") {
     }
     facts.monitor.refresh_hz = 75;
     CHECK(weight_of(facts, "refresh rate", display) == Weight::refusal);
+    // An exact rate counts as exactly as the one that is measured before a session.
+    facts.monitor.rate_is_exact = true;
+    facts.monitor.refresh_hz = 60;
+    CHECK(weight_of(facts, "refresh rate", display) == Weight::good);
+    facts.monitor.refresh_hz = 59.5;
+    CHECK(weight_of(facts, "refresh rate", display) == Weight::refusal);
 }
 
 TEST_CASE("the desktop's scale is advice under X11 and a resampling under Wayland", "[unit]") {

@@ -5,11 +5,10 @@
 #include <fstream>
 
 #include <catch2/catch.hpp>
-#include <xcb/randr.h>
 
 #include "render/window/program_answer.h"
 #include "render/window/screen_check.h"
-#include "render/window/xcb_reply.h"
+#include "tests/support/output_properties.h"
 #include "tests/support/skip.h"
 #include "tests/support/two_monitors.h"
 
@@ -22,55 +21,6 @@ using Weight = ScreenFinding::Weight;
 namespace {
 
 constexpr OutputMode packed = OutputMode::color_plus_plus;
-
-/// What a graphics driver does when it begins: gives an output a property.
-class PropertyWriter {
-  public:
-    explicit PropertyWriter(const std::string& output) {
-        REQUIRE_FALSE(xcb_connection_has_error(link_.get()));
-        owned(
-            xcb_randr_query_version_reply(link_.get(), xcb_randr_query_version(link_.get(), 1, 3), nullptr));
-        const auto root = xcb_setup_roots_iterator(xcb_get_setup(link_.get())).data->root;
-        const auto resources = owned(xcb_randr_get_screen_resources_reply(
-            link_.get(), xcb_randr_get_screen_resources(link_.get(), root), nullptr));
-        const auto* const outputs = xcb_randr_get_screen_resources_outputs(resources.get());
-        for (int i = 0; i < xcb_randr_get_screen_resources_outputs_length(resources.get()); ++i) {
-            const auto info = owned(xcb_randr_get_output_info_reply(
-                link_.get(), xcb_randr_get_output_info(link_.get(), outputs[i], XCB_CURRENT_TIME), nullptr));
-            if (std::string(reinterpret_cast<const char*>(xcb_randr_get_output_info_name(info.get())),
-                            info->name_len) == output)
-                output_ = outputs[i];
-        }
-        REQUIRE(output_ != 0);
-    }
-    void put_word(const std::string& name, const std::string& word) {
-        const xcb_atom_t value = atom(word);
-        put(name, XCB_ATOM_ATOM, &value, 1);
-    }
-    void put_numbers(const std::string& name, const std::vector<std::int32_t>& numbers) {
-        put(name, XCB_ATOM_INTEGER, numbers.data(), numbers.size());
-    }
-
-  private:
-    xcb_atom_t atom(const std::string& name) {
-        return owned(
-                   xcb_intern_atom_reply(
-                       link_.get(),
-                       xcb_intern_atom(link_.get(), 0, static_cast<std::uint16_t>(name.size()), name.data()),
-                       nullptr))
-            ->atom;
-    }
-    void put(const std::string& name, xcb_atom_t type, const void* data, std::size_t count) {
-        const auto cookie = xcb_randr_change_output_property_checked(link_.get(), output_, atom(name), type,
-                                                                     32, XCB_PROP_MODE_REPLACE,
-                                                                     static_cast<std::uint32_t>(count), data);
-        const auto error = owned(xcb_request_check(link_.get(), cookie));
-        REQUIRE_FALSE(error);
-    }
-
-    XcbLink link_ = link_to(nullptr);
-    xcb_randr_output_t output_ = 0;
-};
 
 std::string value_of(const std::vector<WireSetting>& settings, const std::string& name) {
     const auto found = std::ranges::find(settings, name, &WireSetting::name);
@@ -96,7 +46,7 @@ TEST_CASE("the settings of an output's driver are read from the server, each in 
     CHECK(value_of(read_wire_settings("DUMMY1"), "max bpc") == "(none)");
     CHECK(read_wire_settings("DP-7").empty());
 
-    PropertyWriter driver("DUMMY1");
+    OutputProperties driver("DUMMY1");
     driver.put_numbers("max bpc", {12});
     driver.put_word("Broadcast RGB", "Limited 16:235");
     const std::vector<std::int32_t> identity{0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1};
