@@ -18,6 +18,8 @@ std::string_view name_of(VblankSource source) {
         return "EGL_CHROMIUM_sync_control";
     case VblankSource::drm_vblank:
         return "DRM, the count";
+    case VblankSource::glx_video_sync:
+        return "GLX_SGI_video_sync";
     }
     return "unknown";
 }

@@ -24,6 +24,7 @@ enum class VblankSource : std::uint8_t {
     present_count,    ///< the same, which only counts: the first refresh after the swap
     egl_sync_control, ///< EGL_CHROMIUM_sync_control: the refresh the swap was lit at
     drm_vblank,       ///< the kernel's count for the screen: the first refresh after the swap
+    glx_video_sync,   ///< GLX_SGI_video_sync, which only counts: the first refresh after the swap
 };
 std::string_view name_of(VblankSource source);
 
@@ -52,8 +53,8 @@ struct FlipRecord {
     AnimationFrameIndex shown;
     PoseIndex pose;
     FlipReport report;
-    /// Refreshes that went by with the picture before since the one that this was for. The ledger says so while
-    /// it is written, and LedgerFit again where the source of the times counts none.
+    /// Refreshes that went by with the picture before since the one that this was for. The ledger says so
+    /// while it is written, and LedgerFit again where the source of the times counts none.
     int missed_refreshes = 0;
 };
 

@@ -43,10 +43,9 @@ void add_screens(std::vector<DoctorFinding>& lines) {
                              "observer's monitor an X screen of its own (docs/rig.md)"});
         for (const MonitorInfo& monitor : monitors) {
             const ScreenFacts facts = facts_at(monitor);
-            std::string finding =
-                fmt::format("{} x {} px at {}, from {}, {} on the desktop", monitor.size_px.x,
-                            monitor.size_px.y, describe_rate(monitor)
-                            : std::string("an unknown rate"), monitor.position_px.x, monitor.position_px.y);
+            std::string finding = fmt::format("{} x {} px at {}, from {}, {} on the desktop",
+                                              monitor.size_px.x, monitor.size_px.y, describe_rate(monitor),
+                                              monitor.position_px.x, monitor.position_px.y);
             lines.push_back({fmt::format("monitor {}, {}", monitor.number, monitor.name), finding});
             const bool changes = !facts.gamma_ramp.red.empty() && !is_identity(facts.gamma_ramp.red);
             lines.push_back({"  gamma table", describe(facts.gamma_ramp),

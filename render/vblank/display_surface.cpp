@@ -12,8 +12,18 @@ namespace {
 /// knows when the blank began to so much (module drm, timestamp_precision_usec).
 constexpr SessionDuration kernel_precision = std::chrono::microseconds(20);
 
+/// Of a thread that waits for a blank and reads the clock when it has woken up. An assumption: a machine that
+/// is busy wakes it later, which the measurement before a session shows as irregular refreshes.
+constexpr SessionDuration wake_up = std::chrono::milliseconds(1);
+
 /// Of a server that makes its vertical blanks with a timer of whole milliseconds.
 constexpr SessionDuration server_timer = std::chrono::milliseconds(1);
+
+SessionDuration uncertainty_of(const VblankChoice& vblanks) {
+    if (!vblanks.is_real)
+        return server_timer;
+    return vblanks.clock->source() == VblankSource::glx_video_sync ? wake_up : kernel_precision;
+}
 
 } // namespace
 
@@ -33,9 +43,8 @@ WindowDisplay::WindowDisplay(WindowContext& window, Clock& clock, double refresh
                              DisplayFaults faults, VblankChoice vblanks)
     : window_(&window), clock_(&clock), virtual_time_(virtual_time),
       virtual_refresh_(clock, refresh_hz, std::move(faults)), blanks_are_real_(vblanks.is_real),
-      refused_sources_(std::move(vblanks.refused)),
-      flips_(window, clock, refresh_hz, std::move(vblanks.clock),
-             vblanks.is_real ? kernel_precision : server_timer),
+      refused_sources_(std::move(vblanks.refused)), uncertainty_(uncertainty_of(vblanks)),
+      flips_(window, clock, refresh_hz, std::move(vblanks.clock), uncertainty_),
       watch_(virtual_time ? nullptr : SwapWatch::of(window.native())) {
     window.set_swap_interval(virtual_time ? 0 : 1);
 }

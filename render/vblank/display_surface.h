@@ -92,6 +92,7 @@ class WindowDisplay final : public DisplaySurface {
     VirtualRefresh virtual_refresh_;
     bool blanks_are_real_;
     std::vector<std::string> refused_sources_;
+    SessionDuration uncertainty_; ///< of a source's stamps
     WindowFlips flips_;
     std::unique_ptr<SwapWatch> watch_; ///< in real time, where the server tells it
 };

@@ -84,18 +84,25 @@ VblankChoice choose_vblank_clock(const std::vector<VblankCandidate>& candidates,
     VblankChoice choice;
     for (const VblankCandidate& candidate : candidates) {
         std::string reason;
+        std::unique_ptr<VblankClock> source;
         try {
-            choice.clock = candidate.open();
-            reason = why_unfit(*choice.clock, clock);
+            source = candidate.open();
+            reason = why_unfit(*source, clock);
         } catch (const Error& error) {
             reason = error.what();
         }
-        if (reason.empty()) {
-            choice.is_real = stamps_stand_still(*choice.clock, clock);
+        if (reason.empty() && stamps_stand_still(*source, clock)) {
+            if (choice.clock)
+                choice.refused.push_back(fmt::format("{}: not a real one", name_of(choice.clock->source())));
+            choice.clock = std::move(source);
+            choice.is_real = true;
             return choice;
         }
-        choice.clock.reset();
-        choice.refused.push_back(fmt::format("{}: {}", name_of(candidate.source), reason));
+        if (reason.empty() && !choice.clock)
+            choice.clock = std::move(source);
+        else
+            choice.refused.push_back(
+                fmt::format("{}: {}", name_of(candidate.source), reason.empty() ? "not a real one" : reason));
     }
     return choice;
 }
@@ -106,6 +113,7 @@ std::vector<VblankCandidate> vblank_candidates(const WindowContext& window, cons
         {VblankSource::glx_sync_control, [=, &clock] { return open_glx_sync_control(native, clock); }},
         {VblankSource::present_count, [=, &clock] { return open_x_present(native, clock); }},
         {VblankSource::egl_sync_control, [=, &clock] { return open_egl_sync_control(native, clock); }},
+        {VblankSource::glx_video_sync, [=, &clock] { return open_glx_video_sync(native, clock); }},
         {VblankSource::drm_vblank, [=, &clock] { return open_drm_vblank(native, clock); }},
     };
 }

@@ -85,7 +85,7 @@ struct VblankCandidate {
     std::function<std::unique_ptr<VblankClock>()> open;
 };
 
-/// The first that fits, and why those before it do not.
+/// The first that fits and is a real one, or else the first that fits; and why others do not.
 struct VblankChoice {
     std::unique_ptr<VblankClock> clock; ///< null: nobody knows; flips are stamped when their swap returns
     bool is_real = false;               ///< see stamps_stand_still()

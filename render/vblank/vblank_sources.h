@@ -12,7 +12,11 @@ namespace overt {
 /// GLX_OML_sync_control: the server's count and time, and which refresh a swap was lit at.
 std::unique_ptr<VblankClock> open_glx_sync_control(const NativeWindow& window, const Clock& clock);
 
-/// EGL_CHROMIUM_sync_control: the same where the context is EGL's.
+/// GLX_SGI_video_sync: counts refreshes, on a thread that waits for each. What NVIDIA's own driver offers in
+/// the place of GLX_OML_sync_control.
+std::unique_ptr<VblankClock> open_glx_video_sync(const NativeWindow& window, const Clock& clock);
+
+/// EGL_CHROMIUM_sync_control: as GLX_OML_sync_control where the context is EGL's.
 std::unique_ptr<VblankClock> open_egl_sync_control(const NativeWindow& window, const Clock& clock);
 
 /// The Present extension of X: counts the refreshes of the window's screen. A driver that shows swaps through

@@ -30,11 +30,23 @@ void WindowFlips::begin() noexcept {
     before_ = source_->last();
 }
 
+void WindowFlips::draw_a_pixel() const noexcept {
+    const GladGLContext& gl = window_->gl();
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    gl.Enable(GL_SCISSOR_TEST);
+    gl.Scissor(0, 0, 1, 1);
+    gl.ClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+    gl.Clear(GL_COLOR_BUFFER_BIT);
+    gl.Disable(GL_SCISSOR_TEST);
+}
+
 FlipReport WindowFlips::swap(SessionTime requested) noexcept {
     window_->swap_buffers();
     FlipReport report;
     report.requested = requested;
     report.swapped = clock_->now();
+    if (!before_)
+        draw_a_pixel();
     window_->gl().Finish();
     const SessionTime returned = clock_->now();
     const std::optional<VblankStamp> lit =
@@ -52,8 +64,7 @@ FlipReport WindowFlips::swap(SessionTime requested) noexcept {
     is_silent_ = true;
     report.vertical_blank = returned;
     report.source = VblankSource::swap_return;
-    // The blank lies between the two.
-    report.uncertainty = returned - report.swapped;
+    report.uncertainty = std::max(returned - report.swapped, refresh_);
     count_.number(report, std::nullopt);
     return report;
 }

@@ -34,8 +34,8 @@ class WindowFlips {
     /// The references must outlive this; `source` may be null. `uncertainty`: of the source's stamps.
     WindowFlips(WindowContext& window, Clock& clock, double nominal_hz, std::unique_ptr<VblankClock> source,
                 SessionDuration uncertainty)
-        : window_(&window), clock_(&clock), count_(nominal_hz), source_(std::move(source)),
-          uncertainty_(uncertainty) {}
+        : window_(&window), clock_(&clock), refresh_(from_seconds(1.0 / nominal_hz)), count_(nominal_hz),
+          source_(std::move(source)), uncertainty_(uncertainty) {}
 
     /// Which source stamps now.
     VblankSource source() const noexcept {
@@ -46,12 +46,18 @@ class WindowFlips {
     void begin() noexcept;
 
     /// Swaps what has been drawn and waits for its refresh. A source that falls silent is given up for good,
-    /// from this very flip on.
+    /// from this very flip on. Without one a pixel is drawn into the next picture and waited for: drivers
+    /// give out the buffer for it when the swap is done, or a refresh later if they keep more than two; so
+    /// the blank is known to a refresh at best, and the report says no less. That pixel is never shown: each
+    /// picture covers the whole window.
     FlipReport swap(SessionTime requested) noexcept;
 
   private:
+    void draw_a_pixel() const noexcept;
+
     WindowContext* window_;
     Clock* clock_;
+    SessionDuration refresh_; ///< nominal
     FlipCount count_;
     std::unique_ptr<VblankClock> source_;
     SessionDuration uncertainty_;

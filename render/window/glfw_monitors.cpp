@@ -90,7 +90,7 @@ MonitorInfo info_of(GLFWmonitor* monitor, int number) {
     return info;
 }
 
-GLFWmonitor* monitor_numbered(int number) { return monitor_as_wished({.which = std::to_string(number)}); }
+GLFWmonitor* monitor_called(const std::string& which) { return monitor_as_wished({.which = which}); }
 
 GLFWmonitor* monitor_to_fill(const WindowRequest& request) {
     return monitor_as_wished(
@@ -136,13 +136,14 @@ std::vector<MonitorInfo> list_monitors() {
 
 GammaRamp gamma_ramp_of(int monitor) {
     const GlfwLibrary library;
-    return ramp_of(monitor_numbered(monitor));
+    return ramp_of(monitor_called(std::to_string(monitor)));
 }
 
 std::string describe_rate(const MonitorInfo& monitor) {
     if (monitor.refresh_hz <= 0.0)
         return "an unknown rate";
-    return fmt::format(monitor.rate_is_exact ? "{:.2f} Hz" : "{:.0f} Hz", monitor.refresh_hz);
+    return monitor.rate_is_exact ? fmt::format("{:.2f} Hz", monitor.refresh_hz)
+                                 : fmt::format("{:.0f} Hz", monitor.refresh_hz);
 }
 
 std::string describe(const MonitorInfo& monitor) {

@@ -28,8 +28,8 @@ std::vector<GLFWmonitor*> all_monitors();
 
 MonitorInfo info_of(GLFWmonitor* monitor, int number);
 
-/// Throws InputError that lists those that there are.
-GLFWmonitor* monitor_numbered(int number);
+/// See MonitorWish::which. Throws InputError that lists those that there are.
+GLFWmonitor* monitor_called(const std::string& which);
 
 /// The monitor that a whole screen is to fill, which must have the resolution already: a change of mode of
 /// our own might scale, and would have to be undone. Throws InputError if there is none, or no single one.

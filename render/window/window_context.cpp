@@ -122,7 +122,7 @@ WindowContext::WindowContext(const WindowRequest& request) : state_(std::make_un
     // chosen.
     const GLFWvidmode* const mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
     glfwWindowHint(GLFW_REFRESH_RATE, mode && mode->refreshRate > 0 ? mode->refreshRate : GLFW_DONT_CARE);
-    GLFWmonitor* const corner = request.monitor ? monitor_numbered(*request.monitor) : nullptr;
+    GLFWmonitor* const corner = request.monitor.empty() ? nullptr : monitor_called(request.monitor);
     // Put into its place before it is seen.
     if (corner && !request.fullscreen)
         glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);

@@ -108,14 +108,14 @@ bool is_identity(const xcb_render_transform_t& matrix) {
 }
 
 void add_crtc_settings(xcb_connection_t* link, xcb_randr_crtc_t crtc, std::vector<WireSetting>& settings) {
-    using Source = WireSetting::Source;
+    using enum WireSetting::Source;
     if (const auto info = owned(xcb_randr_get_crtc_info_reply(
             link, xcb_randr_get_crtc_info(link, crtc, XCB_CURRENT_TIME), nullptr)))
-        settings.push_back({"rotation", rotation_word(info->rotation), Source::randr_crtc});
+        settings.push_back({"rotation", rotation_word(info->rotation), randr_crtc});
     if (const auto transform = owned(
             xcb_randr_get_crtc_transform_reply(link, xcb_randr_get_crtc_transform(link, crtc), nullptr)))
-        settings.push_back({"transformation", is_identity(transform->current_transform) ? "none" : "another",
-                            Source::randr_crtc});
+        settings.push_back(
+            {"transformation", is_identity(transform->current_transform) ? "none" : "another", randr_crtc});
 }
 
 bool has_extension(xcb_connection_t* link, std::string_view name) {

@@ -51,7 +51,8 @@ RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHea
            "Where vertical_blank_s comes from",
            "",
            {{std::string(name_of(VblankSource::virtual_display)), "the program's own clock, exact"},
-            {std::string(name_of(VblankSource::swap_return)), "when the buffer swap returned"},
+            {std::string(name_of(VblankSource::swap_return)),
+             "no source: when the swap, and a pixel drawn after it, were done"},
             {std::string(name_of(VblankSource::glx_sync_control)),
              "GLX_OML_sync_control: the refresh at which the swap was lit"},
             {std::string(name_of(VblankSource::present_swap)),
@@ -61,7 +62,11 @@ RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHea
             {std::string(name_of(VblankSource::egl_sync_control)),
              "EGL_CHROMIUM_sync_control: the refresh at which the swap was lit"},
             {std::string(name_of(VblankSource::drm_vblank)),
-             "the kernel's count for the screen: the first refresh after the swap"}}},
+             "the kernel's count for the screen: the first refresh after the swap"},
+            {std::string(name_of(VblankSource::glx_video_sync)),
+             "GLX_SGI_video_sync, which only counts, stamped by a thread that waits for each: the first "
+             "refresh "
+             "after the swap"}}},
           [](auto& to, auto& row) { to.text(name_of(row.lit.report.source)); }},
          {{"missed",
            "Refreshes that went by with the old picture before this one; n/a: the session's timing is "

@@ -1,3 +1,5 @@
+#include <array>
+
 #include <catch2/catch.hpp>
 
 #include "devices/host/clocks.h"
@@ -76,6 +78,26 @@ TEST_CASE("the first source that fits is taken, and what was refused says why", 
     REQUIRE(choice.refused.size() == 2);
     CHECK(choice.refused[0] == "GLX_OML_sync_control: the server does not offer it");
     CHECK(choice.refused[1].find("clock is not the session's") != std::string::npos);
+
+    const auto timer = [&]() -> std::unique_ptr<VblankClock> {
+        auto source = std::make_unique<FakeVblanks>(clock);
+        source->stamps_are_of_asking = true;
+        source->hz = 60.0;
+        return source;
+    };
+    // A server's timer stands before a real one only where there is none.
+    const VblankChoice better =
+        choose_vblank_clock({{VblankSource::present_count, timer}, {VblankSource::drm_vblank, good}}, clock);
+    REQUIRE(better.clock);
+    CHECK(better.is_real);
+    CHECK(dynamic_cast<FakeVblanks&>(*better.clock).hz == 100.0);
+    REQUIRE(better.refused.size() == 1);
+    CHECK(better.refused[0].ends_with("not a real one"));
+    const VblankChoice worse = choose_vblank_clock(
+        {{VblankSource::present_count, timer}, {VblankSource::drm_vblank, absent}}, clock);
+    REQUIRE(worse.clock);
+    CHECK_FALSE(worse.is_real);
+    CHECK(worse.refused.size() == 1);
 
     const VblankChoice none = choose_vblank_clock({{VblankSource::glx_sync_control, absent}}, clock);
     CHECK_FALSE(none.clock);
@@ -172,6 +194,32 @@ TEST_CASE("on a server of X the Present extension counts the refreshes of a wind
         CHECK_FALSE(choice.is_real);
         CHECK_FALSE(choice.refused.empty());
     }
+}
+
+TEST_CASE("without a source the next picture's first pixel is waited for, and a time is good for a refresh",
+          "[gl]") {
+    const auto screen = VirtualScreen::start(320, 240, 24);
+    SteadyClock clock;
+    WindowContext window({{160, 120}, "no source"});
+    const GladGLContext& gl = window.gl();
+    constexpr double hz = 50.0;
+    WindowFlips flips(window, clock, hz, nullptr, {});
+    for (int i = 0; i < 3; ++i) {
+        flips.begin();
+        gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+        gl.ClearColor(1.0f, 1.0f, 1.0f, 1.0f);
+        gl.Clear(GL_COLOR_BUFFER_BIT);
+        const FlipReport report = flips.swap(clock.now());
+        CHECK(report.source == VblankSource::swap_return);
+        CHECK(report.uncertainty >= from_seconds(1.0 / hz));
+        std::array<std::uint8_t, 4> pixel{1, 1, 1, 1};
+        gl.BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+        gl.ReadBuffer(GL_BACK);
+        gl.ReadPixels(0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
+        CHECK(pixel[0] + pixel[1] + pixel[2] == 0);
+    }
+    // It is cut to that pixel for nothing else.
+    CHECK_FALSE(gl.IsEnabled(GL_SCISSOR_TEST));
 }
 
 TEST_CASE("a source of Present whose window goes falls silent, and flips go on by their swaps", "[gl]") {

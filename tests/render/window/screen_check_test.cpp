@@ -173,10 +173,10 @@ TEST_CASE("a window takes the monitor it is told to, and says what it stands on"
     unsetenv("WAYLAND_DISPLAY");
     CHECK(list_monitors().size() == 1);
     CHECK(list_monitors().front().size_px == glm::ivec2(640, 480));
-    CHECK_THROWS_AS(WindowContext({{640, 480}, "test", true, true, 8, 2}), InputError);
-    CHECK_THROWS_WITH(WindowContext({{320, 240}, "test", true, true, 8, 1}), Contains("640 x 480"));
+    CHECK_THROWS_AS(WindowContext({{640, 480}, "test", true, true, 8, "2"}), InputError);
+    CHECK_THROWS_WITH(WindowContext({{320, 240}, "test", true, true, 8, "1"}), Contains("640 x 480"));
     CHECK_THROWS_WITH(WindowContext({{320, 240}, "test", true}), Contains("640 x 480"));
-    WindowContext window({{640, 480}, "test", true, true, 8, 1});
+    WindowContext window({{640, 480}, "test", true, true, 8, "1"});
     const ScreenFacts facts = facts_of(window);
     CHECK(facts.is_fullscreen);
     CHECK(facts.system.is_x11);
