@@ -46,7 +46,9 @@ void add_screens(std::vector<DoctorFinding>& lines) {
             std::string finding = fmt::format("{} x {} px at {}, from {}, {} on the desktop",
                                               monitor.size_px.x, monitor.size_px.y, describe_rate(monitor),
                                               monitor.position_px.x, monitor.position_px.y);
-            lines.push_back({fmt::format("monitor {}, {}", monitor.number, monitor.name), finding});
+            lines.push_back({fmt::format("monitor {}, {}{}", monitor.number, monitor.name,
+                                         monitor.edid_name.empty() ? "" : ", " + monitor.edid_name),
+                             finding});
             const bool changes = !facts.gamma_ramp.red.empty() && !is_identity(facts.gamma_ramp.red);
             lines.push_back({"  gamma table", describe(facts.gamma_ramp),
                              changes
