@@ -1,33 +1,28 @@
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "app/cli/cache_folder.h"
 #include "app/cli/interruption.h"
-#include "app/cli/progress_bar.h"
 #include "app/cli/terminal_output.h"
 #include "app/cli/this_program.h"
 #include "app/inputs/prepared_stimuli.h"
 #include "app/inputs/protocol_file.h"
 #include "app/inputs/protocol_inputs.h"
 #include "app/rig/answer_equipment.h"
-#include "app/rig/button_boxes.h"
-#include "app/rig/display_box_session.h"
 #include "app/rig/marker_outputs.h"
 #include "app/rig/operator_equipment.h"
-#include "app/rig/output_verification.h"
 #include "app/rig/rig.h"
 #include "app/rig/setup_sounds.h"
 #include "app/session/recorded_options.h"
+#include "app/session/session_boxes.h"
+#include "app/session/session_circumstances.h"
 #include "app/session/session_commands.h"
 #include "app/session/session_messages.h"
 #include "app/session/session_plan.h"
 #include "app/session/session_recording.h"
 #include "app/session/session_room.h"
+#include "app/session/timing_rehearsal.h"
 #include "devices/host/thread_priority.h"
-#include "devices/simulated/faulty_tracker.h"
 #include "experiment/base/error.h"
-#include "experiment/base/whole_file.h"
 #include "experiment/design/schedule.h"
 #include "experiment/pictures/picture_library.h"
 #include "experiment/ports/event_kinds.h"
@@ -39,113 +34,6 @@
 namespace overt {
 
 namespace {
-
-void check_timing(Rig& rig, double seconds) {
-    ProgressBar bar;
-    const std::vector<ScreenFinding> findings = rig.check_timing(
-        seconds, [&](int done, int total) { bar.update("measuring the screen's refresh, s", done, total); });
-    bar.finish();
-    for (const ScreenFinding& finding : findings)
-        if (finding.what == "measured refresh" || finding.what == "vertical blank")
-            fmt::print("{}: {}\n", finding.what, finding.finding);
-    say_risks(findings);
-}
-
-/// A session with simulated faults must not be taken for one on a real display.
-void note_faults(const std::filesystem::path& file, const Clock& clock, SessionStore& store) {
-    if (file.empty())
-        return;
-    store.event({clock.now(), -1, simulated_faults_event, read_whole_file(file)});
-    fmt::print("with the simulated faults of {}\n", file.string());
-}
-
-void note_struck(FaultyTracker& tracker, const Trial& trial, const Clock& clock, SessionStore& store) {
-    for (const std::string& fault : tracker.take_struck())
-        store.event({clock.now(), trial.index, tracker_fault_event, fault});
-}
-
-void note_struck(const VirtualRefresh& display, const Trial& trial, const Clock& clock, SessionStore& store) {
-    for (const DisplayFault& fault : display.struck()) {
-        const bool skips = fault.kind == DisplayFault::Kind::skip;
-        store.event({clock.now(), trial.index, display_fault_event,
-                     skips ? fmt::format("skip of {} at refresh {}", fault.refreshes, fault.refresh)
-                           : fmt::format("{} by {:.3f} ms at refresh {}", name_of(fault.kind),
-                                         fault.amount_ms, fault.refresh)});
-    }
-}
-
-void note_thread(const std::vector<ThreadWish>& wishes, const Clock& clock, SessionStore& store) {
-    for (const ThreadWish& wish : wishes) {
-        const std::string answer =
-            fmt::format("{}: {}{}", wish.what, wish.granted ? "" : "refused: ", wish.detail);
-        store.event({clock.now(), -1, thread_event, answer});
-        fmt::print(wish.granted ? stdout : stderr, "{}\n", answer);
-    }
-}
-
-/// Who the box is, if the session goes through one; found before anything is drawn.
-struct FoundBox {
-    RecordedBox::Use use = RecordedBox::Use::no_mode;
-    std::optional<BoxIdentity> identity;
-};
-
-FoundBox find_box(const DisplaySettings& display, const RunOptions& options) {
-    switch_back_what_was_left();
-    const BoxPlan plan = plan_box(display, wants_window(options.context), options.virtual_time);
-    if (plan.use != RecordedBox::Use::box)
-        return {plan.use, {}};
-    return {plan.use, require_box(plan)};
-}
-
-/// The display box as the session has it.
-class BoxInUse {
-  public:
-    /// Switches the box that was found, now that the display is open, and says so.
-    BoxInUse(const FoundBox& found, const DisplaySettings& display, Rig& rig) {
-        recorded_.use = found.use;
-        if (found.identity) {
-            fmt::print("display box: switching {} at {} …\n", found.identity->product, found.identity->port);
-            session_.emplace(*found.identity, display, rig.clock(), rig.presenter());
-            recorded_ = session_->recorded();
-        }
-        fmt::print("display box: {}\n", describe(recorded_));
-    }
-
-    /// Null if there is none.
-    DisplayPlusPlus* display_box() { return session_ ? &session_->box() : nullptr; }
-
-    void write_beginning(SessionStore& store) {
-        if (session_)
-            session_->write_beginning(store);
-        else
-            store.display_box(recorded_);
-    }
-    void check(SessionStore& store) {
-        if (session_)
-            session_->check(store);
-    }
-    void leave(SessionStore& store) {
-        if (session_)
-            session_->leave(store);
-    }
-
-  private:
-    RecordedBox recorded_;
-    std::optional<DisplayBoxSession> session_;
-};
-
-/// Null where there are none.
-std::unique_ptr<ResponsePanel> open_button_boxes(const Protocol& protocol, Rig& rig, BoxInUse& box,
-                                                 const RunOptions& options,
-                                                 const std::function<void(const std::string&)>& tell) {
-    if (protocol.button_boxes.empty())
-        return nullptr;
-    if (options.virtual_time) {
-        tell("response boxes are not read: time is virtual");
-        return nullptr;
-    }
-    return make_button_boxes(protocol, rig.clock(), &rig.panel(), box.display_box(), tell);
-}
 
 /// The session's folder with all that is recorded before the first trial; a resumed session has it already.
 struct SessionFolder {
@@ -194,66 +82,6 @@ SessionStore::Options store_options(const RunOptions& options, const SessionPlan
             .options = again ? again->options : recorded_options(options, folder.path)};
 }
 
-/// What the record must know of the machine before the first trial.
-void note_circumstances(const RunOptions& options, const Protocol& protocol, const Schedule& schedule,
-                        Rig& rig, SessionStore& store) {
-    for (const ScreenFinding& finding : rig.screen_findings())
-        store.event(
-            {rig.clock().now(), -1, screen_event, fmt::format("{}: {}", finding.what, finding.finding)});
-    if (!options.draws_stimuli)
-        store.event(
-            {rig.clock().now(), -1, screen_event,
-             "stimuli: not drawn (--no-pictures), for nobody saw them; gaze and times do not depend on "
-             "pictures"});
-    if (options.verify_output) {
-        ProgressBar bar;
-        record_verification(rig.presenter(), rig.library(), protocol, schedule, rig.clock(), store,
-                            [&](int done, int total) { bar.update("verifying the output", done, total); });
-    }
-}
-
-/// Fetches the tracker's own file into the session's folder, if it has one, and records what it says.
-void end_tracker(Rig& rig, const std::filesystem::path& folder, SessionStore& store) {
-    ProgressBar bar;
-    const std::vector<std::string> said =
-        rig.tracker().finish(folder.string(), [&](std::int64_t done, std::int64_t total) {
-            bar.update("fetching the eye tracker's file, kB", static_cast<int>(done / 1000),
-                       static_cast<int>(std::max(done, total) / 1000));
-        });
-    bar.finish();
-    for (const std::string& sentence : said) {
-        store.event({rig.clock().now(), -1, tracker_event, sentence});
-        fmt::print("eye tracker: {}\n", sentence);
-    }
-}
-
-/// The same when the session itself has failed: its record may not take anything any more.
-void rescue_tracker_file(Rig& rig, const std::filesystem::path& folder) {
-    for (const std::string& sentence :
-         rig.tracker().finish(folder.string(), [](std::int64_t, std::int64_t) {}))
-        fmt::print(stderr, "eye tracker: {}\n", sentence);
-}
-
-/// Which tracker it is, and what it granted of what was wished.
-void note_tracker(const TrackerSettings& wish, Rig& rig, SessionStore& store) {
-    const TrackerDescription tracker = rig.tracker().description();
-    if (!rig.tracker().measures_gaze())
-        return;
-    store.event({rig.clock().now(), -1, tracker_event,
-                 fmt::format("{}{}{}: {} Hz, {}", tracker.name, tracker.model.empty() ? "" : ", ",
-                             tracker.model, tracker.sample_rate_hz,
-                             tracker.both_eyes          ? "both eyes"
-                             : tracker.eye == Eye::left ? "left eye"
-                                                        : "right eye")});
-    if (std::abs(tracker.sample_rate_hz - wish.rate_hz) > 1e-3 * wish.rate_hz &&
-        tracker.sample_rate_hz > 0.0) {
-        const std::string granted = fmt::format("samples at {:g} Hz where the protocol wishes {:g} Hz",
-                                                tracker.sample_rate_hz, wish.rate_hz);
-        store.event({rig.clock().now(), -1, tracker_event, granted});
-        fmt::print(stderr, "the eye tracker {}\n", granted);
-    }
-}
-
 /// A socket for the operator's view, if it is wanted; said on the terminal and not in the record, which is
 /// the same with and without.
 void open_view(std::optional<OperatorEquipment>& view, const RunOptions& options, const SessionPlan& plan,
@@ -270,10 +98,6 @@ void open_view(std::optional<OperatorEquipment>& view, const RunOptions& options
     view.emplace(std::move(wished), rig.clock(), store, keys);
     fmt::print("operator's view: overt watch --socket {}\n", view->socket().string());
 }
-
-} // namespace
-
-namespace {
 
 /// `again`: null for a session that is recorded for the first time.
 int run_session_of(Experiment experiment, const RunOptions& options, const PresentingAgain* again) {
@@ -374,6 +198,8 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
     // Maps drawn live are written between trials, where loading the library would take its time.
     picture_library();
     note_thread(prepare_thread({options.realtime, options.processor}), rig.clock(), store);
+    if (options.refresh_check_s > 0.0)
+        rehearse_timing(rig, protocol, plan.schedule, folder.header, folder.path, store);
     SessionResult result;
     try {
         result = session.run(

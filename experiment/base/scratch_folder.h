@@ -11,12 +11,14 @@
 
 namespace overt {
 
-/// Made anew under the system's temporary folder, and removed with all that is in it.
+/// Made anew, and removed with all that is in it.
 class ScratchFolder {
   public:
-    /// `prefix`: how its name begins. Throws RecordError if there is no room or no right.
-    explicit ScratchFolder(const std::string& prefix) {
-        std::string name = (std::filesystem::temp_directory_path() / (prefix + "-XXXXXX")).string();
+    /// `prefix`: how its name begins; `parent`: where it is made. Throws RecordError if there is no room or no
+    /// right.
+    explicit ScratchFolder(const std::string& prefix,
+                           const std::filesystem::path& parent = std::filesystem::temp_directory_path()) {
+        std::string name = (parent / (prefix + "-XXXXXX")).string();
         if (!::mkdtemp(name.data()))
             throw RecordError(fmt::format("{}: a temporary folder cannot be made there: set TMPDIR", name));
         path_ = name;

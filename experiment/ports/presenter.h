@@ -97,6 +97,11 @@ class Presenter {
     /// lights, for this long; in the modes that carry them, else nothing. Allocates and throws nothing.
     virtual void raise_with_next_flip(std::uint16_t /*outputs*/, double /*pulse_ms*/) noexcept {}
 
+    /// From now on the display gets a dark picture in the place of each that is drawn, and none of its
+    /// messages: drawing takes the time that it takes, and nothing of it is seen. Not for use between a
+    /// presentation's first and last flip.
+    virtual void veil(bool /*is_on*/) {}
+
     /// How the pictures shown since the last call came to the screen; nothing where no server tells it. May
     /// wait for the server: not for use between a presentation's first and last flip.
     virtual std::optional<SwapModes> take_swap_modes() noexcept { return {}; }

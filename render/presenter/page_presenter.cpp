@@ -253,7 +253,18 @@ FlipReport PagePresenter::present() noexcept {
     compose();
     put_messages();
     ++refreshes_;
-    return surface_->present(canvas());
+    return surface_->present(veil_target_ ? *veil_target_ : canvas());
+}
+
+void PagePresenter::veil(bool is_on) {
+    veil_target_.reset();
+    veil_.reset();
+    if (!is_on)
+        return;
+    const PixelFormat format = last_step_ ? last_step_->format() : encoder_.format();
+    veil_.emplace(*context_, geometry_.screen_px, format);
+    veil_->upload(std::vector<std::byte>(bytes_in(geometry_.screen_px, format)));
+    veil_target_.emplace(*context_, std::initializer_list<const Texture2D*>{&*veil_}, false);
 }
 
 void PagePresenter::compose() noexcept {

@@ -40,6 +40,7 @@ class PagePresenter final : public Presenter {
         if (has_t_lock(display_.output))
             send_with_next_flip(t_lock::outputs_row, t_lock::pulse(outputs, 0.0, pulse_ms));
     }
+    void veil(bool is_on) override;
     std::optional<SwapModes> take_swap_modes() noexcept override { return surface_->take_swap_modes(); }
     bool closed() const noexcept override { return surface_->closed() || is_interrupted(); }
     std::string why_closed() const override;
@@ -94,6 +95,9 @@ class PagePresenter final : public Presenter {
     std::optional<SignalPass> last_step_;
     std::optional<Texture2D> signal_;
     std::optional<Framebuffer> signal_target_;
+    // In the place of the canvas while that is veiled: black, also as a signal.
+    std::optional<Texture2D> veil_;
+    std::optional<Framebuffer> veil_target_;
     FrameStore store_;
     Framebuffer page_target_;
     const StoredStimulus* loaded_ = nullptr; ///< null: nothing

@@ -1,0 +1,114 @@
+#include "app/session/session_circumstances.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/cli/progress_bar.h"
+#include "app/cli/terminal_output.h"
+#include "app/rig/output_verification.h"
+#include "app/session/session_messages.h"
+#include "experiment/base/whole_file.h"
+#include "experiment/ports/event_kinds.h"
+
+namespace overt {
+
+void check_timing(Rig& rig, double seconds) {
+    ProgressBar bar;
+    const std::vector<ScreenFinding> findings = rig.check_timing(
+        seconds, [&](int done, int total) { bar.update("measuring the screen's refresh, s", done, total); });
+    bar.finish();
+    for (const ScreenFinding& finding : findings)
+        if (finding.what == "measured refresh" || finding.what == "vertical blank")
+            fmt::print("{}: {}\n", finding.what, finding.finding);
+    say_risks(findings);
+}
+
+void note_faults(const std::filesystem::path& file, const Clock& clock, SessionStore& store) {
+    if (file.empty())
+        return;
+    store.event({clock.now(), -1, simulated_faults_event, read_whole_file(file)});
+    fmt::print("with the simulated faults of {}\n", file.string());
+}
+
+void note_struck(FaultyTracker& tracker, const Trial& trial, const Clock& clock, SessionStore& store) {
+    for (const std::string& fault : tracker.take_struck())
+        store.event({clock.now(), trial.index, tracker_fault_event, fault});
+}
+
+void note_struck(const VirtualRefresh& display, const Trial& trial, const Clock& clock, SessionStore& store) {
+    for (const DisplayFault& fault : display.struck()) {
+        const bool skips = fault.kind == DisplayFault::Kind::skip;
+        store.event({clock.now(), trial.index, display_fault_event,
+                     skips ? fmt::format("skip of {} at refresh {}", fault.refreshes, fault.refresh)
+                           : fmt::format("{} by {:.3f} ms at refresh {}", name_of(fault.kind),
+                                         fault.amount_ms, fault.refresh)});
+    }
+}
+
+void note_thread(const std::vector<ThreadWish>& wishes, const Clock& clock, SessionStore& store) {
+    for (const ThreadWish& wish : wishes) {
+        const std::string answer =
+            fmt::format("{}: {}{}", wish.what, wish.granted ? "" : "refused: ", wish.detail);
+        store.event({clock.now(), -1, thread_event, answer});
+        fmt::print(wish.granted ? stdout : stderr, "{}\n", answer);
+    }
+}
+
+void note_circumstances(const RunOptions& options, const Protocol& protocol, const Schedule& schedule,
+                        Rig& rig, SessionStore& store) {
+    for (const ScreenFinding& finding : rig.screen_findings())
+        store.event(
+            {rig.clock().now(), -1, screen_event, fmt::format("{}: {}", finding.what, finding.finding)});
+    if (!options.draws_stimuli)
+        store.event(
+            {rig.clock().now(), -1, screen_event,
+             "stimuli: not drawn (--no-pictures), for nobody saw them; gaze and times do not depend on "
+             "pictures"});
+    if (options.verify_output) {
+        ProgressBar bar;
+        record_verification(rig.presenter(), rig.library(), protocol, schedule, rig.clock(), store,
+                            [&](int done, int total) { bar.update("verifying the output", done, total); });
+    }
+}
+
+void end_tracker(Rig& rig, const std::filesystem::path& folder, SessionStore& store) {
+    ProgressBar bar;
+    const std::vector<std::string> said =
+        rig.tracker().finish(folder.string(), [&](std::int64_t done, std::int64_t total) {
+            bar.update("fetching the eye tracker's file, kB", static_cast<int>(done / 1000),
+                       static_cast<int>(std::max(done, total) / 1000));
+        });
+    bar.finish();
+    for (const std::string& sentence : said) {
+        store.event({rig.clock().now(), -1, tracker_event, sentence});
+        fmt::print("eye tracker: {}\n", sentence);
+    }
+}
+
+void rescue_tracker_file(Rig& rig, const std::filesystem::path& folder) {
+    for (const std::string& sentence :
+         rig.tracker().finish(folder.string(), [](std::int64_t, std::int64_t) {}))
+        fmt::print(stderr, "eye tracker: {}\n", sentence);
+}
+
+void note_tracker(const TrackerSettings& wish, Rig& rig, SessionStore& store) {
+    const TrackerDescription tracker = rig.tracker().description();
+    if (!rig.tracker().measures_gaze())
+        return;
+    store.event({rig.clock().now(), -1, tracker_event,
+                 fmt::format("{}{}{}: {} Hz, {}", tracker.name, tracker.model.empty() ? "" : ", ",
+                             tracker.model, tracker.sample_rate_hz,
+                             tracker.both_eyes          ? "both eyes"
+                             : tracker.eye == Eye::left ? "left eye"
+                                                        : "right eye")});
+    if (std::abs(tracker.sample_rate_hz - wish.rate_hz) > 1e-3 * wish.rate_hz &&
+        tracker.sample_rate_hz > 0.0) {
+        const std::string granted = fmt::format("samples at {:g} Hz where the protocol wishes {:g} Hz",
+                                                tracker.sample_rate_hz, wish.rate_hz);
+        store.event({rig.clock().now(), -1, tracker_event, granted});
+        fmt::print(stderr, "the eye tracker {}\n", granted);
+    }
+}
+
+} // namespace overt

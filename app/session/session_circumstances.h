@@ -1,0 +1,45 @@
+/// What the record says of the machine and its devices, at a session's beginning, on its way and at its end.
+/// What it says, the terminal says too.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "app/rig/rig.h"
+#include "app/session/session_commands.h"
+#include "devices/host/thread_priority.h"
+#include "devices/simulated/faulty_tracker.h"
+#include "experiment/design/schedule.h"
+#include "experiment/record/write/session_store.h"
+
+namespace overt {
+
+/// See Rig::check_timing(): with a progress bar, and its risks said.
+void check_timing(Rig& rig, double seconds);
+
+/// What the record must know of the machine before the first trial; decodes the pages if `options` ask for
+/// it. Throws as record_verification().
+void note_circumstances(const RunOptions& options, const Protocol& protocol, const Schedule& schedule,
+                        Rig& rig, SessionStore& store);
+
+/// Which tracker it is, and what it granted of what was wished.
+void note_tracker(const TrackerSettings& wish, Rig& rig, SessionStore& store);
+
+/// A session with simulated faults must not be taken for one on a real display. `file` may be empty: there
+/// are none.
+void note_faults(const std::filesystem::path& file, const Clock& clock, SessionStore& store);
+
+/// The simulated faults that struck since the last call.
+void note_struck(FaultyTracker& tracker, const Trial& trial, const Clock& clock, SessionStore& store);
+void note_struck(const VirtualRefresh& display, const Trial& trial, const Clock& clock, SessionStore& store);
+
+/// How the session's thread is scheduled.
+void note_thread(const std::vector<ThreadWish>& wishes, const Clock& clock, SessionStore& store);
+
+/// Fetches the tracker's own file into the session's folder, if it has one, and records what it says.
+void end_tracker(Rig& rig, const std::filesystem::path& folder, SessionStore& store);
+
+/// The same when the session itself has failed: its record may not take anything any more.
+void rescue_tracker_file(Rig& rig, const std::filesystem::path& folder);
+
+} // namespace overt

@@ -1,0 +1,117 @@
+#include "experiment/session/presentation_rehearsal.h"
+
+#include <algorithm>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "experiment/base/counted.h"
+#include "experiment/base/error.h"
+#include "experiment/timing/refresh_ledger.h"
+
+namespace overt {
+namespace {
+
+constexpr double tolerable_share = 0.01;
+
+std::string quantiles_of(std::vector<double> values) {
+    if (values.empty())
+        return "none";
+    std::ranges::sort(values);
+    const auto at = [&](double share) {
+        return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
+    };
+    return fmt::format(
+        "least {:.3f}, 1 % {:.3f}, 5 % {:.3f}, 25 % {:.3f}, median {:.3f}, 75 % {:.3f}, 95 % {:.3f}, 99 % "
+        "{:.3f}, most {:.3f}",
+        at(0.0), at(0.01), at(0.05), at(0.25), at(0.5), at(0.75), at(0.95), at(0.99), at(1.0));
+}
+
+/// Of the tracker, as a session takes them.
+std::int64_t take_items(int trial, const RehearsalPorts& ports, std::span<TrackerItem> room) noexcept {
+    std::int64_t samples = 0;
+    for (std::size_t count = room.size(); count == room.size();) {
+        count = ports.tracker.poll(room);
+        for (const TrackerItem& item : room.first(count)) {
+            if (const auto* sample = std::get_if<GazeSample>(&item)) {
+                ports.log.sample(trial, *sample);
+                ++samples;
+            } else if (const auto* pair = std::get_if<ClockPair>(&item)) {
+                ports.log.clock_pair(*pair);
+            } else {
+                ports.log.tracker_item(trial, item);
+            }
+        }
+    }
+    return samples;
+}
+
+} // namespace
+
+RehearsedPresentation rehearse_presentation(const Protocol& protocol, const Trial& trial,
+                                            const RehearsalPorts& ports) {
+    RehearsedPresentation rehearsed;
+    PageCycle cycle = make_page_cycle(protocol.animation, protocol.display.refresh_hz);
+    cycle.total_refreshes = std::min(cycle.total_refreshes, static_cast<int>(cycle.entry_of_refresh.size()));
+    RefreshLedger ledger(cycle, protocol.animation.when_late);
+    std::vector<TrackerItem> room(4096);
+    std::vector<FlipReport> flips;
+    flips.reserve(static_cast<std::size_t>(cycle.total_refreshes));
+
+    ports.presenter.load_frames(trial.condition);
+    ports.presenter.veil(true);
+    ports.presenter.show({});
+    ports.log.trial_started(trial, ports.clock.now());
+    try {
+        ports.tracker.start_recording();
+    } catch (const DeviceError& error) {
+        rehearsed.tracker_refusal = error.what();
+    }
+    for (PresentationListener* listener : ports.listeners)
+        listener->presentation_begins(trial);
+    ledger.begin(trial.index);
+    while (!ledger.is_complete() && !ports.presenter.closed()) {
+        rehearsed.samples += take_items(trial.index, ports, room);
+        const FlipRecord& flip = ledger.enter(ports.presenter.flip(ledger.next().frame));
+        for (int i = 0; i < ledger.missed_count(); ++i)
+            ports.log.missed(ledger.missed(i));
+        ports.log.flip(flip);
+        for (PresentationListener* listener : ports.listeners)
+            listener->flipped(flip);
+        flips.push_back(flip.report);
+    }
+    const SessionTime end = ports.presenter.show({}).vertical_blank;
+    for (PresentationListener* listener : ports.listeners)
+        listener->screen_shown({}, end);
+    if (!rehearsed.tracker_refusal)
+        ports.tracker.stop_recording();
+    rehearsed.samples += take_items(trial.index, ports, room);
+    ports.presenter.veil(false);
+    ports.presenter.show({});
+
+    rehearsed.refreshes = ledger.shown_refreshes();
+    rehearsed.missed = ledger.missed_refreshes();
+    for (std::size_t i = 0; i < flips.size(); ++i) {
+        rehearsed.work_ms.push_back(1e3 * to_seconds(flips[i].swapped - flips[i].requested));
+        if (i > 0)
+            rehearsed.intervals_ms.push_back(
+                1e3 * to_seconds(flips[i].vertical_blank - flips[i - 1].vertical_blank));
+    }
+    return rehearsed;
+}
+
+std::string describe(const RehearsedPresentation& rehearsed) {
+    return fmt::format(
+        "{}, {} missed, {}; from picture to picture in ms: {}; from asking for a picture to its swap in "
+        "ms: {}",
+        counted(rehearsed.refreshes, "refresh", "refreshes"), rehearsed.missed,
+        rehearsed.tracker_refusal ? "without the eye tracker: " + *rehearsed.tracker_refusal
+                                  : counted(rehearsed.samples, "sample") + " of gaze",
+        quantiles_of(rehearsed.intervals_ms), quantiles_of(rehearsed.work_ms));
+}
+
+bool misses_too_many(const RehearsedPresentation& rehearsed) {
+    return rehearsed.missed > tolerable_share * (rehearsed.missed + rehearsed.refreshes);
+}
+
+} // namespace overt

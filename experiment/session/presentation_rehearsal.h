@@ -1,0 +1,49 @@
+/// One period of a trial's animation shown as in a session, with its tracker, maps and record, before the
+/// first trial: what a refresh costs here and now.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiment/ports/clock.h"
+#include "experiment/ports/eye_tracker.h"
+#include "experiment/ports/presentation_listener.h"
+#include "experiment/ports/presenter.h"
+#include "experiment/ports/session_log.h"
+#include "experiment/protocol/protocol.h"
+
+namespace overt {
+
+/// All of them as the session has them, but for the log: what is rehearsed is not to be in its record.
+struct RehearsalPorts {
+    Clock& clock;
+    Presenter& presenter;
+    EyeTracker& tracker;
+    SessionLog& log;
+    std::span<PresentationListener* const> listeners;
+};
+
+struct RehearsedPresentation {
+    int refreshes = 0; ///< that got their picture
+    int missed = 0;
+    std::int64_t samples = 0;                   ///< of the tracker, meanwhile
+    std::vector<double> intervals_ms;           ///< from each vertical blank with a picture to the next such
+    std::vector<double> work_ms;                ///< from asking for each picture to handing over its swap
+    std::optional<std::string> tracker_refusal; ///< why the tracker did not record; nothing if it did
+};
+
+/// Shows one period of the trial's stimulus, or the whole presentation if that is shorter, on a veiled
+/// screen: the observer sees a dark one. Ends early if the presenter closes. On the session's thread, before
+/// its first trial. Throws as Presenter::load_frames() and the log do.
+RehearsedPresentation rehearse_presentation(const Protocol& protocol, const Trial& trial,
+                                            const RehearsalPorts& ports);
+
+/// For the record and the terminal: counts, quantiles of both distributions in ms.
+std::string describe(const RehearsedPresentation& rehearsed);
+
+/// More than 1 % of its refreshes were missed: a presentation would miss as many.
+bool misses_too_many(const RehearsedPresentation& rehearsed);
+
+} // namespace overt
