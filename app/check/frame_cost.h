@@ -15,15 +15,16 @@
 namespace overt {
 
 struct FrameCost {
-    int flips = 0; ///< that were timed, each to another page
-    double median_flip_ms = 0.0, worst_flip_ms = 0.0;
-    double page_ms = 0.0;               ///< packing and uploading one page
+    int flips = 0;                                    ///< that were timed, each to another page
+    double median_flip_ms = 0.0, worst_flip_ms = 0.0; ///< with the copy
+    double copy_ms = 0.0;                             ///< of the whole screen into the window, at the median
+    double page_ms = 0.0;                             ///< packing and uploading one page
     std::optional<double> worst_map_ms; ///< drawing and reading a hidden map; nothing without a mesh
 };
 
-/// Plays pages of the protocol's size in its output mode on a display that only keeps time, and draws a
-/// hidden map of each sculpture. Takes about half a second in software. With `context` current. Throws
-/// GraphicsError.
+/// Plays pages of the protocol's size in its output mode on a display that only keeps time, copies each
+/// screen as into a window, and draws a hidden map of each sculpture. Takes about half a second in software.
+/// With `context` current. Throws GraphicsError.
 FrameCost measure_frame_cost(const GlContext& context, const Protocol& protocol,
                              std::span<const Sculpture> sculptures);
 

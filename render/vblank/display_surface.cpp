@@ -68,14 +68,17 @@ std::string WindowDisplay::why_closed() const {
     return "the display was closed";
 }
 
-void WindowDisplay::draw_into_window(const Framebuffer& canvas) noexcept {
-    const GladGLContext& gl = window_->gl();
+void copy_for_window(const GladGLContext& gl, const Framebuffer& canvas, unsigned int into) noexcept {
     const glm::ivec2 size = canvas.size_px();
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, canvas.name());
     gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
-    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    // The canvas holds its top row first, the window its bottom row: turned round here and nowhere else.
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, into);
+    // Turned round here and nowhere else.
     gl.BlitFramebuffer(0, 0, size.x, size.y, 0, size.y, size.x, 0, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void WindowDisplay::draw_into_window(const Framebuffer& canvas) noexcept {
+    copy_for_window(window_->gl(), canvas, 0);
 }
 
 void WindowDisplay::read(const Framebuffer& canvas, PixelFormat format, std::span<std::byte> into) {

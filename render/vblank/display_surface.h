@@ -34,6 +34,10 @@ class DisplaySurface {
     virtual void read(const Framebuffer& canvas, PixelFormat format, std::span<std::byte> into) = 0;
 };
 
+/// Copies a canvas into a framebuffer of its size as a window takes it: the canvas holds its top row first, a
+/// window its bottom row.
+void copy_for_window(const GladGLContext& gl, const Framebuffer& canvas, unsigned int into) noexcept;
+
 /// Headless: the canvas stays in memory, in whatever depth it has.
 class VirtualDisplay final : public DisplaySurface {
   public:

@@ -37,13 +37,19 @@ class PlainPresenter final : public Presenter {
         return next();
     }
     void show_level(const LevelBar& bar) override { bars.push_back(bar); }
-    FlipReport flip(AnimationFrameIndex) noexcept override { return next(); }
+    FlipReport flip(AnimationFrameIndex frame) noexcept override {
+        (is_veiled ? veiled_frames : seen_frames).push_back(frame.value);
+        return next();
+    }
+    void veil(bool is_on) override { is_veiled = is_on; }
     bool closed() const noexcept override { return false; }
 
     std::vector<Condition> loaded;
     std::vector<std::string> texts;
     std::vector<Screen> screens; ///< of the texts
     std::vector<LevelBar> bars;
+    bool is_veiled = false;
+    std::vector<int> seen_frames, veiled_frames; ///< of flips
 
   private:
     FlipReport next() noexcept {

@@ -142,3 +142,50 @@ TEST_CASE("a level meter stands below the text, moves, says what is wrong, and i
     presenter.show({Screen::Kind::text, "Please answer now."});
     CHECK(brighter(740, 800) == 0);
 }
+
+namespace {
+
+/// Keeps the red of two pixels of each picture that it is given to show.
+struct SeenPictures final : DisplaySurface {
+    SeenPictures(const GlContext& gl, DisplaySurface& to) : context(&gl), display(&to) {}
+    DisplayTiming timing() const override { return display->timing(); }
+    FlipReport present(const Framebuffer& canvas) noexcept override {
+        std::vector<std::byte> bytes(4 * static_cast<std::size_t>(screen_px.x * screen_px.y));
+        canvas.bind();
+        read_pixels(*context, 0, {0, 0}, screen_px, PixelFormat::rgba8, bytes);
+        int sum = 0;
+        for (std::size_t i = 0; i < bytes.size(); i += 4)
+            sum += std::to_integer<int>(bytes[i]);
+        sums_of_red.push_back(sum);
+        return display->present(canvas);
+    }
+    bool closed() const noexcept override { return false; }
+    int bits_per_channel() const override { return 8; }
+    void read(const Framebuffer& canvas, PixelFormat format, std::span<std::byte> into) override {
+        display->read(canvas, format, into);
+    }
+    const GlContext* context;
+    DisplaySurface* display;
+    std::vector<int> sums_of_red;
+};
+
+} // namespace
+
+TEST_CASE("behind a veil everything is drawn and nothing is seen", "[gl]") {
+    Bench bench;
+    SeenPictures seen(*bench.context, bench.display);
+    PagePresenter presenter(*bench.context, seen, bench.pages, bench.geometry, bench.settings, bench.screens);
+    presenter.load_frames({0, 0});
+    presenter.flip({1});
+    presenter.veil(true);
+    presenter.flip({2});
+    CHECK(red_at(presenter.read_canvas(), bench.geometry.image_origin_px) == 3);
+    presenter.show({Screen::Kind::target, ""});
+    presenter.veil(false);
+    presenter.flip({1});
+    REQUIRE(seen.sums_of_red.size() == 4);
+    CHECK(seen.sums_of_red[0] > 0);
+    CHECK(seen.sums_of_red[1] == 0);
+    CHECK(seen.sums_of_red[2] == 0);
+    CHECK(seen.sums_of_red[3] == seen.sums_of_red[0]);
+}
