@@ -41,13 +41,15 @@ TEST_CASE("the probe of a frame's cost times flips and pages, and maps only wher
 
 TEST_CASE("what a flip costs is held against the refresh that it has to fit into", "[unit]") {
     const Protocol protocol = small_view(); // 120 Hz
-    CHECK_THAT(words(forecast_of({60, 1.0, 2.0, 5.0, {}}, protocol, card)),
-               Catch::Contains("1.00 ms, at worst 2.00 ms of 60, of the 8.33 ms") && !Catch::Contains("--"));
-    CHECK_THAT(words(forecast_of({60, 1.0, 5.0, 5.0, {}}, protocol, card)), Catch::Contains("--realtime"));
-    CHECK_THAT(words(forecast_of({60, 9.0, 9.5, 5.0, {}}, protocol, card)),
+    CHECK_THAT(words(forecast_of({60, 1.0, 2.0, 0.5, 5.0, {}}, protocol, card)),
+               Catch::Contains("1.00 ms, at worst 2.00 ms of 60, of the 8.33 ms") &&
+                   Catch::Contains("0.50 ms of it copy the screen") && !Catch::Contains("--"));
+    CHECK_THAT(words(forecast_of({60, 1.0, 5.0, 0.5, 5.0, {}}, protocol, card)),
+               Catch::Contains("--realtime"));
+    CHECK_THAT(words(forecast_of({60, 9.0, 9.5, 0.5, 5.0, {}}, protocol, card)),
                Catch::Contains("most refreshes would be missed"));
-    CHECK_THAT(words(forecast_of({60, 1.0, 2.0, 5.0, 40.0}, protocol, card)),
+    CHECK_THAT(words(forecast_of({60, 1.0, 2.0, 0.5, 5.0, 40.0}, protocol, card)),
                Catch::Contains("--maps prepared"));
-    CHECK_THAT(words(forecast_of({60, 1.0, 2.0, 5.0, 40.0}, protocol, software)),
+    CHECK_THAT(words(forecast_of({60, 1.0, 2.0, 0.5, 5.0, 40.0}, protocol, software)),
                Catch::Contains("drawn before the session") && !Catch::Contains("--maps"));
 }

@@ -78,8 +78,9 @@ TEST_CASE("a session in real time is stamped by the server's vertical blanks, an
             measured = event.detail;
     INFO(measured);
     // A period of the animation, before the first trial: 31 frames of which the last is the first again.
-    const auto rehearsed = std::ranges::find(record.events(), "timing rehearsed", &RecordedEvent::kind);
-    REQUIRE(rehearsed != record.events().end());
+    const std::vector<RecordedEvent> events = record.events();
+    const auto rehearsed = std::ranges::find(events, "timing rehearsed", &RecordedEvent::kind);
+    REQUIRE(rehearsed != events.end());
     CHECK(rehearsed->trial == -1);
     CHECK(rehearsed->at < record.trials()[0].outcome.task_screen_onset);
     CHECK(rehearsed->detail.find("from picture to picture in ms: least ") != std::string::npos);
