@@ -130,20 +130,22 @@ TEST_CASE("the window shows gaze where it is, sends a pause at once and asks bef
     push(ViewNews::Kind::phase, 0, 0);
     push(ViewNews::Kind::flip, 0, 0);
     const SeenScreen seen(folder.path());
-    const auto gaze_at = [&](double x, double y) {
-        std::optional<std::pair<double, double>> at;
-        // Until all points that are kept are there.
+    using Place = std::optional<std::pair<double, double>>;
+    const auto gaze_at = [&](double x, double y, const Place& earlier) {
+        Place at;
+        // Until all points that are kept are there, and those of the place before are gone.
         comes_true([&] {
             for (int i = 0; i < 12; ++i)
                 push(ViewNews::Kind::gaze, x, y);
             const auto before = at;
             at = seen_gaze(seen);
-            return at && before && at == before;
+            return at && before && at == before && at != earlier;
         });
         REQUIRE(at);
         return *at;
     };
-    const auto left = gaze_at(250.0, 125.0), right = gaze_at(750.0, 375.0);
+    const auto left = gaze_at(250.0, 125.0, {});
+    const auto right = gaze_at(750.0, 375.0, left);
     // The display is drawn with its own proportions, so both distances are half of its sides.
     CHECK(right.first - left.first == Approx(2.0 * (right.second - left.second)).margin(3.0));
     CHECK(right.first - left.first > 250.0);
