@@ -9,10 +9,12 @@ namespace overt {
 namespace {
 
 /// With a progress bar; `work` is given what to tell.
-template <class Work> void with_bar(const Work& work) {
+template <class Work> void with_bar(const std::function<void()>& meanwhile, const Work& work) {
     ProgressBar bar;
     const Progress show = [&](std::string_view what, int done, int total, double share) {
         bar.update(what, done, total, share);
+        if (meanwhile)
+            meanwhile();
         if (Interruption::requested())
             throw Error(
                 "interrupted while the stimuli were made ready: no trial was begun. What was finished "
@@ -41,16 +43,18 @@ void make_light(StimulusLibrary& library, const Progress& show) {
 
 } // namespace
 
-void prepare_stimuli(StimulusLibrary& library, MapsNow maps, BakeQuality least) {
-    with_bar([&](const Progress& show) {
+void prepare_stimuli(StimulusLibrary& library, MapsNow maps, BakeQuality least,
+                     const std::function<void()>& meanwhile) {
+    with_bar(meanwhile, [&](const Progress& show) {
         make_maps(library, maps, show);
         library.prepare_frames(show, least);
         make_light(library, show);
     });
 }
 
-void prepare_maps_alone(StimulusLibrary& library, MapsNow maps, const Protocol& protocol) {
-    with_bar([&](const Progress& show) { make_maps(library, maps, show); });
+void prepare_maps_alone(StimulusLibrary& library, MapsNow maps, const Protocol& protocol,
+                        const std::function<void()>& meanwhile) {
+    with_bar(meanwhile, [&](const Progress& show) { make_maps(library, maps, show); });
     const BakeQuality least = protocol.bake.least(false);
     library.take_frames(library.quality_of_session(least).value_or(quality_of(least, protocol.bake)));
 }

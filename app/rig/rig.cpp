@@ -71,7 +71,12 @@ Rig::Rig(const Protocol& protocol, std::span<const Sculpture> sculptures, const 
       display_(display_of(protocol, request)),
       screen_findings_(display_.is_real() ? examine_screen(*display_.window(), protocol)
                                           : std::vector<ScreenFinding>()),
-      library_(display_.context(), protocol, sculptures, cache) {}
+      library_(display_.context(), protocol, sculptures, cache) {
+    if (!display_.is_real())
+        return;
+    const std::vector<ScreenFinding>& quiet = quiet_desktop_.emplace(display_.window()->native()).findings();
+    screen_findings_.insert(screen_findings_.end(), quiet.begin(), quiet.end());
+}
 
 Rig::~Rig() = default;
 

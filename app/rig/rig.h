@@ -16,6 +16,7 @@
 #include "render/presenter/page_presenter.h"
 #include "render/stimulus/live_maps.h"
 #include "render/stimulus/stimulus_library.h"
+#include "render/window/quiet_desktop.h"
 #include "render/window/screen_check.h"
 #include "render/window/window_context.h"
 
@@ -55,6 +56,13 @@ class Rig {
     Clock& clock() { return display_.clock(); }
     ClockKind clock_kind() const {
         return request_.virtual_time ? ClockKind::virtual_time : ClockKind::steady;
+    }
+
+    /// Answers what the window system asks meanwhile, so that it does not take a program that prepares for
+    /// one that hangs. Does nothing without a window. Main thread.
+    void pump_events() {
+        if (WindowContext* const window = display_.window())
+            window->poll_events();
     }
 
     /// Stimuli are shown on a real screen in real time.
@@ -107,6 +115,7 @@ class Rig {
     std::vector<ScriptedOperatorKey> operator_keys_;
     OpenDisplay display_; // objects of OpenGL go before the context they live in
     std::vector<ScreenFinding> screen_findings_;
+    std::optional<QuietDesktop> quiet_desktop_; ///< on a real screen
     StimulusLibrary library_;
     std::unique_ptr<UndrawnFrames> undrawn_; ///< in its place, if stimuli are not drawn
     std::unique_ptr<PagePresenter> presenter_;

@@ -132,11 +132,12 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
     say_risks(rig.screen_findings());
     const Interruption interruption;
     const MapsNow maps = rig.maps_are_live() ? MapsNow::drawn_live : MapsNow::made;
+    const auto meanwhile = [&] { rig.pump_events(); };
     if (options.draws_stimuli)
         prepare_stimuli(rig.library(), maps,
-                        options.quality.value_or(protocol.bake.least(!options.simulate_observer)));
+                        options.quality.value_or(protocol.bake.least(!options.simulate_observer)), meanwhile);
     else
-        prepare_maps_alone(rig.library(), maps, protocol);
+        prepare_maps_alone(rig.library(), maps, protocol, meanwhile);
     say_frames(rig.library(), !options.simulate_observer);
     require_room(experiment, plan, rig.library(), !rig.maps_are_live(), options.sessions);
     rig.open(plan.faults, plan.resumed ? plan.resumed->clock_start : SessionTime());

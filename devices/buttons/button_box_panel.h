@@ -42,6 +42,7 @@ class ButtonBoxPanel final : public ResponsePanel {
         return answering_ ? answering_->next_setup_key() : std::nullopt;
     }
     std::optional<ResponsePress> poll() noexcept override;
+    bool has_keyboard() const noexcept override { return !answering_ || answering_->has_keyboard(); }
     std::string answer() override;
     std::vector<std::string> closing_warnings() const override;
     void write_down(SessionLog& log) override;

@@ -29,6 +29,7 @@ class OperatorPanel final : public ResponsePanel {
     void await_setup(SessionTime since) override;
     std::optional<SetupKey> next_setup_key() override { return answering_->next_setup_key(); }
     std::optional<ResponsePress> poll() noexcept override;
+    bool has_keyboard() const noexcept override { return answering_->has_keyboard(); }
     std::string answer() override { return answering_->answer(); }
     std::vector<std::string> closing_warnings() const override { return answering_->closing_warnings(); }
     /// Records the commands and notes that came since.

@@ -41,6 +41,9 @@ struct ResponsePress {
     Key key = Key::next;
     SessionTime pressed_at;
     char32_t character = 0;
+    /// The press came so long before pressed_at at most. Of a keyboard, which is looked at now and then; the
+    /// record of a response box has its own.
+    SessionDuration uncertainty{};
 };
 constexpr bool is_operators(ResponsePress::Key key) { return key >= ResponsePress::Key::pause; }
 
@@ -67,6 +70,8 @@ class ResponsePanel {
     virtual std::optional<SetupKey> next_setup_key() { return std::nullopt; }
     /// The next press, if there was one. Allocates and throws nothing: it is called during presentations.
     virtual std::optional<ResponsePress> poll() noexcept = 0;
+    /// Whether what is typed comes here; false once it has gone to another window. Told by poll().
+    virtual bool has_keyboard() const noexcept { return true; }
     /// What was said or typed in answer, once the press has come; empty if the panel takes none.
     virtual std::string answer() = 0;
     /// What the operator should know once the session has ended, a line each.

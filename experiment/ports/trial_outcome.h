@@ -20,6 +20,8 @@ struct TrialOutcome {
     std::string failure;                           ///< by which it does not count, or would not; empty: none
     Afterwards afterwards = Afterwards::undecided; ///< undecided: the session ended in it
     SessionTime task_screen_onset, presentation_onset, presentation_end, response_screen_onset, responded_at;
+    /// Of responded_at, at a keyboard; nothing where it is exact, or a response box's own.
+    std::optional<SessionDuration> responded_uncertainty = {};
     int shown_refreshes = 0;
     int missed_refreshes = 0;
     /// Of the presentation's pictures and the dark screen after them; nothing where no server tells it.

@@ -50,6 +50,7 @@ struct AnswerSettings {
 
 /// [words]: what the program itself says on the screen.
 struct WordSettings {
+    std::string keyboard_lost = "What is typed goes to another window.\nClick on this one to go on.";
     std::string recalibrate = "Calibrate the eye tracker anew?\nThe session then goes on where it is.";
     std::string validation = "Go on with this calibration? Otherwise it is done again.";
     std::string validation_poor = "This calibration is poorer than the protocol allows.\n"

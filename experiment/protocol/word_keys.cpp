@@ -14,6 +14,8 @@ Section words() {
             "keys it names are those of `[operator]`.",
         .keys =
             {
+                text("keyboard_lost", &W::keyboard_lost,
+                     "Shown between trials while another window has the keyboard."),
                 text("recalibrate", &W::recalibrate, "Asked before the tracker is calibrated anew."),
                 text("validation", &W::validation,
                      "Asked when the program has calibrated the tracker; mean and largest error follow."),

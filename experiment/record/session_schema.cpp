@@ -122,6 +122,9 @@ CREATE TABLE IF NOT EXISTS missed_refresh (
     vertical_blank_ns INTEGER NOT NULL, uncertainty_ns INTEGER NOT NULL,
     PRIMARY KEY (trial_id, refresh_in_trial)
 ) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS response_press (
+    trial_id INTEGER PRIMARY KEY, uncertainty_ns INTEGER NOT NULL
+) STRICT;
 CREATE TABLE IF NOT EXISTS swap_modes (
     trial_id INTEGER PRIMARY KEY, flipped INTEGER NOT NULL, copied INTEGER NOT NULL,
     suboptimal_copied INTEGER NOT NULL, skipped INTEGER NOT NULL

@@ -53,20 +53,20 @@ OperatorControl::Press OperatorControl::wait(const Waiting& waiting) {
                 continue;
             switch (press->key) {
             case ResponseKey::next:
-                return {How::next, press->pressed_at};
+                return {How::next, press->pressed_at, press->uncertainty};
             case ResponseKey::back:
             case ResponseKey::left:
                 if (waiting.turns_pages)
-                    return {How::back, press->pressed_at};
+                    return {How::back, press->pressed_at, press->uncertainty};
                 break;
             case ResponseKey::right:
                 if (waiting.turns_pages)
-                    return {How::next, press->pressed_at};
+                    return {How::next, press->pressed_at, press->uncertainty};
                 break;
             case ResponseKey::yes:
-                return {How::yes, press->pressed_at};
+                return {How::yes, press->pressed_at, press->uncertainty};
             case ResponseKey::no:
-                return {How::no, press->pressed_at};
+                return {How::no, press->pressed_at, press->uncertainty};
             default:
                 break;
             }
@@ -176,6 +176,27 @@ std::optional<int> OperatorControl::confirm(const Screen& screen, int reasons) {
     }
     state_.note(operator_answered_event, answer ? "yes" : "no");
     return state_.is_over() ? std::nullopt : answer;
+}
+
+void OperatorControl::await_keyboard() {
+    if (state_.ports.panel.has_keyboard())
+        return;
+    const SessionPhase phase = state_.phase();
+    const int trial = state_.trial();
+    state_.enter(SessionPhase::pause, trial);
+    const Screen screen = screens::keyboard_lost(state_.protocol);
+    state_.ports.panel.await_key(state_.show(screen));
+    while (!state_.ports.panel.has_keyboard() && !state_.ends_by_itself()) {
+        while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
+            if (press->key == ResponseKey::abort && act_on(*press))
+                state_.ports.panel.await_key(state_.show(screen));
+            if (state_.is_over())
+                return;
+        }
+        rest_a_little(SessionTime::max());
+    }
+    if (!state_.is_over())
+        state_.enter(phase, trial);
 }
 
 void OperatorControl::pause() {

@@ -51,6 +51,7 @@ class OperatorControl {
     struct Press {
         How how = How::next;
         SessionTime at;
+        SessionDuration uncertainty{}; ///< see ResponsePress
     };
     /// Waits until the observer presses a key or the time is up, or until the operator ends the trial or the
     /// session. Pauses and calibrations in between are done here; pauses do not count as waiting.
@@ -76,6 +77,9 @@ class OperatorControl {
     /// Shows the target in the middle of the screen and compares gaze with it, for the operator: the record
     /// notes what was found. Does nothing else about a drift, except where the tracker asks to be set up.
     void check_drift();
+    /// Where what is typed goes to another window: says so on the screen until it comes back, or the session
+    /// is over. Between trials.
+    void await_keyboard();
     /// The tracker was lost, with what it said: asks whether to connect again, and sets it up. Otherwise the
     /// session is over.
     void regain_tracker(const std::string& why = {});

@@ -108,6 +108,9 @@ void Session::farewell() {
 
 void Session::run_step(TrialQueue& queue, const SessionStep& step, SessionResult& result,
                        const TrialDone& trial_done) {
+    control_.await_keyboard();
+    if (state_.is_over())
+        return;
     switch (step.kind) {
     case SessionStep::Kind::instructions:
         run_instructions(step);

@@ -89,6 +89,12 @@ Screen pause(const Protocol& protocol) {
             .frame = protocol.words.experimenter};
 }
 
+Screen keyboard_lost(const Protocol& protocol) {
+    return {.kind = Screen::Kind::text,
+            .text = protocol.words.keyboard_lost,
+            .frame = protocol.words.experimenter};
+}
+
 Screen operator_question(const Protocol& protocol, const std::string& question) {
     const OperatorSettings& keys = protocol.operators;
     return {.kind = Screen::Kind::text,
@@ -147,6 +153,7 @@ std::vector<std::pair<std::string, Screen>> all_of(const Protocol& protocol) {
     }
     add("farewell", farewell(protocol));
     add("operator_pause", pause(protocol));
+    add("keyboard_lost", keyboard_lost(protocol));
     const WordSettings& words = protocol.words;
     add("operator_recalibrate", operator_question(protocol, words.recalibrate));
     add("operator_not_calibrated", operator_question(protocol, words.not_calibrated));

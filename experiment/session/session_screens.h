@@ -29,6 +29,7 @@ Screen break_awake(const Protocol& protocol);
 
 /// What is not the observer's to answer stands in a frame.
 Screen pause(const Protocol& protocol);
+Screen keyboard_lost(const Protocol& protocol);
 Screen operator_question(const Protocol& protocol, const std::string& question);
 /// With the reasons, which digits choose.
 std::string skip_question(const Protocol& protocol);

@@ -12,7 +12,8 @@ SessionStage::SessionStage(SessionState& state)
 }
 
 SessionTime SessionStage::show_target(ScreenPoint place, Degrees diameter) {
-    return state_.show({.kind = Screen::Kind::target, .text = "", .target_place = place, .target_diameter = diameter});
+    return state_.show(
+        {.kind = Screen::Kind::target, .text = "", .target_place = place, .target_diameter = diameter});
 }
 
 SessionTime SessionStage::clear() { return state_.show({}); }

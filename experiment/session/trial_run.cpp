@@ -387,6 +387,8 @@ void TrialRun::take_answer(const Trial& trial, const std::optional<Condition>& n
         };
     const OperatorControl::Press press = control_.wait(waiting);
     outcome.responded_at = press.at;
+    if (press.uncertainty > SessionDuration::zero())
+        outcome.responded_uncertainty = press.uncertainty;
     if (recording)
         recording->end(press.at);
     if (press.how == How::timed_out)

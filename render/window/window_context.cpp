@@ -25,6 +25,7 @@ struct WindowContext::State {
     glm::ivec2 held_framebuffer_px{0};
     GLFWmonitor* held_monitor = nullptr;
     WindowDisturbance disturbance = WindowDisturbance::none;
+    bool has_lost_focus = false;
     ~State() {
         if (window)
             glfwDestroyWindow(window);
@@ -60,6 +61,10 @@ struct WindowContext::State {
     static bool monitor_is_there(GLFWmonitor* monitor) {
         const std::vector<GLFWmonitor*> monitors = all_monitors();
         return std::find(monitors.begin(), monitors.end(), monitor) != monitors.end();
+    }
+
+    static void on_focus(GLFWwindow* window, int has_it) {
+        static_cast<State*>(glfwGetWindowUserPointer(window))->has_lost_focus = has_it == GLFW_FALSE;
     }
 
     static void on_pointer(GLFWwindow* window, double x, double y) {
@@ -142,6 +147,7 @@ WindowContext::WindowContext(const WindowRequest& request) : state_(std::make_un
     glfwSetWindowUserPointer(state_->window, state_.get());
     glfwSetFramebufferSizeCallback(state_->window, &State::on_size);
     glfwSetWindowPosCallback(state_->window, &State::on_position);
+    glfwSetWindowFocusCallback(state_->window, &State::on_focus);
     glfwSetKeyCallback(state_->window, &State::on_key);
     glfwSetCharCallback(state_->window, &State::on_character);
     glfwGetCursorPos(state_->window, &state_->pointer_px.x, &state_->pointer_px.y);
@@ -198,6 +204,8 @@ WindowContext::Dragging WindowContext::take_dragging() noexcept {
 }
 
 bool WindowContext::close_requested() const noexcept { return glfwWindowShouldClose(state_->window) != 0; }
+
+bool WindowContext::has_lost_focus() const noexcept { return state_->has_lost_focus; }
 
 glm::ivec2 WindowContext::window_size() const {
     glm::ivec2 size(0);

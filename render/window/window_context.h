@@ -121,6 +121,9 @@ class WindowContext final : public GlContext {
     bool next_key_press(WindowKeyPress& press) noexcept;
     bool close_requested() const noexcept;
 
+    /// It had the keyboard, and another window has it now; as of poll_events().
+    bool has_lost_focus() const noexcept;
+
     /// What the mouse has done since the last call: its way in pixels while its left button was held (right
     /// and down are positive), and the wheel's steps (away from the user is positive).
     struct Dragging {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "experiment/ports/event_kinds.h"
+#include "experiment/ports/session_log.h"
+
 namespace overt {
 
 namespace {
@@ -76,20 +79,22 @@ WindowResponsePanel::WindowResponsePanel(WindowContext& window, const Clock& clo
                                          {key_called(operators.skip), ResponseKey::skip},
                                          {key_called(operators.abort), ResponseKey::abort}}},
       yes_(key_called(operators.yes)), no_(key_called(operators.no)), accept_(key_called(consent.accept_key)),
-      decline_(key_called(consent.decline_key)), answers_(operators.keyboard_answers) {}
+      decline_(key_called(consent.decline_key)), answers_(operators.keyboard_answers),
+      looked_before_(clock.now()), looked_(looked_before_) {}
 
 std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPress& press) const noexcept {
-    // GLFW's events carry no times of their own; this is within one polling interval of the press.
-    const SessionTime now = clock_->now();
+    // GLFW's events carry no times of their own: the key went down since the keys were looked at before.
+    const SessionTime now = looked_;
+    const SessionDuration uncertainty = looked_ - looked_before_;
     const bool is_character = press.key == WindowKey::character;
     const bool is_held = press.is_repeated;
     // Where one writes or decides by letters, they are no keys of the operator.
     if (!is_character || mode_ == Mode::reading)
         for (const auto& [key, meaning] : operators_)
             if (key.is(press))
-                return ResponsePress{meaning, now};
+                return ResponsePress{meaning, now, 0, uncertainty};
     const auto meant = [&](ResponseKey key) {
-        return std::optional(ResponsePress{key, now, press.character});
+        return std::optional(ResponsePress{key, now, press.character, uncertainty});
     };
     // Where the observer has a box, what is the observer's to press is pressed there.
     if (!answers_ && (mode_ == Mode::reading || mode_ == Mode::consent))
@@ -149,9 +154,29 @@ std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPres
     return std::nullopt;
 }
 
+void WindowResponsePanel::look() noexcept {
+    window_->poll_events();
+    looked_before_ = looked_;
+    looked_ = clock_->now();
+    if (window_->has_lost_focus() == is_focus_lost_ || focus_change_count_ == focus_changes_.size())
+        return;
+    is_focus_lost_ = !is_focus_lost_;
+    focus_changes_[focus_change_count_++] = {looked_, is_focus_lost_};
+}
+
+void WindowResponsePanel::write_down(SessionLog& log) {
+    for (std::size_t i = 0; i < focus_change_count_; ++i)
+        log.event({focus_changes_[i].at, -1, keyboard_event,
+                   focus_changes_[i].is_lost ? "went to another window: keys did not reach the session"
+                                             : "came back to the session's window"});
+    focus_change_count_ = 0;
+    if (answering_)
+        answering_->write_down(log);
+}
+
 /// The operator's stay: they may have been pressed while something was prepared.
 void WindowResponsePanel::forget_presses(Mode mode) noexcept {
-    window_->poll_events();
+    look();
     WindowKeyPress press{};
     while (window_->next_key_press(press)) {
         const std::optional<ResponsePress> meant = meaning_of(press);
@@ -192,7 +217,7 @@ void WindowResponsePanel::await_setup(SessionTime since) {
 }
 
 std::optional<SetupKey> WindowResponsePanel::next_setup_key() {
-    window_->poll_events();
+    look();
     WindowKeyPress press{};
     while (window_->next_key_press(press))
         if (const std::optional<SetupKey> key = setup_key_of(press))
@@ -207,7 +232,7 @@ std::optional<ResponsePress> WindowResponsePanel::poll() noexcept {
         --kept_count_;
         return press;
     }
-    window_->poll_events();
+    look();
     WindowKeyPress press{};
     while (window_->next_key_press(press))
         if (const std::optional<ResponsePress> meant = meaning_of(press))

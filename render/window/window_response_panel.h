@@ -38,6 +38,8 @@ class WindowResponsePanel final : public ResponsePanel {
     std::optional<SetupKey> next_setup_key() override;
     std::optional<ResponsePress> poll() noexcept override;
     std::string answer() override { return answering_ ? answering_->answer() : std::string(); }
+    bool has_keyboard() const noexcept override { return !window_->has_lost_focus(); }
+    void write_down(SessionLog& log) override;
     void entered(SessionPhase phase, int trial) noexcept override {
         if (answering_)
             answering_->entered(phase, trial);
@@ -46,6 +48,7 @@ class WindowResponsePanel final : public ResponsePanel {
   private:
     enum class Mode : std::uint8_t { reading, consent, confirmation, entry, setup };
     void forget_presses(Mode mode) noexcept;
+    void look() noexcept;
     std::optional<ResponsePress> meaning_of(const WindowKeyPress& press) const noexcept;
 
     WindowContext* window_;
@@ -58,6 +61,15 @@ class WindowResponsePanel final : public ResponsePanel {
     // The operator's presses that came while something was prepared.
     std::array<ResponsePress, 16> kept_{};
     std::size_t kept_count_ = 0;
+    SessionTime looked_before_, looked_; ///< at the keys
+    /// That the keyboard went to another window, or came back; to be recorded.
+    struct FocusChange {
+        SessionTime at;
+        bool is_lost = false;
+    };
+    std::array<FocusChange, 16> focus_changes_{};
+    std::size_t focus_change_count_ = 0;
+    bool is_focus_lost_ = false; ///< by the last of them
 };
 
 } // namespace overt

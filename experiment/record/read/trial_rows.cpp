@@ -77,6 +77,21 @@ void add_response_boxes(const SQLite::Database& database, std::vector<TrialRecor
     }
 }
 
+/// A press at a keyboard.
+void add_presses(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
+    if (!has_table(database, "response_press"))
+        return;
+    for (Query row(database, "SELECT trial_id, uncertainty_ns FROM response_press"); row.step();) {
+        const auto trial = std::ranges::find(trials, row.integer(), &TrialRecord::id);
+        const SessionDuration uncertainty(row.integer());
+        if (trial == trials.end())
+            continue;
+        trial->outcome.responded_uncertainty = uncertainty;
+        if (!trial->response_uncertainty)
+            trial->response_uncertainty = uncertainty;
+    }
+}
+
 void add_swap_modes(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
     if (!has_table(database, "swap_modes"))
         return;
@@ -114,6 +129,7 @@ std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
                         : "NULL, NULL, 0"),
         read_trial);
     add_response_boxes(database, trials);
+    add_presses(database, trials);
     add_swap_modes(database, trials);
     return trials;
 }

@@ -236,7 +236,12 @@ RowLayout<TrialRecord> responses_layout(const SharedColumns& shared, const Sessi
              [](auto& to, auto& row) {
                  row.response_box.empty() ? to.missing() : to.text(row.response_box);
              }},
-            {{"response_uncertainty_s", "So far at most responded_s is off, of a response box", "s", {}},
+            {{"response_uncertainty_s",
+              "So far at most responded_s is off: by the clock of a response box, or the time since a "
+              "keyboard was "
+              "looked at before; n/a of simulated observers",
+              "s",
+              {}},
              [](auto& to, auto& row) {
                  row.response_uncertainty ? to.seconds(*row.response_uncertainty) : to.missing();
              }},

@@ -354,6 +354,11 @@ void RowWriter::write(const TrialFinish& finish) {
         outcome.answer, finish.lost_flips, finish.lost_samples,
         outcome.failure.empty() ? std::nullopt : std::optional(outcome.failure),
         afterwards.empty() ? std::nullopt : std::optional(std::string(afterwards)), trial_counts_.trial_id);
+    if (outcome.responded_uncertainty) {
+        SQLite::Statement insert(database_,
+                                 "INSERT INTO response_press (trial_id, uncertainty_ns) VALUES (?,?)");
+        run_statement(insert, trial_counts_.trial_id, *outcome.responded_uncertainty);
+    }
     if (const std::optional<SwapModes>& swaps = outcome.swaps) {
         SQLite::Statement insert(database_,
                                  "INSERT INTO swap_modes (trial_id, flipped, copied, suboptimal_copied, "

@@ -188,12 +188,14 @@ class ScriptedPanel final : public ResponsePanel {
         return press;
     }
     std::string answer() override { return "yes"; }
+    bool has_keyboard() const noexcept override { return !lacks_keyboard || !lacks_keyboard(*this); }
 
     SessionPhase phase() const { return phases.back(); }
     bool is_deciding() const { return awaited_ == Key::yes; }
     bool is_typing() const { return awaited_ == Key::character; }
     long times_in(SessionPhase phase) const { return std::count(phases.begin(), phases.end(), phase); }
 
+    std::function<bool(const ScriptedPanel&)> lacks_keyboard;
     /// What it presses now, if not the usual.
     std::function<std::optional<ResponsePress>(ScriptedPanel&)> tell;
     std::vector<SessionPhase> phases;

@@ -1,0 +1,56 @@
+/// A keyboard that another window takes, and how well the time of a press is known.
+#include "tests/experiment/record/plain_session.h"
+
+using namespace overt;
+using namespace overt::test;
+using Pressed = ResponsePress::Key;
+
+namespace {
+
+/// The pause before the second of two trials lasts until the keyboard comes back.
+constexpr int looks_without = 20;
+
+} // namespace
+
+TEST_CASE("while another window has the keyboard no trial begins, and the screen says why", "[unit]") {
+    Sitting sitting(short_protocol("[words]\nkeyboard_lost = \"Click here.\"\n"));
+    // It goes in the first trial, which is not broken off for it.
+    sitting.panel.lacks_keyboard = [](const ScriptedPanel& panel) {
+        if (panel.trial != 0)
+            return false;
+        return panel.phase() != SessionPhase::pause || panel.looks < looks_without;
+    };
+    CHECK(sitting.run().completed_trials == 2);
+    CHECK(std::ranges::count(sitting.presenter.texts, "Click here.") == 1);
+    CHECK(sitting.panel.times_in(SessionPhase::pause) == 1);
+    // None of the keys that a box pressed meanwhile ended it.
+    CHECK(sitting.log.completed == std::vector<bool>{true, true});
+}
+
+TEST_CASE("the session can be ended while the keyboard is away", "[unit]") {
+    Sitting sitting(short_protocol(""));
+    sitting.panel.lacks_keyboard = [](const ScriptedPanel& panel) { return panel.trial == 0; };
+    sitting.panel.tell = [](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+        if (panel.phase() == SessionPhase::pause && !panel.is_deciding() && panel.looks > 3)
+            return ResponsePress{Pressed::abort, {}};
+        return std::nullopt;
+    };
+    const SessionResult result = sitting.run();
+    CHECK(result.aborted);
+    CHECK(result.completed_trials == 1);
+}
+
+TEST_CASE("an answer has the uncertainty of the press that gave it, and the next trial its own", "[unit]") {
+    Sitting sitting(short_protocol(""));
+    sitting.panel.tell = [](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+        if (panel.phase() != SessionPhase::response_screen || panel.trial != 0)
+            return std::nullopt;
+        ResponsePress press{Pressed::next, {}};
+        press.uncertainty = std::chrono::milliseconds(4);
+        return press;
+    };
+    sitting.run();
+    REQUIRE(sitting.log.outcomes.size() == 2);
+    CHECK(sitting.log.outcomes[0].responded_uncertainty == SessionDuration(std::chrono::milliseconds(4)));
+    CHECK_FALSE(sitting.log.outcomes[1].responded_uncertainty);
+}
