@@ -10,14 +10,6 @@
 #include "render/window/xcb_reply.h"
 
 namespace overt {
-namespace {
-
-using Weight = ScreenFinding::Weight;
-
-constexpr const char* saver_finding = "screen saver";
-constexpr const char* notifications_finding = "notifications";
-constexpr const char* reason = "an experiment is running";
-constexpr int answer_ms = 2000; ///< a service that does not answer must not keep a session waiting
 
 struct CloseBus {
     void operator()(GDBusConnection* bus) const {
@@ -26,6 +18,15 @@ struct CloseBus {
     }
 };
 using Bus = std::unique_ptr<GDBusConnection, CloseBus>;
+
+namespace {
+
+using Weight = ScreenFinding::Weight;
+
+constexpr const char* saver_finding = "screen saver";
+constexpr const char* notifications_finding = "notifications";
+constexpr const char* reason = "an experiment is running";
+constexpr int answer_ms = 2000; ///< a service that does not answer must not keep a session waiting
 
 /// Where the session's bus listens; empty: there is none. None is started for it.
 std::string bus_address() {

@@ -1,11 +1,12 @@
 #include "render/window/window_system.h"
 
 #include <cstdlib>
-#include <memory>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <xcb/randr.h>
+
+#include "render/window/xcb_reply.h"
 
 namespace overt {
 namespace {
@@ -14,8 +15,6 @@ std::string variable(const char* name) {
     const char* const value = std::getenv(name);
     return value ? value : "";
 }
-
-template <class T> std::unique_ptr<T, decltype(&std::free)> owned(T* reply) { return {reply, &std::free}; }
 
 xcb_atom_t atom_called(xcb_connection_t* link, std::string_view name) {
     const auto reply = owned(xcb_intern_atom_reply(
@@ -32,12 +31,6 @@ std::string name_of_window(xcb_connection_t* link, xcb_window_t window) {
             return {static_cast<const char*>(xcb_get_property_value(value.get())), value->value_len};
     }
     return {};
-}
-
-bool has_extension(xcb_connection_t* link, std::string_view name) {
-    const auto reply = owned(xcb_query_extension_reply(
-        link, xcb_query_extension(link, static_cast<std::uint16_t>(name.size()), name.data()), nullptr));
-    return reply && reply->present;
 }
 
 /// Since version 23.1 Xwayland has an extension of its own; before, its outputs have a name or a property

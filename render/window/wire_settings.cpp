@@ -118,12 +118,6 @@ void add_crtc_settings(xcb_connection_t* link, xcb_randr_crtc_t crtc, std::vecto
             {"transformation", is_identity(transform->current_transform) ? "none" : "another", randr_crtc});
 }
 
-bool has_extension(xcb_connection_t* link, std::string_view name) {
-    const auto answer = owned(xcb_query_extension_reply(
-        link, xcb_query_extension(link, static_cast<std::uint16_t>(name.size()), name.data()), nullptr));
-    return answer && answer->present;
-}
-
 } // namespace
 
 std::vector<WireSetting> read_nvidia_settings(const std::string& output, const std::string& program) {

@@ -1,8 +1,9 @@
-/// Answers of an X server, freed at their end.
+/// Connections to an X server, and its answers, freed at their end.
 #pragma once
 
 #include <cstdlib>
 #include <memory>
+#include <string_view>
 
 #include <xcb/xcb.h>
 
@@ -18,5 +19,12 @@ using XcbLink = std::unique_ptr<xcb_connection_t, decltype(&xcb_disconnect)>;
 /// A connection of its own. `server`: as DISPLAY names it, which is taken for null. What it gives may have an
 /// error: xcb_connection_has_error().
 inline XcbLink link_to(const char* server) { return {xcb_connect(server, nullptr), &xcb_disconnect}; }
+
+/// Whether the server has an extension of this name.
+inline bool has_extension(xcb_connection_t* link, std::string_view name) {
+    const auto reply = owned(xcb_query_extension_reply(
+        link, xcb_query_extension(link, static_cast<std::uint16_t>(name.size()), name.data()), nullptr));
+    return reply && reply->present;
+}
 
 } // namespace overt

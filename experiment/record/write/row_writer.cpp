@@ -357,7 +357,7 @@ void RowWriter::write(const TrialFinish& finish) {
     if (outcome.responded_uncertainty) {
         SQLite::Statement insert(database_,
                                  "INSERT INTO response_press (trial_id, uncertainty_ns) VALUES (?,?)");
-        run_statement(insert, trial_counts_.trial_id, *outcome.responded_uncertainty);
+        run_statement(insert, trial_counts_.trial_id, outcome.responded_uncertainty->count());
     }
     if (const std::optional<SwapModes>& swaps = outcome.swaps) {
         SQLite::Statement insert(database_,
