@@ -54,6 +54,27 @@ TEST_CASE("the server's screen saver does not come while a session's screen is k
     CHECK(saver_comes(link.get()));
 }
 
+TEST_CASE("a window knows that another took its keyboard, and that it came back", "[gl]") {
+    const auto screen = VirtualScreen::start(320, 240, 24);
+    WindowContext window({{160, 120}, "keyboard"});
+    const XcbLink link = link_to(nullptr);
+    const auto give_to = [&](std::uint32_t other) {
+        const auto error =
+            owned(xcb_request_check(link.get(), xcb_set_input_focus_checked(link.get(), XCB_INPUT_FOCUS_NONE,
+                                                                            other, XCB_CURRENT_TIME)));
+        REQUIRE_FALSE(error);
+        window.poll_events();
+    };
+    window.poll_events();
+    CHECK_FALSE(window.has_lost_focus());
+    give_to(window.native().x11_window);
+    CHECK_FALSE(window.has_lost_focus());
+    give_to(XCB_INPUT_FOCUS_POINTER_ROOT);
+    CHECK(window.has_lost_focus());
+    give_to(window.native().x11_window);
+    CHECK_FALSE(window.has_lost_focus());
+}
+
 TEST_CASE("where nothing can hold a screen saver back, that is a risk with its remedy", "[unit]") {
     unsetenv("DBUS_SESSION_BUS_ADDRESS");
     unsetenv("XDG_RUNTIME_DIR");
