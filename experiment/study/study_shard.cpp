@@ -101,6 +101,11 @@ template <class Archive> void fields(Archive& archive, StudyShard& shard) {
 
 template <class T> constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
+/// Of the words that a shard has as numbers: another number is no word.
+template <class T> constexpr T last_of() = delete;
+template <> constexpr NotCounted last_of() { return NotCounted::trial_excluded; }
+template <> constexpr GazeEvent::Kind last_of() { return GazeEvent::Kind::blink; }
+
 class ShardWriter {
   public:
     template <class... Items> void operator()(Items&... items) { (put(items), ...); }
@@ -143,18 +148,34 @@ class ShardReader {
     bool is_at_end() const { return left_.empty(); }
 
   private:
+    [[noreturn]] void throw_damaged() const {
+        throw RecordError(fmt::format("{}: this shard is damaged: make it again.", file_));
+    }
     const char* next(std::uint64_t size) {
         if (size > left_.size())
-            throw RecordError(fmt::format("{}: this shard is damaged: make it again.", file_));
+            throw_damaged();
         const char* at = left_.data();
         left_.remove_prefix(static_cast<std::size_t>(size));
         return at;
     }
     template <class T> void take(T& item) {
-        if constexpr (is_plain<T>)
+        if constexpr (std::is_same_v<T, bool>)
+            item = one_of<std::uint8_t>(1) != 0;
+        else if constexpr (std::is_enum_v<T>)
+            item = static_cast<T>(
+                one_of<std::underlying_type_t<T>>(static_cast<std::underlying_type_t<T>>(last_of<T>())));
+        else if constexpr (is_plain<T>)
             std::memcpy(&item, next(sizeof item), sizeof item);
         else
             fields(*this, item);
+    }
+    /// A number from 0 to `last`.
+    template <class Number> Number one_of(Number last) {
+        Number number;
+        std::memcpy(&number, next(sizeof number), sizeof number);
+        if (number < 0 || number > last)
+            throw_damaged();
+        return number;
     }
     void take(std::string& text) {
         std::uint64_t size = 0;
