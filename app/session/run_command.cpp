@@ -171,7 +171,8 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
     ResponsePanel& keys = boxes ? *boxes : rig.panel();
     std::optional<OperatorEquipment> view;
     open_view(view, options, plan, folder, protocol, rig, store, keys);
-    TrialProgress progress(protocol, plan.schedule, rig.tracker().measures_gaze());
+    TrialProgress progress(protocol, plan.schedule, rig.tracker().measures_gaze(),
+                           folder.header.display.is_timing_unproven());
     Session session(protocol, plan.schedule, screen_geometry_of(protocol).centre(),
                     {.clock = rig.clock(),
                      .presenter = rig.presenter(),

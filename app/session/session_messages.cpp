@@ -45,11 +45,13 @@ void say_risks(const std::vector<ScreenFinding>& findings) {
 namespace {
 
 /// What the operator should know of an attempt before the next.
-std::vector<std::string> remarks_on(const TrialOutcome& outcome, double drift_limit_deg, bool has_tracker) {
+std::vector<std::string> remarks_on(const TrialOutcome& outcome, double drift_limit_deg, bool has_tracker,
+                                    bool is_timing_unproven) {
     using enum TrialOutcome::Afterwards;
     std::vector<std::string> remarks;
     if (outcome.missed_refreshes > 0)
-        remarks.push_back(counted(outcome.missed_refreshes, "refresh", "refreshes") + " missed");
+        remarks.push_back(counted(outcome.missed_refreshes, "refresh", "refreshes") +
+                          (is_timing_unproven ? " missed, by times that nothing proves" : " missed"));
     if (outcome.drift && outcome.drift->value > drift_limit_deg)
         remarks.push_back(fmt::format("the drift check found {:.2f} deg, more than {}", outcome.drift->value,
                                       drift_limit_deg));
@@ -68,9 +70,10 @@ std::vector<std::string> remarks_on(const TrialOutcome& outcome, double drift_li
 
 } // namespace
 
-TrialProgress::TrialProgress(const Protocol& protocol, const Schedule& schedule, bool has_tracker)
+TrialProgress::TrialProgress(const Protocol& protocol, const Schedule& schedule, bool has_tracker,
+                             bool is_timing_unproven)
     : protocol_(&protocol), schedule_(&schedule), total_(static_cast<int>(schedule.trials.size())),
-      has_tracker_(has_tracker) {
+      has_tracker_(has_tracker), is_timing_unproven_(is_timing_unproven) {
     bar_.update("trials", 0, total_);
 }
 
@@ -89,7 +92,7 @@ void TrialProgress::operator()(const Trial& trial, const TrialOutcome& outcome, 
     const auto name = [](const auto& list, int index) { return list[static_cast<std::size_t>(index)].id; };
     bar_.update("trials", done, total_);
     const std::vector<std::string> remarks =
-        remarks_on(outcome, protocol_->tracker.drift_limit_deg, has_tracker_);
+        remarks_on(outcome, protocol_->tracker.drift_limit_deg, has_tracker_, is_timing_unproven_);
     if (remarks.empty())
         return;
     bar_.make_room();

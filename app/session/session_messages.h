@@ -28,7 +28,9 @@ class TrialProgress {
   public:
     /// `has_tracker`: drifts are checked. The protocol must outlive this.
     /// Of the trials in the order of `schedule`, which must outlive this as well.
-    TrialProgress(const Protocol& protocol, const Schedule& schedule, bool has_tracker);
+    /// `is_timing_unproven`: missed refreshes are counted by times that nothing proves.
+    TrialProgress(const Protocol& protocol, const Schedule& schedule, bool has_tracker,
+                  bool is_timing_unproven);
     /// `done`: trials that were completed and count.
     void operator()(const Trial& trial, const TrialOutcome& outcome, int done);
     /// The session's phase now, with its trial or -1; the question of that trial is said with it.
@@ -39,7 +41,7 @@ class TrialProgress {
     const Protocol* protocol_;
     const Schedule* schedule_;
     int total_;
-    bool has_tracker_;
+    bool has_tracker_, is_timing_unproven_;
     ProgressBar bar_;
 };
 

@@ -238,6 +238,16 @@ void check_frame_store(ProtocolExamination& examination) {
                     std::ceil(stimulus_mb), std::ceil(2.0 * stimulus_mb)));
 }
 
+void check_timing_claim(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    if (protocol.display.timing == TimingClaim::unproven &&
+        protocol.repeat.missed_refreshes != RepeatWhen::never)
+        examination.warning({"repeat.missed_refreshes", "display.timing"},
+                            "trials come again for missed refreshes that are counted by times that nothing "
+                            "proves",
+                            "leave missed_refreshes out, or prove the times: timing = \"proven\"");
+}
+
 } // namespace
 
 void check_output(ProtocolExamination& examination) {
@@ -247,6 +257,7 @@ void check_output(ProtocolExamination& examination) {
     check_photodiode(examination);
     check_tags(examination);
     check_frame_store(examination);
+    check_timing_claim(examination);
 }
 
 } // namespace overt

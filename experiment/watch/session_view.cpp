@@ -65,6 +65,7 @@ SessionFacts read_facts(const Json& json) {
     take(json, "image_height_px", facts.image_height_px);
     take(json, "poses", facts.poses);
     take(json, "has_tracker", facts.has_tracker);
+    take(json, "is_timing_unproven", facts.is_timing_unproven);
     take(json, "drift_limit_deg", facts.drift_limit_deg);
     take(json, "mean_limit_deg", facts.mean_limit_deg);
     take(json, "max_limit_deg", facts.max_limit_deg);
@@ -144,6 +145,7 @@ std::string line_of(const SessionFacts& facts) {
                          {"image_height_px", facts.image_height_px},
                          {"poses", facts.poses},
                          {"has_tracker", facts.has_tracker},
+                         {"is_timing_unproven", facts.is_timing_unproven},
                          {"drift_limit_deg", facts.drift_limit_deg},
                          {"mean_limit_deg", facts.mean_limit_deg},
                          {"max_limit_deg", facts.max_limit_deg},

@@ -26,6 +26,7 @@ struct SessionFacts {
     int image_width_px = 0, image_height_px = 0; ///< of the stimulus, in the middle of the display
     int poses = 0;                               ///< of a stimulus
     bool has_tracker = false;
+    bool is_timing_unproven = false; ///< missed refreshes are counted by times that nothing proves
     double drift_limit_deg = 0.0, mean_limit_deg = 0.0, max_limit_deg = 0.0; ///< of the protocol
     std::vector<std::string> skip_reasons;                                   ///< that `skip` may give, from 1
 };

@@ -97,6 +97,12 @@ std::string where_it_stands(const ViewText& of) {
 
 } // namespace
 
+std::string missed_text(const SessionFacts& facts, const SessionView& view) {
+    return facts.is_timing_unproven
+               ? "unproven"
+               : fmt::format("{} in this trial, {} in all", view.missed_in_trial, view.missed);
+}
+
 std::string duration_text(std::optional<double> seconds) {
     if (!seconds || !(*seconds >= 0.0))
         return "-";
@@ -122,8 +128,7 @@ std::vector<std::string> figures_of(const ViewText& of) {
     if (!view.task.empty())
         lines.push_back(
             fmt::format("stimulus  {}, {}: {}", view.sculpture, view.material, plain(view.question)));
-    lines.push_back(fmt::format("display   {} missed refreshes in this trial, {} in the session",
-                                view.missed_in_trial, view.missed));
+    lines.push_back("display   missed refreshes: " + missed_text(facts, view));
     if (!facts.has_tracker)
         lines.emplace_back("tracker   none");
     else {
@@ -177,10 +182,10 @@ std::string screen_of(const ViewText& of, int columns, int rows) {
 
 std::string summary_of(const ViewText& of) {
     const SessionView& view = of.view;
-    return fmt::format("{:.1f} s: {}: {} of {} done, {} left, {} missed, {} without gaze, drift {}{}\n",
+    return fmt::format("{:.1f} s: {}: {} of {} done, {} left, missed: {}, {} without gaze, drift {}{}\n",
                        view.time_s, where_it_stands(of), view.done, of.facts.trials,
                        duration_text(view.is_over ? std::optional(0.0) : time_left_s(of.facts, view)),
-                       view.missed, share_text(lost_share(view.samples, view.lost)),
+                       missed_text(of.facts, view), share_text(lost_share(view.samples, view.lost)),
                        degrees_text(view.drift_deg, of.facts.drift_limit_deg),
                        view.asks.empty() ? "" : "; asked: " + plain(view.asks));
 }

@@ -35,6 +35,9 @@ std::string screen_of(const ViewText& of, int columns, int rows);
 /// One line for where no screen is: what a log of the session wants.
 std::string summary_of(const ViewText& of);
 
+/// "1 in this trial, 3 in all", or "unproven".
+std::string missed_text(const SessionFacts& facts, const SessionView& view);
+
 /// "3 min 05 s"; "-" for nothing.
 std::string duration_text(std::optional<double> seconds);
 

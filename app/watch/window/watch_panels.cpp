@@ -13,8 +13,7 @@ namespace overt {
 namespace {
 
 constexpr float left_share = 0.5f;
-const ImVec4 fine{0.75f, 0.85f, 0.75f, 1.0f}, poor{1.0f, 0.55f, 0.35f, 1.0f},
-    quiet{0.6f, 0.6f, 0.6f, 1.0f};
+const ImVec4 fine{0.75f, 0.85f, 0.75f, 1.0f}, poor{1.0f, 0.55f, 0.35f, 1.0f}, quiet{0.6f, 0.6f, 0.6f, 1.0f};
 
 void row(const char* label, const std::string& value, bool is_poor = false) {
     ImGui::TextColored(quiet, "%s", label);
@@ -138,8 +137,7 @@ void WatchPanels::draw_figures(const ViewText& text) {
     if (!view.task.empty())
         row("stimulus", fmt::format("{}, {}: {}", view.sculpture, view.material, view.question));
     ImGui::Separator();
-    row("missed refreshes", fmt::format("{} in this trial, {} in all", view.missed_in_trial, view.missed),
-        view.missed_in_trial > 0);
+    row("missed refreshes", missed_text(facts, view), !facts.is_timing_unproven && view.missed_in_trial > 0);
     if (!facts.has_tracker)
         row("eye tracker", "none");
     else {

@@ -146,3 +146,13 @@ TEST_CASE("a square for a photodiode that comes too close to the stimulus is an 
         CHECK(found[0].find("closer than 12 px to the stimulus in columns 448 to 1471") != std::string::npos);
     }
 }
+
+TEST_CASE("a protocol that repeats trials for misses that nothing proves is warned", "[unit]") {
+    const auto lines = [](const std::string& keys) { return ReadText(minimal_protocol, keys).lines(); };
+    const std::string repeats = "[repeat]\nmissed_refreshes = \"now\"\n";
+    CHECK(lines(repeats).empty());
+    CHECK(lines("[display]\ntiming = \"unproven\"\n").empty());
+    const Lines found = lines("[display]\ntiming = \"unproven\"\n" + repeats);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].find("by times that nothing proves") != std::string::npos);
+}

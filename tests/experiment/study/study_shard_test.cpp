@@ -112,6 +112,34 @@ TEST_CASE("a shard that is cut off, changed or of another kind is refused", "[un
     CHECK_THROWS_WITH(read_shard(folder.path()), Catch::Contains("no shard of a study"));
 }
 
+TEST_CASE("a shard that was forged with its hash has no words that there are not", "[unit]") {
+    const TemporaryFolder folder;
+    write_shard(folder.path(), shard(2));
+    const std::string whole = read_whole_file(folder.path() / shard_file_name);
+    const std::size_t first = whole.find('\n') + 1, hash = whole.size() - hash_of_text("").size();
+    int refused = 0;
+    for (std::size_t at = first; at < hash; ++at) {
+        std::string forged = whole.substr(0, hash);
+        forged[at] = static_cast<char>(0xee);
+        folder.file(shard_file_name, forged + hash_of_text(forged));
+        StudyShard read;
+        try {
+            read = read_shard(folder.path());
+        } catch (const Error&) {
+            ++refused;
+            continue;
+        }
+        for (const ReadSession& session : read.read)
+            for (const ReadTrial& trial : session.trials) {
+                for (const StudyFixation& fixation : trial.fixations)
+                    REQUIRE(fixation.why <= NotCounted::trial_excluded);
+                for (const StudyTraceEvent& event : trial.trace.events)
+                    REQUIRE(event.kind <= GazeEvent::Kind::blink);
+            }
+    }
+    CHECK(refused > 0);
+}
+
 TEST_CASE("shards are joined in the order of the study, in whatever order they are given", "[unit]") {
     for (const bool turned : {false, true}) {
         std::vector<StudyShard> shards{shard(turned ? 2 : 1), shard(turned ? 1 : 2)};

@@ -231,3 +231,17 @@ TEST_CASE("the view as text fits the terminal, says what is wrong and shows gaze
     CHECK(screen[gaze_at + 1] == '@');
     CHECK(summary_of(text).find("3 of 10 done") != std::string::npos);
 }
+
+TEST_CASE("missed refreshes are counted for the operator only where times are proven", "[unit]") {
+    SessionFacts facts;
+    SessionView view;
+    view.missed_in_trial = 1;
+    view.missed = 3;
+    CHECK(missed_text(facts, view) == "1 in this trial, 3 in all");
+    facts.is_timing_unproven = true;
+    CHECK(missed_text(facts, view) == "unproven");
+    // The fact travels with the others.
+    const std::optional<SessionFacts> read = read_view_line(line_of(facts)).facts;
+    REQUIRE(read);
+    CHECK(read->is_timing_unproven);
+}
