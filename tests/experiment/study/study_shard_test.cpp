@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "experiment/base/content_hash.h"
 #include "experiment/base/error.h"
 #include "experiment/base/whole_file.h"
 #include "tests/support/temporary_folder.h"

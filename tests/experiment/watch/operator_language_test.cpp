@@ -49,9 +49,8 @@ SessionView some_view() {
 }
 
 SessionFacts some_facts() {
-    return {"small", "P01", "/data/s", 10,  120.0,
-            544,     192,   128,       128, 31,
-            true,    1.0,   0.5,       1.0, {"sleepy", "a \"noise\""}};
+    return {"small", "P01", "/data/s", 10,    120.0, 544, 192, 128,
+            128,     31,    true,      false, 1.0,   0.5, 1.0, {"sleepy", "a \"noise\""}};
 }
 
 ViewNews news_of(ViewNews::Kind kind, double at_s) {
