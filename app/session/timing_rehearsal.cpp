@@ -36,7 +36,8 @@ void rehearse_timing(Rig& rig, const Protocol& protocol, const Schedule& schedul
         found += fmt::format("; the record could not keep {} and {}", counted(lost.flips, "flip"),
                              counted(lost.samples, "sample"));
     store.event({rig.clock().now(), -1, timing_rehearsed_event, found});
-    fmt::print("{}: {}\n", timing_rehearsed_event, found);
+    fmt::print("{}: {}; the distribution of times is in the record\n", timing_rehearsed_event,
+               counts_of(rehearsed));
     if (misses_too_many(rehearsed))
         fmt::print(stderr,
                    "risk: a rehearsed presentation missed {} of {}: trials will miss as many. Close other "

@@ -100,14 +100,17 @@ RehearsedPresentation rehearse_presentation(const Protocol& protocol, const Tria
     return rehearsed;
 }
 
+std::string counts_of(const RehearsedPresentation& rehearsed) {
+    return fmt::format("{}, {} missed, {}", counted(rehearsed.refreshes, "refresh", "refreshes"),
+                       rehearsed.missed,
+                       rehearsed.tracker_refusal ? "without the eye tracker: " + *rehearsed.tracker_refusal
+                                                 : counted(rehearsed.samples, "sample") + " of gaze");
+}
+
 std::string describe(const RehearsedPresentation& rehearsed) {
     return fmt::format(
-        "{}, {} missed, {}; from picture to picture in ms: {}; from asking for a picture to its swap in "
-        "ms: {}",
-        counted(rehearsed.refreshes, "refresh", "refreshes"), rehearsed.missed,
-        rehearsed.tracker_refusal ? "without the eye tracker: " + *rehearsed.tracker_refusal
-                                  : counted(rehearsed.samples, "sample") + " of gaze",
-        quantiles_of(rehearsed.intervals_ms), quantiles_of(rehearsed.work_ms));
+        "{}; from picture to picture in ms: {}; from asking for a picture to its swap in ms: {}",
+        counts_of(rehearsed), quantiles_of(rehearsed.intervals_ms), quantiles_of(rehearsed.work_ms));
 }
 
 bool misses_too_many(const RehearsedPresentation& rehearsed) {
