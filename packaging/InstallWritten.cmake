@@ -29,8 +29,9 @@ foreach(script IN ITEMS "bash=bash-completion/completions/overt" "zsh=zsh/${zsh_
                     COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
 
+# file(INSTALL) puts DESTDIR before its destination by itself.
 if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
-    file(INSTALL "${overt_limits}" DESTINATION "$ENV{DESTDIR}/etc/security/limits.d")
+    file(INSTALL "${overt_limits}" DESTINATION "/etc/security/limits.d")
 else()
-    file(INSTALL "${overt_limits}" DESTINATION "${root}/share/overt/limits.d")
+    file(INSTALL "${overt_limits}" DESTINATION "${CMAKE_INSTALL_PREFIX}/share/overt/limits.d")
 endif()
