@@ -1,13 +1,15 @@
 #include "app/rig/operator_equipment.h"
 
+#include <chrono>
+
 #include "experiment/protocol/protocol.h"
 #include "experiment/record/preview_file.h"
 
 namespace overt {
 
 OperatorServer::Options operator_view_of(const SessionHeader& header, const Protocol& protocol,
-                                         const std::filesystem::path& folder, bool has_tracker,
-                                         int completed) {
+                                         const std::filesystem::path& folder, bool has_tracker, int completed,
+                                         const Clock* steady) {
     OperatorServer::Options options;
     SessionFacts& facts = options.facts;
     facts.protocol = protocol.name;
@@ -27,6 +29,10 @@ OperatorServer::Options operator_view_of(const SessionHeader& header, const Prot
     facts.mean_limit_deg = protocol.calibration.mean_limit_deg;
     facts.max_limit_deg = protocol.calibration.max_limit_deg;
     facts.skip_reasons = protocol.operators.skip_reasons;
+    if (steady)
+        facts.clock_zero_s =
+            std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count() -
+            to_seconds(steady->now());
     options.completed = completed;
     for (const Trial& trial : header.schedule.trials) {
         const Task& task = protocol.tasks[static_cast<std::size_t>(trial.task)];

@@ -91,11 +91,12 @@ void open_view(std::optional<OperatorEquipment>& view, const RunOptions& options
         return;
     OperatorServer::Options wished =
         operator_view_of(folder.header, protocol, folder.path, rig.tracker().measures_gaze(),
-                         plan.resumed ? plan.resumed->history.counted_trials : 0);
+                         plan.resumed ? plan.resumed->history.counted_trials : 0,
+                         options.virtual_time ? nullptr : &rig.clock());
     wished.socket =
         options.operator_socket->empty() ? folder.path / operator_socket_name : *options.operator_socket;
     wished.tell = [](const std::string& sentence) { fmt::print(stderr, "{}\n", sentence); };
-    view.emplace(std::move(wished), rig.clock(), store, keys);
+    view.emplace(std::move(wished), rig.clock(), rig.tracker(), store, keys);
     fmt::print("operator's view: overt watch --socket {}\n", view->socket().string());
 }
 
@@ -186,6 +187,11 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
                      .on_level = view ? view->meter_besides(answers.meter()) : answers.meter(),
                      .markers = markers.sinks(),
                      .on_beep = [&](SetupBeep beep) { sounds.play(beep); },
+                     .on_camera =
+                         [&](const CameraImage& image) {
+                             if (view)
+                                 view->show_camera(image);
+                         },
                      .on_phase =
                          [&](SessionPhase phase, int trial) {
                              progress.enter(phase, trial);

@@ -1,31 +1,95 @@
 #include "app/watch/watched_session.h"
 
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+
 namespace overt {
 
 namespace {
 
 constexpr std::chrono::milliseconds long_silence{3000};
+constexpr std::chrono::seconds camera_lasts{2};
 constexpr std::size_t most_kept_events = 200;
 /// A fifth of a second of one eye.
-constexpr std::size_t most_kept_gaze = 12;
+constexpr std::size_t most_kept_gaze = 50;
+
+ViewedPicture grey_of(const ViewedCamera& camera) {
+    ViewedPicture picture{camera.width_px, camera.height_px, {}};
+    for (std::size_t i = 0; i + 2 < camera.rgb.size(); i += 3) {
+        int sum = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            sum += std::to_integer<int>(camera.rgb[i + k]);
+        picture.lightness.push_back(static_cast<float>(sum) / (3.0f * 255.0f));
+    }
+    return picture;
+}
 
 } // namespace
 
+/// A view without a surface is still a view: what cannot be read is left out.
+void WatchedSession::read_sculpture() {
+    const std::string& now = client_.view().sculpture;
+    if (reading_.valid() && reading_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+        sculpture_ = reading_.get();
+    if (now == wanted_ || now.empty() || reading_.valid())
+        return;
+    wanted_ = now;
+    sculpture_.reset();
+    reading_ = std::async(std::launch::async,
+                          [folder = std::filesystem::path(client_.facts().folder),
+                           id = now]() -> std::shared_ptr<const WatchedSculpture> {
+                              try {
+                                  return std::make_shared<const WatchedSculpture>(folder, id);
+                              } catch (const Error&) {
+                                  return nullptr;
+                              }
+                          });
+}
+
 bool WatchedSession::read(std::chrono::milliseconds wait) {
     const bool goes_on = client_.read(wait);
+    read_sculpture();
     news_ = client_.take_events();
     for (const ViewedEvent& event : news_)
         events_.push_back(event);
     while (events_.size() > most_kept_events)
         events_.pop_front();
-    for (const ViewedGaze& one : client_.take_gaze())
+    new_gaze_.clear();
+    const bool is_known = sculpture_ && sculpture_->id() == client_.view().sculpture;
+    for (const ViewedGaze& one : client_.take_gaze()) {
         gaze_.push_back(one);
+        new_gaze_.push_back({one, is_known && one.place && one.trial == client_.view().trial
+                                      ? sculpture_->met_at(*one.place, one.pose)
+                                      : std::nullopt});
+        last_gaze_ = new_gaze_.back();
+    }
     // Gaze is told while a trial is recorded; afterwards it is old.
-    if (client_.view().pose < 0)
+    if (client_.view().pose < 0) {
         gaze_.clear();
+        last_gaze_.reset();
+    }
     while (gaze_.size() > most_kept_gaze)
         gaze_.pop_front();
+    const auto now = std::chrono::steady_clock::now();
+    if (std::optional<ViewedCamera> camera = client_.take_camera()) {
+        camera_picture_ = grey_of(*camera);
+        camera_ = std::move(camera);
+        camera_came_ = now;
+    }
+    if (camera_ && now - camera_came_ > camera_lasts)
+        camera_.reset();
     return goes_on;
+}
+
+std::string WatchedSession::surface_text() const {
+    if (!last_gaze_ || !last_gaze_->gaze.place || !sculpture_)
+        return {};
+    if (!last_gaze_->hit)
+        return "beside the sculpture";
+    const glm::dvec3& at = last_gaze_->hit->position;
+    return fmt::format("{}, at {:.1f}, {:.1f}, {:.1f}{}", sculpture_->part_of(*last_gaze_->hit), at.x, at.y,
+                       at.z, sculpture_->unit() == "mm" ? " mm" : "");
 }
 
 ViewText WatchedSession::text() {
@@ -33,8 +97,10 @@ ViewText WatchedSession::text() {
             client_.view(),
             events_,
             gaze_,
-            pictures_.of(client_.facts(), client_.view()),
-            client_.silence() > long_silence};
+            camera_ ? camera_picture_ : pictures_.of(client_.facts(), client_.view()),
+            client_.silence() > long_silence,
+            surface_text(),
+            camera_.has_value()};
 }
 
 } // namespace overt

@@ -3,12 +3,23 @@
 
 #include <chrono>
 #include <deque>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
 
 #include "app/watch/viewed_pictures.h"
+#include "app/watch/watched_sculpture.h"
 #include "devices/operator/operator_client.h"
 #include "experiment/watch/view_text.h"
 
 namespace overt {
+
+/// A point of gaze and what it met.
+struct GazeOnSurface {
+    ViewedGaze gaze;
+    std::optional<RayHit> hit; ///< nothing beside the sculpture, or while it is being read
+};
 
 /// For one thread.
 class WatchedSession {
@@ -23,12 +34,31 @@ class WatchedSession {
     ViewText text();
     /// Events that the last read() brought.
     const std::deque<ViewedEvent>& news() const { return news_; }
+    /// Gaze that the last read() brought, oldest first.
+    const std::vector<GazeOnSurface>& new_gaze() const { return new_gaze_; }
+    /// The newest point of the eye that is shown, while an animation is.
+    const std::optional<GazeOnSurface>& last_gaze() const { return last_gaze_; }
+    /// The sculpture of the trial under way, or the last; null while it is read or has no mesh.
+    const std::shared_ptr<const WatchedSculpture>& sculpture() const { return sculpture_; }
+    /// The tracker's camera, of the last two seconds.
+    const std::optional<ViewedCamera>& camera() const { return camera_; }
 
   private:
+    void read_sculpture();
+    std::string surface_text() const;
+
     OperatorClient& client_;
     std::deque<ViewedEvent> news_, events_;
     std::deque<ViewedGaze> gaze_;
+    std::vector<GazeOnSurface> new_gaze_;
+    std::optional<GazeOnSurface> last_gaze_;
     ViewedPictures pictures_;
+    std::string wanted_; ///< sculpture
+    std::shared_ptr<const WatchedSculpture> sculpture_;
+    std::future<std::shared_ptr<const WatchedSculpture>> reading_;
+    std::optional<ViewedCamera> camera_;
+    std::chrono::steady_clock::time_point camera_came_{};
+    ViewedPicture camera_picture_;
 };
 
 } // namespace overt

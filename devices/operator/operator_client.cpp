@@ -16,7 +16,7 @@ namespace overt {
 namespace {
 
 constexpr std::chrono::seconds longest_greeting{5};
-constexpr std::size_t most_events = 1000, most_gaze = 256;
+constexpr std::size_t most_events = 1000, most_gaze = 4096;
 
 bool send_all(int socket, std::string_view text) {
     while (!text.empty()) {
@@ -75,7 +75,7 @@ bool OperatorClient::read(std::chrono::milliseconds wait) {
         for (std::size_t end = 0; (end = received_.find('\n', begin)) != std::string::npos; begin = end + 1)
             understand(std::string_view(received_).substr(begin, end - begin));
         received_.erase(0, begin);
-        if (received_.size() > longest_view_line)
+        if (received_.size() > longest_camera_line)
             throw DeviceError(
                 "the session sent a line without an end: this is no operator's socket of overt");
     }
@@ -97,12 +97,13 @@ void OperatorClient::understand(std::string_view line) {
         if (events_.size() > most_events)
             events_.pop_front();
     }
-    if (read.view) {
+    if (read.view)
         view_ = std::move(*read.view);
-        gaze_.insert(gaze_.end(), view_.gaze.begin(), view_.gaze.end());
-        while (gaze_.size() > most_gaze)
-            gaze_.pop_front();
-    }
+    if (read.camera)
+        camera_ = std::move(read.camera);
+    gaze_.insert(gaze_.end(), read.gaze.begin(), read.gaze.end());
+    while (gaze_.size() > most_gaze)
+        gaze_.pop_front();
 }
 
 std::chrono::milliseconds OperatorClient::silence() const {

@@ -32,8 +32,10 @@ class OperatorClient {
     bool read(std::chrono::milliseconds wait);
     /// Events since it was asked last, oldest first.
     std::deque<ViewedEvent> take_events() { return std::exchange(events_, {}); }
-    /// Gaze since it was asked last; of a view that asks seldom, the newest 256 points.
+    /// Gaze since it was asked last; of a view that asks seldom, the newest 4096 points.
     std::deque<ViewedGaze> take_gaze() { return std::exchange(gaze_, {}); }
+    /// The newest image of the tracker's camera since it was asked last, if one came.
+    std::optional<ViewedCamera> take_camera() { return std::exchange(camera_, std::nullopt); }
     /// How long nothing has come from the session, which speaks twice a second at least.
     std::chrono::milliseconds silence() const;
 
@@ -50,6 +52,7 @@ class OperatorClient {
     SessionView view_;
     std::deque<ViewedEvent> events_;
     std::deque<ViewedGaze> gaze_;
+    std::optional<ViewedCamera> camera_;
     std::chrono::steady_clock::time_point heard_;
 };
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -26,7 +27,8 @@ constexpr std::size_t most_views = 4;
 constexpr std::size_t most_recent = 100;
 /// Lines that wait for a view that does not read: beyond this, events are left out.
 constexpr std::size_t most_waiting_bytes = 262144;
-constexpr std::chrono::milliseconds between_states{33}, longest_rest{15}, longest_farewell{200};
+constexpr std::chrono::milliseconds between_states{33}, longest_rest{15}, longest_farewell{200},
+    between_cameras{100};
 /// Even where nothing changes, so that a view can tell a session that stands from one that is gone.
 constexpr std::chrono::milliseconds longest_silence{500};
 
@@ -61,6 +63,30 @@ int open_listener(const std::filesystem::path& file) {
     return listener;
 }
 
+/// An event counter that never blocks.
+int open_counter() {
+    const int counter = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+    if (counter < 0)
+        throw DeviceError(
+            fmt::format("the operator's view: no event counter can be had: {}", std::strerror(errno)));
+    return counter;
+}
+
+/// With every n-th pixel in each direction.
+ViewedCamera made_small(const CameraImage& image) {
+    const int step =
+        std::max({1, (image.width_px + ViewedCamera::most_width_px - 1) / ViewedCamera::most_width_px,
+                  (image.height_px + ViewedCamera::most_height_px - 1) / ViewedCamera::most_height_px});
+    ViewedCamera small{
+        (image.width_px + step - 1) / step, (image.height_px + step - 1) / step, {}, image.title};
+    for (int y = 0; y < image.height_px; y += step)
+        for (int x = 0; x < image.width_px; x += step) {
+            const auto pixel = image.rgba.begin() + 4 * (std::ptrdiff_t{y} * image.width_px + x);
+            small.rgb.insert(small.rgb.end(), pixel, pixel + 3);
+        }
+    return small;
+}
+
 } // namespace
 
 struct OperatorServer::View {
@@ -75,8 +101,8 @@ struct OperatorServer::View {
 void check_socket_place(const std::filesystem::path& socket) { const SocketAddress address(socket); }
 
 OperatorServer::OperatorServer(Options options)
-    : options_(std::move(options)), listener_(open_listener(options_.socket)), news_(options_.ring_capacity),
-      builder_(std::move(options_.trials), options_.completed) {
+    : options_(std::move(options)), listener_(open_listener(options_.socket)), woken_(open_counter()),
+      news_(options_.ring_capacity), builder_(std::move(options_.trials), options_.completed) {
     thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
 }
 
@@ -86,7 +112,28 @@ OperatorServer::~OperatorServer() {
     for (const View& view : views_)
         ::close(view.socket);
     ::close(listener_);
+    ::close(woken_);
     ::unlink(options_.socket.c_str());
+}
+
+void OperatorServer::push_gaze(const GazeNews& gaze) noexcept {
+    if (!gaze_.try_push(gaze))
+        dropped_.fetch_add(1, std::memory_order_relaxed);
+    constexpr std::uint64_t one = 1;
+    if (is_watched_.load(std::memory_order_relaxed))
+        // A counter that is full has woken the thread already.
+        [[maybe_unused]]
+        const ssize_t written = ::write(woken_, &one, sizeof one);
+}
+
+void OperatorServer::show_camera(const CameraImage& image) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!is_watched_ || image.width_px < 1 || image.height_px < 1 || now - camera_told_ < between_cameras)
+        return;
+    camera_told_ = now;
+    ViewedCamera small = made_small(image);
+    const std::lock_guard lock(camera_lock_);
+    camera_ = std::move(small);
 }
 
 void OperatorServer::serve(const std::stop_token& stop) {
@@ -94,6 +141,8 @@ void OperatorServer::serve(const std::stop_token& stop) {
         wait_for_views();
         take_news();
         tell_state(false);
+        take_gaze();
+        take_camera();
         for (View& view : views_)
             send_waiting(view);
         std::erase_if(views_, [](const View& view) {
@@ -117,6 +166,8 @@ void OperatorServer::serve(const std::stop_token& stop) {
 void OperatorServer::take_news() {
     for (ViewNews news; news_.try_pop(news);) {
         is_new_ = true;
+        is_other_trial_ = is_other_trial_ || news.kind == ViewNews::Kind::phase ||
+                          news.kind == ViewNews::Kind::trial_started;
         const std::optional<ViewedEvent> event = builder_.apply(news);
         if (!event)
             continue;
@@ -135,19 +186,59 @@ void OperatorServer::take_news() {
     }
 }
 
+void OperatorServer::take_gaze() {
+    std::array<ViewedGaze, longest_gaze> points;
+    for (std::size_t count = points.size(); count == points.size();) {
+        count = 0;
+        for (GazeNews gaze; count < points.size() && gaze_.try_pop(gaze);)
+            points[count++] = builder_.placed(gaze);
+        if (count == 0)
+            return;
+        std::string line;
+        for (View& view : views_) {
+            // Gaze that cannot be sent now would be old.
+            if (!view.is_greeted || view.waiting.size() > longest_view_line)
+                continue;
+            if (line.empty())
+                line = line_of(std::span(points).first(count));
+            view.waiting += line;
+        }
+    }
+}
+
+void OperatorServer::take_camera() {
+    std::optional<ViewedCamera> camera;
+    {
+        const std::lock_guard lock(camera_lock_);
+        camera.swap(camera_);
+    }
+    if (!camera)
+        return;
+    const std::string line = line_of(*camera);
+    for (View& view : views_)
+        if (view.is_greeted && view.waiting.empty())
+            view.waiting += line;
+}
+
 void OperatorServer::wait_for_views() {
-    std::array<pollfd, most_views + 1> waits{};
+    std::array<pollfd, most_views + 2> waits{};
     waits[0] = {listener_, POLLIN, 0};
+    waits[1] = {woken_, POLLIN, 0};
     for (std::size_t i = 0; i < views_.size(); ++i)
-        waits[i + 1] = {views_[i].socket, POLLIN, 0};
+        waits[i + 2] = {views_[i].socket, POLLIN, 0};
     const std::size_t count = views_.size();
-    if (::poll(waits.data(), count + 1, static_cast<int>(longest_rest.count())) <= 0)
+    if (::poll(waits.data(), count + 2, static_cast<int>(longest_rest.count())) <= 0)
         return;
     for (std::size_t i = 0; i < count; ++i)
-        if (waits[i + 1].revents != 0)
+        if (waits[i + 2].revents != 0)
             receive(views_[i]);
+    if (waits[1].revents != 0) {
+        std::uint64_t times = 0;
+        [[maybe_unused]] const ssize_t count_read = ::read(woken_, &times, sizeof times);
+    }
     if (waits[0].revents != 0)
         accept_view();
+    is_watched_.store(!views_.empty(), std::memory_order_relaxed);
 }
 
 void OperatorServer::accept_view() {
@@ -222,8 +313,10 @@ void OperatorServer::tell_state(bool even_if_old) {
             continue;
         const auto since = now - view.state_told;
         // A state replaces the one before: none is put behind lines that wait.
+        // Of another trial before its gaze.
         const bool is_due =
-            view.waiting.empty() && ((is_new_ && since >= between_states) || since >= longest_silence);
+            view.waiting.empty() &&
+            (is_other_trial_ || (is_new_ && since >= between_states) || since >= longest_silence);
         if (!is_due && !even_if_old)
             continue;
         if (line.empty()) {
@@ -242,8 +335,7 @@ void OperatorServer::tell_state(bool even_if_old) {
     }
     if (line.empty())
         return;
-    is_new_ = false;
-    builder_.forget_gaze();
+    is_new_ = is_other_trial_ = false;
 }
 
 void OperatorServer::send_waiting(View& view) {

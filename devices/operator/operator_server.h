@@ -3,16 +3,20 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
 #include <vector>
 
 #include "experiment/base/spsc_ring.h"
+#include "experiment/ports/setup_stage.h"
 #include "experiment/watch/operator_command.h"
 #include "experiment/watch/view_news.h"
 
@@ -54,6 +58,11 @@ class OperatorServer {
         if (!news_.try_push(news))
             dropped_.fetch_add(1, std::memory_order_relaxed);
     }
+    /// On the thread that reads the tracker, or on the session's; on one of them only while a trial runs.
+    /// Neither waits nor allocates; with a view open the server's thread is woken.
+    void push_gaze(const GazeNews& gaze) noexcept;
+    /// On the session's thread while the tracker is set up: the views get up to ten images a second.
+    void show_camera(const CameraImage& image);
     bool next_command(OperatorCommand& into) noexcept { return commands_.try_pop(into); }
 
     const std::filesystem::path& socket() const { return options_.socket; }
@@ -63,6 +72,8 @@ class OperatorServer {
     struct View;
     void serve(const std::stop_token& stop);
     void take_news();
+    void take_gaze();
+    void take_camera();
     void wait_for_views();
     void accept_view();
     void receive(View& view);
@@ -73,14 +84,20 @@ class OperatorServer {
 
     Options options_;
     int listener_ = -1;
+    int woken_ = -1; ///< an event counter
     SpscRing<ViewNews> news_;
+    SpscRing<GazeNews> gaze_{4096};
+    std::mutex camera_lock_;
+    std::optional<ViewedCamera> camera_; ///< not yet taken
     SpscRing<OperatorCommand> commands_{64};
     std::atomic<std::int64_t> dropped_{0};
+    std::atomic<bool> is_watched_{false};
     // Of the thread.
     ViewBuilder builder_;
     std::vector<View> views_;
     std::deque<std::string> recent_; ///< lines of events, for a view that comes later
-    bool is_new_ = true;
+    bool is_new_ = true, is_other_trial_ = false;
+    std::chrono::steady_clock::time_point camera_told_{};
     std::jthread thread_;
 };
 

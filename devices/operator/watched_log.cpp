@@ -6,8 +6,8 @@ namespace overt {
 
 namespace {
 
-/// What a view draws sixty times a second, and what a ring has room for.
-constexpr TrackerClock::duration between_gaze = std::chrono::milliseconds(15);
+/// Of samples, what a ring has room for.
+constexpr TrackerClock::duration between_counts = std::chrono::milliseconds(15);
 constexpr SessionDuration between_levels = std::chrono::milliseconds(50);
 
 } // namespace
@@ -48,18 +48,16 @@ void WatchedLog::sample(int trial, const GazeSample& sample) noexcept {
     ++samples_in_trial_;
     lost_ += sample.gaze ? 0 : 1;
     lost_in_trial_ += sample.gaze ? 0 : 1;
-    std::optional<TrackerTime>& told = told_gaze_[sample.eye == Eye::left ? 0 : 1];
-    if (told && sample.sampled_at >= *told && sample.sampled_at - *told < between_gaze)
+    if (gaze_)
+        gaze_->measured(sample);
+    if (told_samples_ && sample.sampled_at >= *told_samples_ &&
+        sample.sampled_at - *told_samples_ < between_counts)
         return;
-    told = sample.sampled_at;
+    told_samples_ = sample.sampled_at;
     ViewNews news;
-    news.kind = ViewNews::Kind::gaze;
+    news.kind = ViewNews::Kind::samples;
     news.at = clock_.now();
     news.trial = trial;
-    news.is_right = sample.eye == Eye::right;
-    news.has_value = sample.gaze.has_value();
-    if (sample.gaze)
-        news.place = *sample.gaze;
     add_counts(news);
     server_.push(news);
 }

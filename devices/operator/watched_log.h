@@ -6,6 +6,7 @@
 #include "devices/operator/operator_panel.h"
 #include "devices/operator/operator_server.h"
 #include "experiment/ports/clock.h"
+#include "experiment/ports/sample_listener.h"
 #include "experiment/ports/session_log.h"
 
 namespace overt {
@@ -14,8 +15,10 @@ namespace overt {
 class WatchedLog final : public SessionLog {
   public:
     /// All of it must outlive this.
-    WatchedLog(SessionLog& record, OperatorServer& server, OperatorPanel& panel, const Clock& clock)
-        : record_(record), server_(server), panel_(panel), clock_(clock) {}
+    /// `gaze`: whom samples are told; null if the tracker does that.
+    WatchedLog(SessionLog& record, OperatorServer& server, OperatorPanel& panel, const Clock& clock,
+               SampleListener* gaze)
+        : record_(record), server_(server), panel_(panel), clock_(clock), gaze_(gaze) {}
 
     void flip(const FlipRecord& flip) noexcept override;
     void missed(const MissedRefresh& refresh) noexcept override;
@@ -49,7 +52,8 @@ class WatchedLog final : public SessionLog {
     const Clock& clock_;
     std::int64_t samples_ = 0, lost_ = 0, samples_in_trial_ = 0, lost_in_trial_ = 0;
     std::int64_t missed_ = 0, missed_in_trial_ = 0;
-    std::optional<TrackerTime> told_gaze_[2]; ///< by eye
+    SampleListener* gaze_;
+    std::optional<TrackerTime> told_samples_;
     int told_pose_ = -1;
     std::optional<SessionTime> told_level_;
 };

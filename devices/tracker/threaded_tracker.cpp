@@ -23,9 +23,11 @@ constexpr int last_readings = 3;
 /// Puts items into the ring and tells of those that had no room.
 class ThreadedTracker::RingSink final : public TrackerItemSink {
   public:
-    explicit RingSink(SpscRing<TrackerItem>& ring) : ring_(ring) {}
+    RingSink(SpscRing<TrackerItem>& ring, SampleListener* listener) : ring_(ring), listener_(listener) {}
 
     void put(const TrackerItem& item) noexcept override {
+        if (const auto* sample = std::get_if<GazeSample>(&item); sample && listener_)
+            listener_->measured(*sample);
         if (lost_ > 0) {
             if (!ring_.try_push(TrackerGap{TrackerGap::Reason::overflow, last_, lost_})) {
                 count_loss(item);
@@ -47,6 +49,7 @@ class ThreadedTracker::RingSink final : public TrackerItemSink {
     }
 
     SpscRing<TrackerItem>& ring_;
+    SampleListener* listener_;
     TrackerTime last_{};
     std::int64_t lost_ = 0;
 };
@@ -70,6 +73,12 @@ std::optional<ClockPair> ThreadedTracker::read_clocks() noexcept {
     return thread_.joinable() ? std::nullopt : driver_->read_clocks();
 }
 
+bool ThreadedTracker::tell_samples_to(SampleListener* listener) {
+    OVERT_EXPECTS(!thread_.joinable());
+    listener_ = listener;
+    return true;
+}
+
 void ThreadedTracker::start_recording() {
     OVERT_EXPECTS(!thread_.joinable());
     for (TrackerItem item; items_.try_pop(item);) {
@@ -87,7 +96,7 @@ void ThreadedTracker::stop_recording() {
 }
 
 void ThreadedTracker::record(const std::stop_token& stop) noexcept {
-    RingSink sink(items_);
+    RingSink sink(items_, listener_);
     SessionTime clocks_due = clock_->now() + between_clock_readings;
     int readings_left = last_readings;
     while (readings_left > 0) {

@@ -34,6 +34,7 @@ class ThreadedTracker final : public EyeTracker {
     void start_recording() override;
     void stop_recording() override;
     std::size_t poll(std::span<TrackerItem> into) noexcept override;
+    bool tell_samples_to(SampleListener* listener) override;
     RecordingState recording_state() const noexcept override {
         return state_.load(std::memory_order_acquire);
     }
@@ -59,6 +60,7 @@ class ThreadedTracker final : public EyeTracker {
     SpscRing<HeldMark> marks_;
     std::atomic<RecordingState> state_{RecordingState::running};
     std::atomic<std::int64_t> lost_marks_{0};
+    SampleListener* listener_ = nullptr;
     std::jthread thread_; ///< while it records
 };
 

@@ -32,6 +32,12 @@ ScreenPoint to_even(ScreenPoint place) {
 
 std::size_t index_of(Eye eye) { return static_cast<std::size_t>(eye); }
 
+GazeSample corrected(GazeSample sample, const std::array<GazeFit, 2>& fits) noexcept {
+    if (sample.gaze)
+        sample.gaze = fits[index_of(sample.eye)](*sample.gaze);
+    return sample;
+}
+
 } // namespace
 
 std::vector<ScreenPoint> calibration_targets(int points, double area, const ScreenGeometry& screen) {
@@ -71,13 +77,27 @@ std::size_t CalibratedTracker::poll(std::span<TrackerItem> into) noexcept {
     };
     for (std::size_t i = 0; i < taken; ++i) {
         if (auto* sample = std::get_if<GazeSample>(&into[i]))
-            correct(sample->gaze, sample->eye);
+            *sample = corrected(*sample, fits_);
         else if (auto* event = std::get_if<TrackerEvent>(&into[i])) {
             correct(event->place, event->eye);
             correct(event->arrival, event->eye);
         }
     }
     return taken;
+}
+
+void CalibratedTracker::Corrected::measured(const GazeSample& sample) noexcept {
+    listener->measured(corrected(sample, fits));
+}
+
+void CalibratedTracker::start_recording() {
+    told_.fits = fits_;
+    tracker_->start_recording();
+}
+
+bool CalibratedTracker::tell_samples_to(SampleListener* listener) {
+    told_.listener = listener;
+    return tracker_->tell_samples_to(listener ? &told_ : nullptr);
 }
 
 DriftOutcome CalibratedTracker::drift_check(ScreenPoint target) {
@@ -261,7 +281,7 @@ SetupOutcome CalibratedTracker::set_up(SetupStage& stage) {
         return ended(SetupOutcome::Kind::cancelled, "cancelled");
     std::string method;
     try {
-        std::array<GazeFit, 2> fits;
+        Fits fits;
         for (const Eye eye : eyes()) {
             fits[index_of(eye)] = GazeFit(pairs_of(visits, eye), settings_.model, screen_);
             method = fits[index_of(eye)].description();

@@ -39,9 +39,10 @@ class CalibratedTracker final : public EyeTracker {
 
     DriftOutcome drift_check(ScreenPoint target) override;
     std::optional<ClockPair> read_clocks() noexcept override { return tracker_->read_clocks(); }
-    void start_recording() override { tracker_->start_recording(); }
+    void start_recording() override;
     void stop_recording() override { tracker_->stop_recording(); }
     std::size_t poll(std::span<TrackerItem> into) noexcept override;
+    bool tell_samples_to(SampleListener* listener) override;
     RecordingState recording_state() const noexcept override { return tracker_->recording_state(); }
     void reconnect() override;
     void mark(const TrackerMark& mark) noexcept override { tracker_->mark(mark); }
@@ -50,6 +51,14 @@ class CalibratedTracker final : public EyeTracker {
     }
 
   private:
+    using Fits = std::array<GazeFit, 2>; ///< by Eye
+    /// Passes samples on as poll() gives them, on the tracker's thread: with fits of its own, taken over
+    /// before a recording begins.
+    struct Corrected final : SampleListener {
+        void measured(const GazeSample& sample) noexcept override;
+        Fits fits;
+        SampleListener* listener = nullptr;
+    };
     enum class Looked : std::uint8_t { rested, missed, back, cancelled };
     using Eyes = std::array<std::optional<RestedGaze>, 2>; ///< by Eye
     struct Visit {
@@ -71,8 +80,9 @@ class CalibratedTracker final : public EyeTracker {
     Clock* clock_;
     CalibrationSettings settings_;
     std::uint64_t seed_, set_ups_ = 0;
-    std::array<GazeFit, 2> fits_; ///< by Eye
-    ScreenGeometry screen_;       ///< of the last set-up
+    Fits fits_;
+    ScreenGeometry screen_; ///< of the last set-up
+    Corrected told_;
 };
 
 } // namespace overt

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "experiment/clock_pair.h"
+#include "experiment/ports/sample_listener.h"
 #include "experiment/ports/setup_stage.h"
 #include "experiment/ports/tracker_items.h"
 #include "experiment/ports/validation.h"
@@ -95,6 +96,10 @@ class EyeTracker {
     /// Takes what has arrived, oldest first; gives the number of items. Call until it gives less than the
     /// span holds.
     virtual std::size_t poll(std::span<TrackerItem> into) noexcept = 0;
+
+    /// From the next recording on, each sample is told to `listener` as well, as soon as it comes; null: to
+    /// nobody. It must outlive the recordings. False: nothing is known before poll(). Not while it records.
+    virtual bool tell_samples_to(SampleListener* /*listener*/) { return false; }
 
     /// Of the recording under way; `running` outside of recordings while all is well.
     virtual RecordingState recording_state() const noexcept { return RecordingState::running; }

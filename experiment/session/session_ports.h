@@ -37,6 +37,8 @@ struct SessionPorts {
     std::vector<MarkerSink*> markers = {};
     /// Sounds while the tracker is set up; may be empty.
     std::function<void(SetupBeep)> on_beep = {};
+    /// Told of each image of the tracker's camera that is shown; may be empty.
+    std::function<void(const CameraImage&)> on_camera = {};
     /// Told of each change of phase, with the trial or -1; not during a presentation. May be empty.
     std::function<void(SessionPhase, int)> on_phase = {};
 };

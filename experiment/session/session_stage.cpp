@@ -19,6 +19,8 @@ SessionTime SessionStage::show_target(ScreenPoint place, Degrees diameter) {
 SessionTime SessionStage::clear() { return state_.show({}); }
 
 void SessionStage::show_camera(const CameraImage& image) {
+    if (state_.ports.on_camera)
+        state_.ports.on_camera(image);
     state_.show({.kind = Screen::Kind::camera,
                  .text = image.title,
                  .frame = state_.protocol.words.experimenter,

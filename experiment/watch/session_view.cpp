@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiment/base/base64.h"
+
 namespace overt {
 
 namespace {
@@ -70,24 +72,46 @@ SessionFacts read_facts(const Json& json) {
     take(json, "mean_limit_deg", facts.mean_limit_deg);
     take(json, "max_limit_deg", facts.max_limit_deg);
     take(json, "skip_reasons", facts.skip_reasons);
+    take(json, "clock_zero_s", facts.clock_zero_s);
     return facts;
 }
 
-std::vector<ViewedGaze> read_gaze(const Json& json) {
+/// A point is [eye, trial, pose, at_s, sampled_us], and then [x, y] unless the eye was lost.
+std::vector<ViewedGaze> read_gaze(const Json& points) {
     std::vector<ViewedGaze> gaze;
-    const auto found = json.find("gaze");
-    if (found == json.end() || !found->is_array())
-        return gaze;
-    for (const Json& point : *found) {
-        if (!point.is_array() || point.empty() || !point[0].is_string() ||
-            gaze.size() == SessionView::longest_gaze)
+    for (const Json& point : points) {
+        const bool is_point =
+            point.is_array() && (point.size() == 5 || point.size() == 7) && point[0].is_string() &&
+            std::all_of(point.begin() + 1, point.end(), [](const Json& part) { return part.is_number(); }) &&
+            point[1].is_number_integer() && point[2].is_number_integer() && point[4].is_number_integer();
+        if (!is_point || gaze.size() == longest_gaze)
             continue;
-        ViewedGaze one{point[0] == "right", {}};
-        if (point.size() == 3 && point[1].is_number() && point[2].is_number())
-            one.place = ScreenPoint{point[1].get<double>(), point[2].get<double>()};
+        ViewedGaze one{point[0] == "right",    {},
+                       point[1].get<int>(),    point[2].get<int>(),
+                       point[3].get<double>(), point[4].get<std::int64_t>()};
+        if (point.size() == 7)
+            one.place = ScreenPoint{point[5].get<double>(), point[6].get<double>()};
         gaze.push_back(one);
     }
     return gaze;
+}
+
+std::optional<ViewedCamera> read_camera(const Json& json) {
+    ViewedCamera camera;
+    std::string rgb;
+    take(json, "width_px", camera.width_px);
+    take(json, "height_px", camera.height_px);
+    take(json, "title", camera.title);
+    take(json, "rgb", rgb);
+    if (camera.width_px < 1 || camera.width_px > ViewedCamera::most_width_px || camera.height_px < 1 ||
+        camera.height_px > ViewedCamera::most_height_px)
+        return std::nullopt;
+    std::optional<std::vector<std::byte>> bytes = bytes_of_base64(rgb);
+    if (!bytes || bytes->size() != 3 * static_cast<std::size_t>(camera.width_px) *
+                                       static_cast<std::size_t>(camera.height_px))
+        return std::nullopt;
+    camera.rgb = std::move(*bytes);
+    return camera;
 }
 
 SessionView read_view(const Json& json) {
@@ -123,7 +147,6 @@ SessionView read_view(const Json& json) {
     take(json, "answer", view.answer);
     take(json, "dropped", view.dropped);
     take(json, "is_over", view.is_over);
-    view.gaze = read_gaze(json);
     return view;
 }
 
@@ -149,21 +172,11 @@ std::string line_of(const SessionFacts& facts) {
                          {"drift_limit_deg", facts.drift_limit_deg},
                          {"mean_limit_deg", facts.mean_limit_deg},
                          {"max_limit_deg", facts.max_limit_deg},
-                         {"skip_reasons", reasons}});
+                         {"skip_reasons", reasons},
+                         {"clock_zero_s", or_null(facts.clock_zero_s)}});
 }
 
 std::string line_of(const SessionView& view) {
-    Json gaze = Json::array();
-    const std::size_t first = view.gaze.size() - std::min(view.gaze.size(), SessionView::longest_gaze);
-    for (std::size_t i = first; i < view.gaze.size(); ++i) {
-        const ViewedGaze& one = view.gaze[i];
-        Json point = Json::array({one.is_right ? "right" : "left"});
-        if (one.place) {
-            point.push_back(one.place->x_px);
-            point.push_back(one.place->y_px);
-        }
-        gaze.push_back(std::move(point));
-    }
     return line_of_json({{"state",
                           {{"time_s", view.time_s},
                            {"phase", view.phase},
@@ -185,7 +198,6 @@ std::string line_of(const SessionView& view) {
                            {"lost", view.lost},
                            {"samples_in_trial", view.samples_in_trial},
                            {"lost_in_trial", view.lost_in_trial},
-                           {"gaze", gaze},
                            {"validation_mean_deg", or_null(view.validation_mean_deg)},
                            {"validation_max_deg", or_null(view.validation_max_deg)},
                            {"drift_deg", or_null(view.drift_deg)},
@@ -207,6 +219,28 @@ std::string line_of(const ViewedEvent& event) {
                            {"detail", bounded(event.detail)}}}});
 }
 
+std::string line_of(std::span<const ViewedGaze> gaze) {
+    Json points = Json::array();
+    for (const ViewedGaze& one : gaze.last(std::min(gaze.size(), longest_gaze))) {
+        Json point =
+            Json::array({one.is_right ? "right" : "left", one.trial, one.pose, one.at_s, one.sampled_us});
+        if (one.place) {
+            point.push_back(one.place->x_px);
+            point.push_back(one.place->y_px);
+        }
+        points.push_back(std::move(point));
+    }
+    return line_of_json({{"gaze", std::move(points)}});
+}
+
+std::string line_of(const ViewedCamera& camera) {
+    return line_of_json({{"camera",
+                          {{"width_px", camera.width_px},
+                           {"height_px", camera.height_px},
+                           {"title", bounded(camera.title)},
+                           {"rgb", base64_of(camera.rgb)}}}});
+}
+
 ViewLine read_view_line(std::string_view line) {
     ViewLine read;
     const Json json = Json::parse(line, nullptr, false);
@@ -224,6 +258,10 @@ ViewLine read_view_line(std::string_view line) {
         take(*event, "trial", read.event->trial);
         take(*event, "kind", read.event->kind);
         take(*event, "detail", read.event->detail);
+    } else if (const auto gaze = json.find("gaze"); gaze != json.end() && gaze->is_array()) {
+        read.gaze = read_gaze(*gaze);
+    } else if (const auto camera = json.find("camera"); camera != json.end() && camera->is_object()) {
+        read.camera = read_camera(*camera);
     }
     return read;
 }

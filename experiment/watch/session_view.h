@@ -1,9 +1,10 @@
 /// What the operator's view shows of a running session, and the lines in which it travels over a socket:
-/// JSON, one object a line, no line longer than longest_view_line bytes.
+/// JSON, one object a line, no line longer than longest_view_line bytes, but for a camera's image.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,8 +14,10 @@
 namespace overt {
 
 /// Of the language. Both sides say theirs first; neither goes on with another.
-inline constexpr int view_version = 1;
+inline constexpr int view_version = 2;
 inline constexpr std::size_t longest_view_line = 16384;
+/// Of a line with a camera's image.
+inline constexpr std::size_t longest_camera_line = 131072;
 
 /// What does not change while a session runs.
 struct SessionFacts {
@@ -29,12 +32,28 @@ struct SessionFacts {
     bool is_timing_unproven = false; ///< missed refreshes are counted by times that nothing proves
     double drift_limit_deg = 0.0, mean_limit_deg = 0.0, max_limit_deg = 0.0; ///< of the protocol
     std::vector<std::string> skip_reasons;                                   ///< that `skip` may give, from 1
+    /// What the machine's steady clock shows at session time 0, in seconds; nothing where time is virtual.
+    std::optional<double> clock_zero_s;
 };
 
-/// Where gaze was, a point for every hundredth of a second or more.
+/// Where gaze was: a sample of one eye, told as soon as it came.
 struct ViewedGaze {
     bool is_right = true;
     std::optional<ScreenPoint> place; ///< nothing: the eye was lost
+    int trial = -1;                   ///< -1: outside of trials
+    int pose = -1;     ///< lit when the sample came, as far as that was known then; -1: no animation was
+    double at_s = 0.0; ///< session time at which it came
+    std::int64_t sampled_us = 0; ///< by the tracker's clock
+};
+/// Of one line.
+inline constexpr std::size_t longest_gaze = 32;
+
+/// What the tracker's camera sees while it is set up, made small.
+struct ViewedCamera {
+    int width_px = 0, height_px = 0;
+    std::vector<std::byte> rgb; ///< top row first, three bytes a pixel
+    std::string title;
+    static constexpr int most_width_px = 192, most_height_px = 144;
 };
 
 /// Everything that changes. Each line of it is complete, so that one that is left out does no harm.
@@ -54,7 +73,6 @@ struct SessionView {
     std::int64_t missed = 0, missed_in_trial = 0; ///< refreshes
     std::int64_t samples = 0, lost = 0;           ///< of the session's trials; lost: without gaze
     std::int64_t samples_in_trial = 0, lost_in_trial = 0;
-    std::vector<ViewedGaze> gaze; ///< since the line before, at most longest_gaze of them, the newest last
     std::optional<double> validation_mean_deg, validation_max_deg, drift_deg; ///< the last
     bool tracker_is_lost = false;
     std::string asks; ///< the question that the operator is to answer now; empty: none
@@ -64,7 +82,6 @@ struct SessionView {
     std::string answer;       ///< the last
     std::int64_t dropped = 0; ///< pieces of news that found no room on their way here
     bool is_over = false;     ///< nothing comes after this
-    static constexpr std::size_t longest_gaze = 32;
 };
 
 /// Something that the record has, or that the session answers to a command.
@@ -78,12 +95,17 @@ struct ViewedEvent {
 std::string line_of(const SessionFacts& facts);
 std::string line_of(const SessionView& view);
 std::string line_of(const ViewedEvent& event);
+/// At most longest_gaze of them, oldest first.
+std::string line_of(std::span<const ViewedGaze> gaze);
+std::string line_of(const ViewedCamera& camera);
 
 /// What a line of a session says; nothing in any of them for a line that is not understood.
 struct ViewLine {
     std::optional<SessionFacts> facts;
     std::optional<SessionView> view;
     std::optional<ViewedEvent> event;
+    std::vector<ViewedGaze> gaze;
+    std::optional<ViewedCamera> camera;
     int version = 0; ///< of facts: what the session speaks, also if it is another language
 };
 ViewLine read_view_line(std::string_view line);

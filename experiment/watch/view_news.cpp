@@ -33,7 +33,7 @@ std::optional<ViewedEvent> ViewBuilder::apply(const ViewNews& news) {
     case ViewNews::Kind::phase:
         view_.phase = name_of(news.phase);
         view_.trial = news.trial;
-        view_.pose = -1;
+        lit(news.at, -1);
         view_.asks.clear();
         view_.level_rms.reset();
         view_.level_peak.reset();
@@ -58,18 +58,15 @@ std::optional<ViewedEvent> ViewBuilder::apply(const ViewNews& news) {
         view_.answer = news.text.data();
         if (news.has_value)
             view_.drift_deg = news.value;
-        view_.pose = -1;
+        lit(news.at, -1);
         break;
     case ViewNews::Kind::flip:
-        view_.pose = news.pose;
+        lit(news.at, news.pose);
         view_.refresh = news.refresh;
         view_.missed = news.missed;
         view_.missed_in_trial = news.missed_in_trial;
         return std::nullopt;
-    case ViewNews::Kind::gaze:
-        if (view_.gaze.size() == SessionView::longest_gaze)
-            view_.gaze.erase(view_.gaze.begin());
-        view_.gaze.push_back({news.is_right, news.has_value ? std::optional(news.place) : std::nullopt});
+    case ViewNews::Kind::samples:
         break;
     case ViewNews::Kind::validation:
         view_.validation_mean_deg = news.value;
@@ -91,7 +88,7 @@ std::optional<ViewedEvent> ViewBuilder::apply(const ViewNews& news) {
         return event.kind == phase_event ? std::nullopt : std::optional(std::move(event));
     }
     }
-    // Gaze and the end of a trial bring the counts of samples.
+    // These and the end of a trial bring the counts of samples.
     view_.samples = news.samples;
     view_.lost = news.lost;
     view_.samples_in_trial = news.samples_in_trial;
@@ -101,6 +98,19 @@ std::optional<ViewedEvent> ViewBuilder::apply(const ViewNews& news) {
         view_.missed_in_trial = news.missed_in_trial;
     }
     return std::nullopt;
+}
+
+void ViewBuilder::lit(SessionTime since, int pose) {
+    view_.pose = pose;
+    std::rotate(lit_.begin(), lit_.end() - 1, lit_.end());
+    lit_.front() = {since, pose};
+}
+
+ViewedGaze ViewBuilder::placed(const GazeNews& gaze) const {
+    const auto then = std::ranges::find_if(lit_, [&](const Lit& one) { return one.since <= gaze.at; });
+    return {gaze.is_right,       gaze.has_place ? std::optional(gaze.place) : std::nullopt,
+            view_.trial,         then == lit_.end() ? -1 : then->pose,
+            to_seconds(gaze.at), gaze.sampled_at.time_since_epoch().count()};
 }
 
 void ViewBuilder::apply_event(const ViewedEvent& event) {

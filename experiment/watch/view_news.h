@@ -24,7 +24,7 @@ struct ViewNews {
         trial_started, ///< `trial`, its place in the schedule
         trial_ended, ///< `counts`: it is completed; `text`: the answer; `value`: drift in deg, if `has_value`
         flip,        ///< `pose`, `refresh`, missed
-        gaze,        ///< `is_right`, `place` if `has_value`, samples
+        samples,     ///< counts of samples
         event,       ///< `word`: its kind, `text`: its detail
         validation,  ///< `value` and `other`: mean and largest error in deg
         level,       ///< `value` and `other`: rms and peak; `counts`: it clips
@@ -32,12 +32,11 @@ struct ViewNews {
     };
     Kind kind = Kind::event;
     SessionPhase phase = SessionPhase::set_up;
-    bool counts = false, has_value = false, is_right = true;
+    bool counts = false, has_value = false;
     int trial = -1;
     int pose = -1, refresh = 0;
     SessionTime at;
     double value = 0.0, other = 0.0;
-    ScreenPoint place;
     std::int64_t samples = 0, lost = 0, samples_in_trial = 0, lost_in_trial = 0;
     std::int64_t missed = 0, missed_in_trial = 0;
     std::array<char, 32> word{};
@@ -46,6 +45,14 @@ struct ViewNews {
     /// Cut at the end of a character; the last byte is always 0.
     void set_word(std::string_view from) noexcept;
     void set_text(std::string_view from) noexcept;
+};
+
+/// A sample, as soon as it came.
+struct GazeNews {
+    SessionTime at;         ///< at which it came
+    TrackerTime sampled_at; ///< by the tracker's clock
+    bool is_right = true, has_place = false;
+    ScreenPoint place;
 };
 
 /// What is told of a trial that begins, by its place in the schedule.
@@ -62,17 +69,25 @@ class ViewBuilder {
     /// Gives an event if the news is one that is listed.
     std::optional<ViewedEvent> apply(const ViewNews& news);
 
+    /// With the trial under way and the pose that was lit, by the news so far.
+    ViewedGaze placed(const GazeNews& gaze) const;
+
     const SessionView& view() const { return view_; }
-    /// Gaze is told once.
-    void forget_gaze() { view_.gaze.clear(); }
     void set_dropped(std::int64_t dropped) { view_.dropped = dropped; }
     void set_over() { view_.is_over = true; }
 
   private:
+    /// From when on a pose was lit.
+    struct Lit {
+        SessionTime since;
+        int pose = -1;
+    };
     void apply_event(const ViewedEvent& event);
+    void lit(SessionTime since, int pose);
 
     std::vector<ViewedTrial> trials_;
     SessionView view_;
+    std::array<Lit, 8> lit_{}; ///< the last ones, the newest first
 };
 
 } // namespace overt

@@ -63,7 +63,7 @@ std::vector<std::string> picture_of(const ViewText& of, int columns, int rows) {
     constexpr std::string_view shades = " .:-=+*%#@";
     std::vector<std::string> lines(static_cast<std::size_t>(rows),
                                    std::string(static_cast<std::size_t>(wide), ' '));
-    const bool is_shown = of.view.pose >= 0;
+    const bool is_shown = of.view.pose >= 0 || of.is_camera;
     for (int y = 0; y < rows && is_shown; ++y)
         for (int x = 0; x < wide; ++x) {
             const int from_x = x * of.picture.width / wide, from_y = y * of.picture.height / rows;
@@ -75,7 +75,7 @@ std::vector<std::string> picture_of(const ViewText& of, int columns, int rows) {
         }
     const double left = 0.5 * (facts.width_px - facts.image_width_px);
     const double top = 0.5 * (facts.height_px - facts.image_height_px);
-    for (std::size_t i = 0; i < of.gaze.size(); ++i) {
+    for (std::size_t i = 0; i < of.gaze.size() && !of.is_camera; ++i) {
         if (!of.gaze[i].place)
             continue;
         const double x = (of.gaze[i].place->x_px - left) / facts.image_width_px * wide;
@@ -143,6 +143,8 @@ std::vector<std::string> figures_of(const ViewText& of) {
                                     view.tracker_is_lost ? std::string("LOST") : gaze(),
                                     share_text(lost_share(view.samples_in_trial, view.lost_in_trial)),
                                     share_text(lost_share(view.samples, view.lost))));
+        if (!of.surface.empty())
+            lines.push_back(fmt::format("surface   {}", of.surface));
         lines.push_back(fmt::format("accuracy  mean {}; largest {}; drift {}",
                                     degrees_text(view.validation_mean_deg, facts.mean_limit_deg),
                                     degrees_text(view.validation_max_deg, facts.max_limit_deg),

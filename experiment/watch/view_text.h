@@ -22,7 +22,9 @@ struct ViewText {
     const std::deque<ViewedEvent>& events; ///< the newest last
     const std::deque<ViewedGaze>& gaze;    ///< likewise
     const ViewedPicture& picture;
-    bool is_silent = false; ///< the session has said nothing for seconds
+    bool is_silent = false;   ///< the session has said nothing for seconds
+    std::string surface = {}; ///< what gaze meets on the sculpture, in words; empty if that is not known
+    bool is_camera = false;   ///< the picture is what the tracker's camera sees
 };
 
 /// Progress, time, quality, tracker, answers: a line for each.

@@ -3,27 +3,12 @@
 
 #include <span>
 
+#include "experiment/scene/orbit.h"
 #include "experiment/stimulus/sculpture.h"
 #include "experiment/trial.h"
 #include "render/stimulus/stimulus_renderer.h"
 
 namespace overt {
-
-/// From where a sculpture is looked at, beside what its protocol says.
-struct Orbit {
-    double turn_deg = 0.0;      ///< of the turntable, counter-clockwise seen from above
-    double elevation_deg = 0.0; ///< of the camera about its target, -85 … 85
-    double distance = 1.0;      ///< factor to the camera's
-
-    /// By a drag of the mouse: half a degree for each pixel, as if the surface were held.
-    void drag(glm::dvec2 by_px);
-    /// By steps of the wheel, a tenth each; nearer for positive ones.
-    void zoom(double steps);
-};
-
-/// The same scene looked at from elsewhere. A camera that came into the space which the turning object
-/// sweeps is put just outside of it.
-SceneView seen_from(const SceneView& scene, const Orbit& orbit);
 
 class LiveView {
   public:

@@ -1,4 +1,4 @@
-/// The program behind `overt watch` without --terminal: overt-watch-window SOCKET.
+/// The program behind `overt watch` without --terminal: overt-watch-window SOCKET [TIMES].
 #include <exception>
 
 #include <fmt/format.h>
@@ -7,12 +7,12 @@
 #include "experiment/base/error.h"
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        fmt::print(stderr, "overt-watch-window SOCKET: use overt watch, which begins it\n");
+    if (argc < 2 || argc > 3) {
+        fmt::print(stderr, "overt-watch-window SOCKET [TIMES]: use overt watch, which begins it\n");
         return 2;
     }
     try {
-        return overt::watch_in_window(argv[1]);
+        return overt::watch_in_window(argv[1], argc > 2 ? argv[2] : "");
     } catch (const overt::InputError& error) {
         fmt::print(stderr, "overt watch: {}\n", error.what());
         return 2;

@@ -7,12 +7,13 @@
 #include <imgui.h>
 
 #include "experiment/ports/session_phase.h"
+#include "experiment/surface/colour_scale.h"
 
 namespace overt {
 
 namespace {
 
-constexpr float left_share = 0.5f;
+constexpr float left_share = 0.5f, display_share = 0.5f;
 const ImVec4 fine{0.75f, 0.85f, 0.75f, 1.0f}, poor{1.0f, 0.55f, 0.35f, 1.0f}, quiet{0.6f, 0.6f, 0.6f, 1.0f};
 
 void row(const char* label, const std::string& value, bool is_poor = false) {
@@ -34,6 +35,24 @@ std::string degrees(const std::optional<double>& value) {
     return value ? fmt::format("{:.2f} deg", *value) : std::string("-");
 }
 
+void* texture_of(GLuint name) { return reinterpret_cast<void*>(static_cast<std::uintptr_t>(name)); }
+
+/// The colours from nothing to the most, with words at both ends.
+void draw_scale(ImDrawList& draws, ImVec2 at, float width, const std::string& most) {
+    constexpr float height = 10.0f;
+    const ColourTable& table = colour_table(ColourMap::viridis);
+    for (int i = 0; i < 64; ++i) {
+        const auto& [red, green, blue] = table[static_cast<std::size_t>(i * 255 / 63)];
+        draws.AddRectFilled({at.x + width * static_cast<float>(i) / 64.0f, at.y},
+                            {at.x + width * static_cast<float>(i + 1) / 64.0f, at.y + height},
+                            IM_COL32(red, green, blue, 255));
+    }
+    const ImU32 grey = IM_COL32(200, 200, 200, 255);
+    draws.AddText({at.x, at.y + height + 1.0f}, grey, "none");
+    draws.AddText({at.x + width - ImGui::CalcTextSize(most.c_str()).x, at.y + height + 1.0f}, grey,
+                  most.c_str());
+}
+
 /// From which share of samples without gaze the figure is coloured: it asks for a look, no more.
 constexpr double noticeable_loss = 0.1;
 
@@ -50,19 +69,26 @@ void WatchPanels::send(const OperatorCommand& command) {
     says_ = words_of(command) + (client_.send(command) ? ": sent" : ": not sent, the session is gone");
 }
 
-void WatchPanels::draw(const ViewText& text, void* picture, float width, float height) {
+void WatchPanels::draw(const ViewText& text, const WatchedSession& session, const WatchPictures& pictures,
+                       std::optional<double> delay_s, float width, float height) {
     ImGui::SetNextWindowPos({0.0f, 0.0f});
     ImGui::SetNextWindowSize({width, height});
     ImGui::Begin("overt", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
     const float below = 130.0f;
-    ImGui::BeginChild("stimulus", {left_share * width, -below}, true, ImGuiWindowFlags_NoScrollbar);
-    draw_stimulus(text, picture);
+    ImGui::BeginChild("left", {left_share * width, -below});
+    ImGui::BeginChild("display", {0.0f, display_share * (height - below)}, true,
+                      ImGuiWindowFlags_NoScrollbar);
+    draw_display(text, session, pictures);
+    ImGui::EndChild();
+    ImGui::BeginChild("saliency", {0.0f, 0.0f}, true, ImGuiWindowFlags_NoScrollbar);
+    draw_saliency(text, session);
+    ImGui::EndChild();
     ImGui::EndChild();
     ImGui::SameLine();
     ImGui::BeginChild("right", {0.0f, -below});
     ImGui::BeginChild("figures", {0.0f, 0.56f * (height - below)}, true);
-    draw_figures(text);
+    draw_figures(text, delay_s);
     ImGui::EndChild();
     ImGui::BeginChild("messages", {0.0f, 0.0f}, true);
     draw_messages(text);
@@ -75,7 +101,8 @@ void WatchPanels::draw(const ViewText& text, void* picture, float width, float h
     ImGui::End();
 }
 
-void WatchPanels::draw_stimulus(const ViewText& text, void* picture) {
+void WatchPanels::draw_display(const ViewText& text, const WatchedSession& session,
+                               const WatchPictures& pictures) {
     const SessionFacts& facts = text.facts;
     const ImVec2 room = ImGui::GetContentRegionAvail(), at = ImGui::GetCursorScreenPos();
     if (facts.width_px <= 0 || facts.height_px <= 0)
@@ -91,8 +118,22 @@ void WatchPanels::draw_stimulus(const ViewText& text, void* picture) {
     const ImVec2 half{0.5f * scale * static_cast<float>(facts.image_width_px),
                       0.5f * scale * static_cast<float>(facts.image_height_px)};
     const ImVec2 middle{corner.x + 0.5f * size.x, corner.y + 0.5f * size.y};
-    if (picture && text.view.pose >= 0)
-        draws.AddImage(picture, {middle.x - half.x, middle.y - half.y},
+    if (pictures.camera && session.camera()) {
+        const ViewedCamera& camera = *session.camera();
+        const float enlarged = std::min(size.x / static_cast<float>(camera.width_px),
+                                        (size.y - 24.0f) / static_cast<float>(camera.height_px));
+        const ImVec2 top_left{middle.x - 0.5f * enlarged * static_cast<float>(camera.width_px),
+                              corner.y + 22.0f};
+        draws.AddImage(texture_of(pictures.camera), top_left,
+                       {top_left.x + enlarged * static_cast<float>(camera.width_px),
+                        top_left.y + enlarged * static_cast<float>(camera.height_px)});
+        const std::string words =
+            fmt::format("the tracker's camera{}{}", camera.title.empty() ? "" : ": ", camera.title);
+        draws.AddText({corner.x + 6.0f, corner.y + 2.0f}, IM_COL32(220, 220, 220, 255), words.c_str());
+        return;
+    }
+    if (pictures.stimulus && text.view.pose >= 0)
+        draws.AddImage(texture_of(pictures.stimulus), {middle.x - half.x, middle.y - half.y},
                        {middle.x + half.x, middle.y + half.y});
     draws.AddRect(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(90, 90, 90, 255));
     draws.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
@@ -120,7 +161,54 @@ void WatchPanels::draw_stimulus(const ViewText& text, void* picture) {
     }
 }
 
-void WatchPanels::draw_figures(const ViewText& text) {
+void WatchPanels::draw_saliency(const ViewText& text, const WatchedSession& session) {
+    ImGui::TextColored(quiet, "gaze on %s",
+                       text.view.sculpture.empty() ? "the sculpture" : text.view.sculpture.c_str());
+    ImGui::SameLine();
+    if (ImGui::RadioButton("all seen here", !of_trial_))
+        of_trial_ = false;
+    ImGui::SameLine();
+    if (ImGui::RadioButton("this trial", of_trial_))
+        of_trial_ = true;
+    saliency_.show(of_trial_ ? LiveSaliency::Of::trial : LiveSaliency::Of::session);
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Front"))
+        orbit_ = {};
+    const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
+    const auto& sculpture = session.sculpture();
+    const auto map = sculpture ? saliency_.newest(sculpture->id()) : nullptr;
+    if (!map || room.x < 40.0f || room.y < 40.0f) {
+        ImGui::TextColored(quiet, "%s",
+                           text.view.sculpture.empty() ? "shown with the first trial"
+                           : sculpture                 ? "the surface is being prepared"
+                                                       : "no mesh, or it is being read");
+        return;
+    }
+    ImDrawList& draws = *ImGui::GetWindowDrawList();
+    draws.AddImage(texture_of(surface_.draw(*sculpture, map, orbit_,
+                                            {static_cast<int>(room.x), static_cast<int>(room.y)})),
+                   at, {at.x + room.x, at.y + room.y}, {0.0f, 1.0f}, {1.0f, 0.0f});
+    ImGui::InvisibleButton("turn", room);
+    if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 0.0f))
+        orbit_.drag({static_cast<double>(ImGui::GetIO().MouseDelta.x),
+                     static_cast<double>(ImGui::GetIO().MouseDelta.y)});
+    if (ImGui::IsItemHovered() && ImGui::GetIO().MouseWheel != 0.0f)
+        orbit_.zoom(static_cast<double>(ImGui::GetIO().MouseWheel));
+    draw_scale(draws, {at.x + 10.0f, at.y + room.y - 34.0f}, 150.0f, "most");
+    const std::string total = fmt::format("{:.1f} s of gaze; drag to turn, wheel for size", map->gaze_s);
+    draws.AddText({at.x + room.x - ImGui::CalcTextSize(total.c_str()).x - 6.0f, at.y + room.y - 22.0f},
+                  IM_COL32(160, 160, 160, 255), total.c_str());
+    if (!session.last_gaze() || !session.last_gaze()->hit)
+        return;
+    if (const auto mark = surface_.mark_at(*sculpture, session.last_gaze()->hit->position)) {
+        const ImVec2 place{at.x + static_cast<float>(mark->place_px.x),
+                           at.y + static_cast<float>(mark->place_px.y)};
+        const ImU32 colour = IM_COL32(255, 110, 60, mark->is_hidden ? 110 : 255);
+        draws.AddCircle(place, 7.0f, colour, 0, mark->is_hidden ? 1.5f : 3.0f);
+    }
+}
+
+void WatchPanels::draw_figures(const ViewText& text, std::optional<double> delay_s) {
     const SessionFacts& facts = text.facts;
     const SessionView& view = text.view;
     row("session", fmt::format("{}, observer {}", facts.protocol, facts.observer));
@@ -150,6 +238,10 @@ void WatchPanels::draw_figures(const ViewText& text) {
             fmt::format("{} in this trial, {} in all", share(view.samples_in_trial, view.lost_in_trial),
                         share(view.samples, view.lost)),
             lost_share(view.samples_in_trial, view.lost_in_trial).value_or(0.0) > noticeable_loss);
+        if (!text.surface.empty())
+            row("on the surface", text.surface);
+        if (delay_s)
+            row("shown after", fmt::format("{:.1f} ms", 1e3 * *delay_s));
         row("validation",
             fmt::format("mean {}, largest {}", degrees(view.validation_mean_deg),
                         degrees(view.validation_max_deg)),

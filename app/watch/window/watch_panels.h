@@ -5,29 +5,45 @@
 #include <optional>
 #include <string>
 
+#include "app/watch/live_saliency.h"
+#include "app/watch/watched_session.h"
+#include "app/watch/window/saliency_picture.h"
 #include "devices/operator/operator_client.h"
 #include "experiment/watch/view_text.h"
 
 namespace overt {
 
+/// Textures; 0 where there is none.
+struct WatchPictures {
+    GLuint stimulus = 0; ///< that is shown now
+    GLuint camera = 0;   ///< what the tracker's camera sees, instead
+};
+
 class WatchPanels {
   public:
-    /// `client` takes the commands, and must outlive this.
-    explicit WatchPanels(OperatorClient& client) : client_(client) {}
+    /// `client` takes the commands. All of it must outlive this.
+    WatchPanels(OperatorClient& client, LiveSaliency& saliency, SaliencyPicture& surface)
+        : client_(client), saliency_(saliency), surface_(surface) {}
 
-    /// All of the window, `width` by `height` pixels. `picture`: the texture of the stimulus that is shown,
-    /// as Dear ImGui's back end names it; null if there is none.
-    void draw(const ViewText& text, void* picture, float width, float height);
+    /// All of the window, `width` by `height` pixels. `delay_s`: from a sample's coming to its point in the
+    /// window; nothing if it is not known.
+    void draw(const ViewText& text, const WatchedSession& session, const WatchPictures& pictures,
+              std::optional<double> delay_s, float width, float height);
 
   private:
-    void draw_stimulus(const ViewText& text, void* picture);
-    void draw_figures(const ViewText& text);
+    void draw_display(const ViewText& text, const WatchedSession& session, const WatchPictures& pictures);
+    void draw_saliency(const ViewText& text, const WatchedSession& session);
+    void draw_figures(const ViewText& text, std::optional<double> delay_s);
     void draw_messages(const ViewText& text);
     void draw_commands(const ViewText& text);
     void draw_confirmation(const ViewText& text);
     void send(const OperatorCommand& command);
 
     OperatorClient& client_;
+    LiveSaliency& saliency_;
+    SaliencyPicture& surface_;
+    Orbit orbit_;
+    bool of_trial_ = false; ///< the map shows the last trial's gaze alone
     std::optional<OperatorCommand> asked_;
     std::array<char, longest_note + 1> note_{};
     std::string says_;

@@ -1,18 +1,15 @@
 #include "app/watch/window/watch_window.h"
 
 #include <chrono>
-#include <cstdint>
-#include <thread>
-#include <vector>
+#include <fstream>
 
-#include <glad/gl.h>
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-#include <backends/imgui_impl_glfw.h>
-#include <backends/imgui_impl_opengl3.h>
-#include <imgui.h>
+#include <fmt/format.h>
 
+#include "app/cli/interruption.h"
+#include "app/watch/live_saliency.h"
 #include "app/watch/watched_session.h"
+#include "app/watch/window/imgui_window.h"
+#include "app/watch/window/saliency_picture.h"
 #include "app/watch/window/watch_panels.h"
 #include "experiment/base/error.h"
 
@@ -20,133 +17,149 @@ namespace overt {
 
 namespace {
 
+using SteadyClock = std::chrono::steady_clock;
+
 constexpr int first_width = 1280, first_height = 800;
-/// Debian's package fonts-dejavu-core; without it ImGui's own font, which has ASCII only.
-constexpr const char* font_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-constexpr float font_px = 16.0f;
-/// A view need not be as fast as a display.
-constexpr std::chrono::milliseconds between_frames{33};
+/// A view need not be as fast as a display; where the processor draws it, it leaves the processor to the
+/// session.
+constexpr std::chrono::milliseconds between_frames{8}, between_drawn_frames{33};
+/// As the views are told points of one eye.
+constexpr double seconds_of_point = 0.004;
 
-/// GLFW, a window with a context, and Dear ImGui in it.
-class ImguiWindow {
+/// Four bytes a pixel as a texture, renewed when they change.
+class PixelTexture {
   public:
-    ImguiWindow() {
-        if (!glfwInit())
-            throw GraphicsError(
-                "no window can be opened: is there a display? overt watch --terminal needs none");
-        glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-        glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-        // It must not take the keyboard from the observer's screen.
-        glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_FALSE);
-        window_ = glfwCreateWindow(first_width, first_height, "overt: the operator's view", nullptr, nullptr);
-        if (!window_) {
-            glfwTerminate();
-            throw GraphicsError("no window with OpenGL 3.3 can be opened: overt watch --terminal needs none");
+    explicit PixelTexture(const GlContext& context) : context_(context) {}
+
+    /// Null for no pixels. `rgba`: red in the lowest byte.
+    GLuint of(int width, int height, std::vector<std::byte> rgba) {
+        if (rgba.empty())
+            return 0;
+        if (!texture_ || texture_->size_px() != glm::ivec2(width, height) || rgba != shown_) {
+            texture_.emplace(context_, glm::ivec2(width, height), PixelFormat::rgba8);
+            texture_->set_linear_filter_wrapped();
+            texture_->upload(rgba);
+            shown_ = std::move(rgba);
         }
-        glfwMakeContextCurrent(window_);
-        glfwSwapInterval(0); // never waits for a refresh: the pace is between_frames
-        gladLoadGLContext(&gl, glfwGetProcAddress);
-        ImGui::CreateContext();
-        ImGuiIO& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        if (std::filesystem::exists(font_file)) {
-            // Latin, Greek and Cyrillic, and marks such as dashes.
-            static constexpr ImWchar ranges[] = {0x20, 0x24F, 0x370, 0x52F, 0x2010, 0x2044, 0};
-            io.Fonts->AddFontFromFileTTF(font_file, font_px, nullptr, ranges);
-        }
-        ImGui::StyleColorsDark();
-        ImGui_ImplGlfw_InitForOpenGL(window_, true);
-        ImGui_ImplOpenGL3_Init("#version 330 core");
+        return texture_->name();
     }
-    ~ImguiWindow() {
-        ImGui_ImplOpenGL3_Shutdown();
-        ImGui_ImplGlfw_Shutdown();
-        ImGui::DestroyContext();
-        glfwDestroyWindow(window_);
-        glfwTerminate();
-    }
-    ImguiWindow(const ImguiWindow&) = delete;
-    ImguiWindow& operator=(const ImguiWindow&) = delete;
-
-    bool is_closed() const { return glfwWindowShouldClose(window_) != 0; }
-
-    template <class Draw> void show(const Draw& draw) {
-        glfwPollEvents();
-        ImGui_ImplOpenGL3_NewFrame();
-        ImGui_ImplGlfw_NewFrame();
-        ImGui::NewFrame();
-        draw(ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y);
-        ImGui::Render();
-        int width = 0, height = 0;
-        glfwGetFramebufferSize(window_, &width, &height);
-        gl.Viewport(0, 0, width, height);
-        gl.ClearColor(0.1f, 0.1f, 0.1f, 1.0f);
-        gl.Clear(GL_COLOR_BUFFER_BIT);
-        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-        glfwSwapBuffers(window_);
-    }
-
-    GladGLContext gl{};
 
   private:
-    GLFWwindow* window_ = nullptr;
+    const GlContext& context_;
+    std::optional<Texture2D> texture_;
+    std::vector<std::byte> shown_;
 };
 
-/// The stimulus as a texture, renewed when it changes.
-class PictureTexture {
-  public:
-    explicit PictureTexture(const GladGLContext& gl) : gl_(gl) {
-        gl_.GenTextures(1, &texture_);
-        gl_.BindTexture(GL_TEXTURE_2D, texture_);
-        gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+std::vector<std::byte> rgba_of(const ViewedPicture& picture) {
+    std::vector<std::byte> rgba;
+    rgba.reserve(4 * picture.lightness.size());
+    for (const float light : picture.lightness) {
+        const auto grey = static_cast<std::byte>(255.0f * light + 0.5f);
+        rgba.insert(rgba.end(), {grey, grey, grey, std::byte{255}});
     }
-    ~PictureTexture() { gl_.DeleteTextures(1, &texture_); }
-    PictureTexture(const PictureTexture&) = delete;
-    PictureTexture& operator=(const PictureTexture&) = delete;
+    return rgba;
+}
 
-    /// As ImGui names it; null for a picture without squares.
-    void* of(const ViewedPicture& picture) {
-        if (picture.lightness.empty())
-            return nullptr;
-        if (picture.lightness != shown_) {
-            shown_ = picture.lightness;
-            std::vector<unsigned char> bytes;
-            for (const float light : shown_) {
-                const auto byte = static_cast<unsigned char>(255.0f * light + 0.5f);
-                bytes.insert(bytes.end(), {byte, byte, byte, 255});
-            }
-            gl_.BindTexture(GL_TEXTURE_2D, texture_);
-            gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture.width, picture.height, 0, GL_RGBA,
-                           GL_UNSIGNED_BYTE, bytes.data());
+std::vector<std::byte> rgba_of(const ViewedCamera& camera) {
+    std::vector<std::byte> rgba;
+    for (std::size_t i = 0; i + 2 < camera.rgb.size(); i += 3)
+        rgba.insert(rgba.end(), {camera.rgb[i], camera.rgb[i + 1], camera.rgb[i + 2], std::byte{255}});
+    return rgba;
+}
+
+double steady_now_s() { return std::chrono::duration<double>(SteadyClock::now().time_since_epoch()).count(); }
+
+/// When each point that is shown came to stand in the window.
+class ShownTimes {
+  public:
+    explicit ShownTimes(bool are_kept) : are_kept_(are_kept) {}
+
+    /// The newest point that the frame just drawn has.
+    void shown(const ViewedGaze& gaze, std::optional<double> clock_zero_s, bool has_surface) {
+        if (gaze.at_s == last_at_s_)
+            return;
+        last_at_s_ = gaze.at_s;
+        const double now_s = steady_now_s();
+        if (clock_zero_s) {
+            delays_s_[next_++ % delays_s_.size()] = now_s - *clock_zero_s - gaze.at_s;
+            count_ = std::min(next_, delays_s_.size());
         }
-        return reinterpret_cast<void*>(static_cast<std::uintptr_t>(texture_));
+        if (are_kept_)
+            rows_ += fmt::format("{}\t{:.6f}\t{}\n", gaze.sampled_us, now_s, has_surface ? 1 : 0);
     }
+    /// Of the last points, in the middle; nothing before there are some.
+    std::optional<double> median_delay_s() const {
+        if (count_ < 10)
+            return std::nullopt;
+        std::array<double, 64> sorted = delays_s_;
+        const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(count_ / 2);
+        std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(count_));
+        return *middle;
+    }
+    const std::string& rows() const { return rows_; }
 
   private:
-    const GladGLContext& gl_;
-    GLuint texture_ = 0;
-    std::vector<float> shown_;
+    bool are_kept_;
+    double last_at_s_ = -1.0;
+    std::array<double, 64> delays_s_{};
+    std::size_t next_ = 0, count_ = 0;
+    std::string rows_;
 };
 
 } // namespace
 
-int watch_in_window(const std::filesystem::path& socket) {
+int watch_in_window(const std::filesystem::path& socket, const std::filesystem::path& times) {
+    const Interruption interruption;
     OperatorClient client(socket);
     WatchedSession session(client);
-    ImguiWindow window;
-    PictureTexture texture(window.gl);
-    WatchPanels panels(client);
-    while (!window.is_closed()) {
-        const auto next = std::chrono::steady_clock::now() + between_frames;
-        session.read(std::chrono::milliseconds(0));
+    LiveSaliency saliency;
+    ImguiWindow window(first_width, first_height, "overt: the operator's view");
+    PixelTexture picture(window), camera(window);
+    SaliencyPicture surface(window);
+    WatchPanels panels(client, saliency, surface);
+    ShownTimes shown(!times.empty());
+    const auto between = window.description().is_software ? between_drawn_frames : between_frames;
+    std::shared_ptr<const WatchedSculpture> prepared;
+    SteadyClock::time_point due{}, latest{};
+    while (!window.is_closed() && !Interruption::requested()) {
+        const auto take = [&](std::chrono::milliseconds wait) {
+            session.read(wait);
+            for (const GazeOnSurface& one : session.new_gaze())
+                if (one.hit)
+                    saliency.looked(session.sculpture(), one.gaze.trial, *one.hit, seconds_of_point);
+            return !session.new_gaze().empty();
+        };
+        // A frame begins when its time has come and a point has just arrived, so that the point is new when
+        // it is shown; without gaze soon afterwards.
+        while (SteadyClock::now() < due)
+            take(std::chrono::milliseconds(1));
+        while (!take(std::chrono::milliseconds(2)) && SteadyClock::now() < latest) {
+        }
+        due = SteadyClock::now() + between;
+        latest = due + between_drawn_frames;
+        if (session.sculpture() && session.sculpture() != prepared) {
+            prepared = session.sculpture();
+            saliency.prepare(prepared);
+        }
         const ViewText text = session.text();
-        window.show(
-            [&](float width, float height) { panels.draw(text, texture.of(text.picture), width, height); });
-        std::this_thread::sleep_until(next);
+        WatchPictures pictures;
+        if (session.camera())
+            pictures.camera = camera.of(session.camera()->width_px, session.camera()->height_px,
+                                        rgba_of(*session.camera()));
+        else
+            pictures.stimulus = picture.of(text.picture.width, text.picture.height, rgba_of(text.picture));
+        window.show([&](float width, float height) {
+            panels.draw(text, session, pictures, shown.median_delay_s(), width, height);
+        });
+        if (session.last_gaze())
+            shown.shown(session.last_gaze()->gaze, client.facts().clock_zero_s,
+                        session.last_gaze()->hit.has_value());
+    }
+    if (!times.empty()) {
+        std::ofstream file(times);
+        file << "sampled_us\tshown_s\thas_surface\n" << shown.rows();
+        if (!file.flush())
+            throw InputError(fmt::format("{}: cannot be written", times.string()));
     }
     return 0;
 }

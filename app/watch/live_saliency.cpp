@@ -1,0 +1,156 @@
+#include "app/watch/live_saliency.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "experiment/surface/coarse_surface.h"
+#include "experiment/surface/surface_smoother.h"
+
+namespace overt {
+
+namespace {
+
+constexpr std::size_t most_nodes = 15'000;
+constexpr double kernel_deg = 1.0;
+constexpr std::chrono::milliseconds between_maps{250};
+
+std::uint32_t nearest_corner(const Mesh& mesh, const RayHit& hit) {
+    const glm::dvec3& weights = hit.barycentric;
+    const int corner = weights.x >= weights.y && weights.x >= weights.z ? 0 : weights.y >= weights.z ? 1 : 2;
+    return mesh.triangles[hit.triangle][corner];
+}
+
+} // namespace
+
+/// What a map is made with; of a large mesh only the coarse surface is kept.
+struct LiveSaliency::Surface {
+    explicit Surface(const WatchedSculpture& sculpture) : sigma(kernel_deg * sculpture.degree_on_surface()) {
+        const SurfaceGeometry fine(sculpture.mesh());
+        const CoarseSurface coarse(fine, most_nodes);
+        mesh = std::make_shared<Mesh>(coarse.mesh());
+        vertex_near.resize(fine.vertex_count());
+        for (std::uint32_t v = 0; v < vertex_near.size(); ++v)
+            vertex_near[v] = coarse.vertex_near(fine.node_of(v));
+        for (std::uint32_t v = 0; v < coarse.vertex_count(); ++v)
+            places.push_back(coarse.place_of(v));
+        geometry = std::make_unique<SurfaceGeometry>(*mesh);
+        smoother = std::make_unique<SurfaceSmoother>(*geometry, sigma);
+        session_s.resize(coarse.vertex_count());
+        trial_s.resize(coarse.vertex_count());
+    }
+
+    void add(int in_trial, std::uint32_t vertex, double seconds) {
+        if (in_trial != trial) {
+            std::ranges::fill(trial_s, 0.0);
+            trial = in_trial;
+        }
+        const std::uint32_t near = vertex_near[vertex];
+        session_s[near] += seconds;
+        trial_s[near] += seconds;
+    }
+
+    SaliencyMap map(Of of, const std::string& sculpture) const {
+        const std::vector<double>& seconds = of == Of::session ? session_s : trial_s;
+        SaliencyMap map{sculpture, mesh, {}, 0.0};
+        std::vector<SurfaceWeight> weights;
+        for (std::size_t v = 0; v < seconds.size(); ++v)
+            if (seconds[v] > 0.0) {
+                weights.push_back({places[v], seconds[v], sigma});
+                map.gaze_s += seconds[v];
+            }
+        map.share.assign(seconds.size(), 0.0f);
+        if (weights.empty())
+            return map;
+        const std::vector<double> density = smoother->density(weights);
+        const double most = *std::ranges::max_element(density);
+        std::ranges::transform(density, map.share.begin(), [most](double here) {
+            return most > 0.0 ? static_cast<float>(here / most) : 0.0f;
+        });
+        return map;
+    }
+
+    double sigma;
+    std::shared_ptr<const Mesh> mesh;
+    std::vector<std::uint32_t> vertex_near; ///< by vertex of the sculpture's mesh: of `mesh`
+    std::vector<SurfacePlace> places;       ///< by vertex of `mesh`
+    std::unique_ptr<SurfaceGeometry> geometry;
+    std::unique_ptr<SurfaceSmoother> smoother;
+    std::vector<double> session_s, trial_s; ///< by vertex of `mesh`
+    int trial = -1;
+};
+
+LiveSaliency::LiveSaliency() : thread_([this](const std::stop_token& stop) { work(stop); }) {}
+
+LiveSaliency::~LiveSaliency() {
+    thread_.request_stop();
+    wakes_.notify_all();
+}
+
+void LiveSaliency::looked(const std::shared_ptr<const WatchedSculpture>& sculpture, int trial,
+                          const RayHit& hit, double seconds) {
+    {
+        const std::lock_guard lock(lock_);
+        looks_.push_back({sculpture, trial, nearest_corner(sculpture->mesh(), hit), seconds});
+    }
+    wakes_.notify_one();
+}
+
+void LiveSaliency::prepare(const std::shared_ptr<const WatchedSculpture>& sculpture) {
+    {
+        const std::lock_guard lock(lock_);
+        looks_.push_back({sculpture, -1, 0, 0.0});
+    }
+    wakes_.notify_one();
+}
+
+void LiveSaliency::show(Of what) {
+    {
+        const std::lock_guard lock(lock_);
+        is_other_ = is_other_ || of_ != what;
+        of_ = what;
+    }
+    wakes_.notify_one();
+}
+
+std::shared_ptr<const SaliencyMap> LiveSaliency::newest(const std::string& sculpture) const {
+    const std::lock_guard lock(lock_);
+    const auto found = newest_.find(sculpture);
+    return found == newest_.end() ? nullptr : found->second;
+}
+
+LiveSaliency::Surface& LiveSaliency::surface_of(const WatchedSculpture& sculpture) {
+    std::unique_ptr<Surface>& surface = surfaces_[sculpture.id()];
+    if (!surface)
+        surface = std::make_unique<Surface>(sculpture);
+    return *surface;
+}
+
+void LiveSaliency::work(const std::stop_token& stop) {
+    std::string last;
+    while (!stop.stop_requested()) {
+        std::vector<Look> looks;
+        Of of = Of::session;
+        {
+            std::unique_lock lock(lock_);
+            wakes_.wait(lock, stop, [&] { return !looks_.empty() || is_other_; });
+            looks.swap(looks_);
+            is_other_ = false;
+            of = of_;
+        }
+        for (const Look& look : looks) {
+            Surface& surface = surface_of(*look.sculpture);
+            last = look.sculpture->id();
+            if (look.seconds > 0.0)
+                surface.add(look.trial, look.vertex, look.seconds);
+        }
+        if (!last.empty() && !stop.stop_requested()) {
+            auto map = std::make_shared<const SaliencyMap>(surfaces_.at(last)->map(of, last));
+            const std::lock_guard lock(lock_);
+            newest_[last] = std::move(map);
+        }
+        std::unique_lock lock(lock_);
+        wakes_.wait_for(lock, stop, between_maps, [] { return false; });
+    }
+}
+
+} // namespace overt
