@@ -38,7 +38,9 @@ constexpr Benchmark benchmarks[] = {
      bench_analyze},
     {"power", "simulated studies of 12 observers, how many a minute on one core", bench_power},
     {"tracker", "an eye tracker at 2000 Hz beside a presentation, its samples, processor time and refreshes",
-     bench_tracker}};
+     bench_tracker},
+    {"watch", "the operator's view, from a sample to its surface point and to its mark in the window",
+     bench_watch}};
 
 void add_bench(CLI::App& app, ChosenCommand& chosen) {
     const auto given = std::make_shared<BenchOptions>();
@@ -87,7 +89,9 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
         ->type_name("PX")
         ->check(CLI::Range(16, 2048))
         ->capture_default_str();
-    command.add_option("--seconds", options.seconds, "tracker: of real time, once without and once with it")
+    command
+        .add_option("--seconds", options.seconds,
+                    "tracker, watch: of real time, for each of two measurements")
         ->check(CLI::Range(0.5, 3600.0))
         ->capture_default_str();
     add_context_option(command, options.context);

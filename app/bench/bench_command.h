@@ -41,5 +41,7 @@ BenchFigures bench_analyze(const BenchOptions& options);
 BenchFigures bench_power(const BenchOptions& options);
 /// An eye tracker at 2000 Hz: samples lost or doubled, processor time, refreshes missed beside it.
 BenchFigures bench_tracker(const BenchOptions& options);
+/// The operator's view: from a sample to its surface point, and to its mark in the window.
+BenchFigures bench_watch(const BenchOptions& options);
 
 } // namespace overt

@@ -23,7 +23,7 @@ struct BenchOptions {
     std::filesystem::path probe;              ///< bake: surroundings other than the overcast sky
     int samples = 16;                         ///< bake: of a pixel, of the frames whose time is taken
     int reference_size_px = 128;              ///< bake: of the pictures whose errors are measured
-    double seconds = 60.0;                    ///< tracker: of real time
+    double seconds = 60.0;                    ///< tracker, watch: of real time
     ContextChoice context;
     bool json = false;
 };

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <ctime>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include "app/bench/bench_command.h"
+#include "app/bench/metronome.h"
 #include "app/rig/open_display.h"
 #include "devices/host/clocks.h"
 #include "devices/simulated/simulated_eye_tracker.h"
@@ -18,57 +18,8 @@ namespace overt {
 
 namespace {
 
-constexpr double rate_hz = 2000.0, refresh_hz = 120.0;
+constexpr double rate_hz = Metronome::rate_hz, refresh_hz = 120.0;
 constexpr int frames = 8;
-
-double seconds_of(clockid_t clock) {
-    timespec time{};
-    clock_gettime(clock, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-/// A tracker in place of a device: its samples are due at 2000 Hz by the machine's clock and bear their
-/// number. Says how much processor time the thread that reads it took.
-class Metronome final : public TrackerDriver {
-  public:
-    Metronome(const Clock& clock, std::atomic<double>& processor_s)
-        : clock_(clock), processor_s_(processor_s) {}
-
-    TrackerDescription connect(const TrackerWish& wish) override {
-        return {"metronome", rate_hz, wish.eye, wish.both_eyes};
-    }
-    void start() override { first_ = next_ = due() + 1; }
-    void stop() noexcept override {}
-    /// As EyeLink's library is asked, again and again: returns at once with what there is, else after a
-    /// millisecond.
-    RecordingState read(TrackerItemSink& sink, SessionTime deadline) noexcept override {
-        if (due() < next_)
-            wait_a_little(deadline);
-        for (const std::int64_t due_now = due(); next_ <= due_now; ++next_) {
-            GazeSample sample;
-            sample.sampled_at = tracker_time(std::llround(1e6 * static_cast<double>(next_) / rate_hz));
-            sample.gaze = ScreenPoint{static_cast<double>(next_ - first_), 0.0};
-            sink.put(sample);
-        }
-        processor_s_ = seconds_of(CLOCK_THREAD_CPUTIME_ID);
-        return RecordingState::running;
-    }
-
-  private:
-    std::int64_t due() const noexcept {
-        return static_cast<std::int64_t>(std::floor(to_seconds(clock_.now() - SessionTime{}) * rate_hz));
-    }
-    void wait_a_little(SessionTime deadline) const noexcept {
-        const SessionTime until = std::min(deadline, clock_.now() + std::chrono::milliseconds(1));
-        const auto ns = std::max<std::int64_t>(0, (until - clock_.now()).count());
-        const timespec time{0, static_cast<long>(ns)};
-        ::nanosleep(&time, nullptr);
-    }
-
-    const Clock& clock_;
-    std::atomic<double>& processor_s_;
-    std::int64_t first_ = 0, next_ = 0;
-};
 
 /// Pages of one grey each.
 class GreyPages final : public FrameSource {
@@ -88,6 +39,9 @@ class GreyPages final : public FrameSource {
   private:
     LinearImage picture_;
 };
+
+/// Gaze that bears its number.
+ScreenPoint numbered(std::int64_t number) { return {static_cast<double>(number), 0.0}; }
 
 /// What came, sample by sample.
 struct Taken {
@@ -141,7 +95,7 @@ Presentation present(const BenchOptions& options, bool with_tracker) {
 
     std::atomic<double> tracker_processor_s{0.0};
     Presentation result;
-    ThreadedTracker tracker(std::make_unique<Metronome>(display.clock(), tracker_processor_s),
+    ThreadedTracker tracker(std::make_unique<Metronome>(display.clock(), tracker_processor_s, numbered),
                             display.clock(), {.rate_hz = rate_hz, .screen = geometry});
     std::vector<TrackerItem> items(4096);
     const auto take = [&] {

@@ -14,7 +14,7 @@
 
 namespace overt {
 
-/// A surface to be drawn, with at most 15,000 nodes, and the density of gaze on it.
+/// A surface to be drawn, with at most 8,000 nodes, and the density of gaze on it.
 struct SaliencyMap {
     std::string sculpture;
     std::shared_ptr<const Mesh> surface; ///< in the sculpture's unit; the same object while it is the same

@@ -34,6 +34,8 @@ class WatchedSession {
     ViewText text();
     /// Events that the last read() brought.
     const std::deque<ViewedEvent>& news() const { return news_; }
+    /// The points of the last fifth of a second, while an animation is shown.
+    const std::deque<ViewedGaze>& gaze() const { return gaze_; }
     /// Gaze that the last read() brought, oldest first.
     const std::vector<GazeOnSurface>& new_gaze() const { return new_gaze_; }
     /// The newest point of the eye that is shown, while an animation is.

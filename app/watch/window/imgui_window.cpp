@@ -61,20 +61,24 @@ void ImguiWindow::make_current() { glfwMakeContextCurrent(window_); }
 
 bool ImguiWindow::is_closed() const { return glfwWindowShouldClose(window_) != 0; }
 
-void ImguiWindow::show(const std::function<void(float width, float height)>& draw) {
+void ImguiWindow::draw(const std::function<void(float width, float height)>& lay_out) {
     glfwPollEvents();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
-    draw(ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y);
+    lay_out(ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y);
     ImGui::Render();
-    int width = 0, height = 0;
-    glfwGetFramebufferSize(window_, &width, &height);
+    glfwGetFramebufferSize(window_, &size_px_.x, &size_px_.y);
     gl().BindFramebuffer(GL_FRAMEBUFFER, 0);
-    gl().Viewport(0, 0, width, height);
+    gl().Viewport(0, 0, size_px_.x, size_px_.y);
     gl().ClearColor(0.1f, 0.1f, 0.1f, 1.0f);
     gl().Clear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    gl().Finish();
+}
+
+void ImguiWindow::show(const std::function<void(glm::ivec2 window_px)>& draw_over) {
+    draw_over(size_px_);
     glfwSwapBuffers(window_);
     gl().Finish();
 }

@@ -18,11 +18,15 @@ class ImguiWindow final : public GlContext {
 
     void make_current() override;
     bool is_closed() const;
-    /// Draws a frame and returns when it is on its way to the screen with nothing left to draw.
-    void show(const std::function<void(float width, float height)>& draw);
+    /// Lays out and draws a frame, which is not shown yet.
+    void draw(const std::function<void(float width, float height)>& lay_out);
+    /// Has `draw_over` draw over the frame drawn last, once, and returns when it is on its way to the screen
+    /// with nothing left to draw.
+    void show(const std::function<void(glm::ivec2 window_px)>& draw_over);
 
   private:
     GLFWwindow* window_ = nullptr;
+    glm::ivec2 size_px_{0}; ///< of the frame drawn last
 };
 
 } // namespace overt

@@ -91,15 +91,15 @@ GLuint SaliencyPicture::draw(const WatchedSculpture& sculpture, const std::share
     return texture_->name();
 }
 
-std::optional<SaliencyPicture::Mark> SaliencyPicture::mark_at(const WatchedSculpture& sculpture,
-                                                              const glm::dvec3& position) const {
+std::optional<SaliencyPicture::Place> SaliencyPicture::place_of(const WatchedSculpture& sculpture,
+                                                                const glm::dvec3& position) const {
     if (!map_)
         return std::nullopt;
     const SightLines lines(seen_, Degrees{orbit_.turn_deg});
     const glm::dvec3 projected = lines.project(position);
     if (projected.z <= 0.0)
         return std::nullopt;
-    return Mark{glm::dvec2(projected), sculpture.rays().is_hidden(position, lines.origin())};
+    return Place{glm::dvec2(projected), sculpture.rays().is_hidden(position, lines.origin())};
 }
 
 } // namespace overt

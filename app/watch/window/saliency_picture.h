@@ -24,11 +24,11 @@ class SaliencyPicture {
 
     /// Where a point of the surface is in the picture drawn last, from its top left, and whether the
     /// sculpture hides it.
-    struct Mark {
-        glm::dvec2 place_px{0.0};
+    struct Place {
+        glm::dvec2 px{0.0};
         bool is_hidden = false;
     };
-    std::optional<Mark> mark_at(const WatchedSculpture& sculpture, const glm::dvec3& position) const;
+    std::optional<Place> place_of(const WatchedSculpture& sculpture, const glm::dvec3& position) const;
 
   private:
     void upload(const SaliencyMap& map);

@@ -103,6 +103,7 @@ void WatchPanels::draw(const ViewText& text, const WatchedSession& session, cons
 
 void WatchPanels::draw_display(const ViewText& text, const WatchedSession& session,
                                const WatchPictures& pictures) {
+    display_ = {};
     const SessionFacts& facts = text.facts;
     const ImVec2 room = ImGui::GetContentRegionAvail(), at = ImGui::GetCursorScreenPos();
     if (facts.width_px <= 0 || facts.height_px <= 0)
@@ -136,23 +137,7 @@ void WatchPanels::draw_display(const ViewText& text, const WatchedSession& sessi
         draws.AddImage(texture_of(pictures.stimulus), {middle.x - half.x, middle.y - half.y},
                        {middle.x + half.x, middle.y + half.y});
     draws.AddRect(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(90, 90, 90, 255));
-    draws.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
-    for (std::size_t i = 0; i < text.gaze.size(); ++i) {
-        const ViewedGaze& one = text.gaze[i];
-        if (!one.place)
-            continue;
-        const ImVec2 place{corner.x + scale * static_cast<float>(one.place->x_px),
-                           corner.y + scale * static_cast<float>(one.place->y_px)};
-        const bool is_newest = i + 1 == text.gaze.size();
-        const int strength = static_cast<int>(60 + 195 * (i + 1) / text.gaze.size());
-        const ImU32 colour =
-            one.is_right ? IM_COL32(255, 170, 40, strength) : IM_COL32(70, 180, 255, strength);
-        if (is_newest)
-            draws.AddCircle(place, 9.0f, colour, 0, 2.5f);
-        else
-            draws.AddCircleFilled(place, 2.5f, colour);
-    }
-    draws.PopClipRect();
+    display_ = {{corner.x, corner.y}, {size.x, size.y}, scale};
     if (text.view.pose < 0) {
         const std::string words = text.view.is_over ? "the session is over" : text.view.phase;
         const ImVec2 wide = ImGui::CalcTextSize(words.c_str());
@@ -162,6 +147,7 @@ void WatchPanels::draw_display(const ViewText& text, const WatchedSession& sessi
 }
 
 void WatchPanels::draw_saliency(const ViewText& text, const WatchedSession& session) {
+    surface_drawn_ = {};
     ImGui::TextColored(quiet, "gaze on %s",
                        text.view.sculpture.empty() ? "the sculpture" : text.view.sculpture.c_str());
     ImGui::SameLine();
@@ -198,14 +184,42 @@ void WatchPanels::draw_saliency(const ViewText& text, const WatchedSession& sess
     const std::string total = fmt::format("{:.1f} s of gaze; drag to turn, wheel for size", map->gaze_s);
     draws.AddText({at.x + room.x - ImGui::CalcTextSize(total.c_str()).x - 6.0f, at.y + room.y - 22.0f},
                   IM_COL32(160, 160, 160, 255), total.c_str());
-    if (!session.last_gaze() || !session.last_gaze()->hit)
-        return;
-    if (const auto mark = surface_.mark_at(*sculpture, session.last_gaze()->hit->position)) {
-        const ImVec2 place{at.x + static_cast<float>(mark->place_px.x),
-                           at.y + static_cast<float>(mark->place_px.y)};
-        const ImU32 colour = IM_COL32(255, 110, 60, mark->is_hidden ? 110 : 255);
-        draws.AddCircle(place, 7.0f, colour, 0, mark->is_hidden ? 1.5f : 3.0f);
+    surface_drawn_ = {{at.x, at.y}, {room.x, room.y}, 1.0f};
+}
+
+std::vector<Mark> WatchPanels::marks(const WatchedSession& session) const {
+    std::vector<Mark> marks;
+    if (asked_) // the question stands in front of all
+        return marks;
+    const auto is_within = [](const Drawn& drawn, glm::vec2 place) {
+        const glm::vec2 inside = place - drawn.corner_px;
+        return inside.x >= 0.0f && inside.y >= 0.0f && inside.x < drawn.size_px.x &&
+               inside.y < drawn.size_px.y;
+    };
+    const std::deque<ViewedGaze>& gaze = session.gaze();
+    for (std::size_t i = 0; i < gaze.size() && display_.scale > 0.0f; ++i) {
+        if (!gaze[i].place)
+            continue;
+        const glm::vec2 place =
+            display_.corner_px + display_.scale * glm::vec2(gaze[i].place->x_px, gaze[i].place->y_px);
+        if (!is_within(display_, place))
+            continue;
+        const float strength = 0.25f + 0.75f * static_cast<float>(i + 1) / static_cast<float>(gaze.size());
+        const glm::vec4 colour = gaze[i].is_right ? glm::vec4(1.0f, 0.67f, 0.16f, strength)
+                                                  : glm::vec4(0.27f, 0.7f, 1.0f, strength);
+        const bool is_newest = i + 1 == gaze.size();
+        marks.push_back({place, is_newest ? 9.0f : 2.5f, is_newest ? 2.5f : 0.0f, colour});
     }
+    if (surface_drawn_.scale > 0.0f && session.sculpture() && session.last_gaze() && session.last_gaze()->hit)
+        if (const auto place = surface_.place_of(*session.sculpture(), session.last_gaze()->hit->position)) {
+            const glm::vec2 at = surface_drawn_.corner_px + glm::vec2(place->px);
+            if (is_within(surface_drawn_, at))
+                marks.push_back({at,
+                                 7.0f,
+                                 place->is_hidden ? 1.5f : 3.0f,
+                                 {1.0f, 0.43f, 0.24f, place->is_hidden ? 0.45f : 1.0f}});
+        }
+    return marks;
 }
 
 void WatchPanels::draw_figures(const ViewText& text, std::optional<double> delay_s) {

@@ -7,6 +7,7 @@
 
 #include "app/watch/live_saliency.h"
 #include "app/watch/watched_session.h"
+#include "app/watch/window/marks.h"
 #include "app/watch/window/saliency_picture.h"
 #include "devices/operator/operator_client.h"
 #include "experiment/watch/view_text.h"
@@ -30,7 +31,15 @@ class WatchPanels {
     void draw(const ViewText& text, const WatchedSession& session, const WatchPictures& pictures,
               std::optional<double> delay_s, float width, float height);
 
+    /// Gaze in the window that was drawn last, with what has come since: on the display and on the surface.
+    std::vector<Mark> marks(const WatchedSession& session) const;
+
   private:
+    /// Where pixels of something stand in the window.
+    struct Drawn {
+        glm::vec2 corner_px{0.0f}, size_px{0.0f};
+        float scale = 0.0f; ///< 0: it was not drawn
+    };
     void draw_display(const ViewText& text, const WatchedSession& session, const WatchPictures& pictures);
     void draw_saliency(const ViewText& text, const WatchedSession& session);
     void draw_figures(const ViewText& text, std::optional<double> delay_s);
@@ -43,6 +52,7 @@ class WatchPanels {
     LiveSaliency& saliency_;
     SaliencyPicture& surface_;
     Orbit orbit_;
+    Drawn display_, surface_drawn_;
     bool of_trial_ = false; ///< the map shows the last trial's gaze alone
     std::optional<OperatorCommand> asked_;
     std::array<char, longest_note + 1> note_{};

@@ -23,6 +23,8 @@ constexpr int first_width = 1280, first_height = 800;
 /// A view need not be as fast as a display; where the processor draws it, it leaves the processor to the
 /// session.
 constexpr std::chrono::milliseconds between_frames{8}, between_drawn_frames{33};
+/// For the next point of gaze, which comes every 4 ms.
+constexpr std::chrono::milliseconds longest_wait{6};
 /// As the views are told points of one eye.
 constexpr double seconds_of_point = 0.004;
 
@@ -116,11 +118,12 @@ int watch_in_window(const std::filesystem::path& socket, const std::filesystem::
     ImguiWindow window(first_width, first_height, "overt: the operator's view");
     PixelTexture picture(window), camera(window);
     SaliencyPicture surface(window);
+    MarkPen pen(window);
     WatchPanels panels(client, saliency, surface);
     ShownTimes shown(!times.empty());
     const auto between = window.description().is_software ? between_drawn_frames : between_frames;
     std::shared_ptr<const WatchedSculpture> prepared;
-    SteadyClock::time_point due{}, latest{};
+    SteadyClock::time_point due{};
     while (!window.is_closed() && !Interruption::requested()) {
         const auto take = [&](std::chrono::milliseconds wait) {
             session.read(wait);
@@ -129,14 +132,9 @@ int watch_in_window(const std::filesystem::path& socket, const std::filesystem::
                     saliency.looked(session.sculpture(), one.gaze.trial, *one.hit, seconds_of_point);
             return !session.new_gaze().empty();
         };
-        // A frame begins when its time has come and a point has just arrived, so that the point is new when
-        // it is shown; without gaze soon afterwards.
         while (SteadyClock::now() < due)
             take(std::chrono::milliseconds(1));
-        while (!take(std::chrono::milliseconds(2)) && SteadyClock::now() < latest) {
-        }
         due = SteadyClock::now() + between;
-        latest = due + between_drawn_frames;
         if (session.sculpture() && session.sculpture() != prepared) {
             prepared = session.sculpture();
             saliency.prepare(prepared);
@@ -148,9 +146,16 @@ int watch_in_window(const std::filesystem::path& socket, const std::filesystem::
                                         rgba_of(*session.camera()));
         else
             pictures.stimulus = picture.of(text.picture.width, text.picture.height, rgba_of(text.picture));
-        window.show([&](float width, float height) {
+        window.draw([&](float width, float height) {
             panels.draw(text, session, pictures, shown.median_delay_s(), width, height);
         });
+        // All but gaze stands. Gaze is drawn over it when the next point comes, so that it is new when it is
+        // shown: what came while the frame was drawn is not.
+        take(std::chrono::milliseconds(0));
+        for (const auto latest = SteadyClock::now() + longest_wait;
+             session.last_gaze() && !take(std::chrono::milliseconds(1)) && SteadyClock::now() < latest;) {
+        }
+        window.show([&](glm::ivec2 window_px) { pen.draw(panels.marks(session), window_px); });
         if (session.last_gaze())
             shown.shown(session.last_gaze()->gaze, client.facts().clock_zero_s,
                         session.last_gaze()->hit.has_value());

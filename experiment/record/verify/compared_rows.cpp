@@ -102,9 +102,10 @@ bool RowCursor::is_same(int column, const RowCursor& other) const {
                std::bit_cast<std::uint64_t>(sqlite3_column_double(b, column));
     default: {
         const int bytes = sqlite3_column_bytes(a, column);
+        // Of no bytes SQLite gives a null pointer.
         return bytes == sqlite3_column_bytes(b, column) &&
-               std::memcmp(sqlite3_column_blob(a, column), sqlite3_column_blob(b, column),
-                           static_cast<std::size_t>(bytes)) == 0;
+               (bytes == 0 || std::memcmp(sqlite3_column_blob(a, column), sqlite3_column_blob(b, column),
+                                          static_cast<std::size_t>(bytes)) == 0);
     }
     }
 }

@@ -37,7 +37,7 @@ TEST_CASE("a TCP line carries every byte both ways unchanged", "[unit]") {
     TcpLine line(peer.address(), "test server", clock, clock.now() + 20s);
     CHECK_THAT(line.name(), Contains("127.0.0.1:"));
     std::string all;
-    for (int i = 0; i < 100'000; ++i)
+    for (unsigned i = 0; i < 100'000; ++i)
         all += static_cast<char>(i * i / 7);
     REQUIRE(line.write(all, clock.now() + 20s));
     CHECK(read_all(line, clock, all.size()) == all);

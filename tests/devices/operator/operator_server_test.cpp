@@ -4,6 +4,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "devices/operator/gaze_tap.h"
 #include "devices/operator/operator_client.h"
 #include "devices/operator/operator_panel.h"
 #include "devices/operator/operator_server.h"
@@ -45,7 +46,7 @@ OperatorServer::Options options_at(const std::filesystem::path& socket) {
 
 ViewNews numbered(std::int64_t samples) {
     ViewNews news;
-    news.kind = ViewNews::Kind::gaze;
+    news.kind = ViewNews::Kind::samples;
     news.samples = samples;
     return news;
 }
@@ -236,4 +237,75 @@ TEST_CASE("who sends what is no command, no greeting or another version is cut o
         CHECK((count == 0 || (count < 0 && errno == ECONNRESET)));
         ::close(garbage);
     }
+}
+
+TEST_CASE("gaze is told every 4 ms for each eye, with the trial's state before it", "[unit]") {
+    const TemporaryFolder folder;
+    OperatorServer server(options_at(folder.path() / "view.sock"));
+    const StandingClock clock;
+    GazeTap tap(server, clock);
+    OperatorClient client(folder.path() / "view.sock");
+    ViewNews phase;
+    phase.kind = ViewNews::Kind::phase;
+    phase.phase = SessionPhase::stimulus;
+    phase.trial = 2;
+    server.push(phase);
+    // A sample of each eye every 0.5 ms, and the tracker's clock set back in between.
+    for (int i = 0; i < 80; ++i)
+        for (const Eye eye : {Eye::left, Eye::right})
+            tap.measured({tracker_time((i < 40 ? 90'000 : 10'000) + 500 * i), eye,
+                          i == 8 ? std::nullopt : std::optional(ScreenPoint{1.0 * i, 0.0}), 1.0f});
+    std::vector<ViewedGaze> all;
+    while (all.size() < 20) {
+        REQUIRE(client.read(2000ms));
+        for (const ViewedGaze& one : client.take_gaze()) {
+            CHECK(client.view().trial == 2);
+            all.push_back(one);
+        }
+    }
+    REQUIRE(all.size() == 20);
+    for (std::size_t i = 0; i < 20; ++i) {
+        CHECK(all[i].is_right == (i % 2 == 1));
+        CHECK(all[i].trial == 2);
+        if (i / 2 == 1)
+            CHECK(!all[i].place);
+        else
+            CHECK(all[i].place.value().x_px == 8.0 * static_cast<double>(i / 2));
+    }
+    CHECK(server.dropped() == 0);
+}
+
+TEST_CASE("a camera's image comes to the views small, with its colours, ten times a second at most",
+          "[unit]") {
+    const TemporaryFolder folder;
+    OperatorServer server(options_at(folder.path() / "view.sock"));
+    CameraImage image{400, 200, {}, "left eye"};
+    for (int y = 0; y < 200; ++y)
+        for (int x = 0; x < 400; ++x)
+            image.rgba.insert(image.rgba.end(),
+                              {std::byte(x % 256), std::byte(y), std::byte(7), std::byte(9)});
+    server.show_camera(image); // nobody watches
+    OperatorClient client(folder.path() / "view.sock");
+    std::optional<ViewedCamera> camera;
+    int sent = 0, came = 0;
+    const auto began = std::chrono::steady_clock::now();
+    while (came < 3) {
+        server.show_camera(image);
+        ++sent;
+        client.read(5ms);
+        if (std::optional<ViewedCamera> one = client.take_camera()) {
+            camera = std::move(one);
+            ++came;
+        }
+        REQUIRE(sent < 100'000);
+    }
+    CHECK(std::chrono::steady_clock::now() - began >= 200ms);
+    REQUIRE(camera->width_px == 134);
+    REQUIRE(camera->height_px == 67);
+    CHECK(camera->title == "left eye");
+    // Every third pixel in both directions.
+    const std::size_t at = 3 * (10 * 134 + 20);
+    CHECK(camera->rgb[at] == std::byte(60));
+    CHECK(camera->rgb[at + 1] == std::byte(30));
+    CHECK(camera->rgb[at + 2] == std::byte(7));
 }

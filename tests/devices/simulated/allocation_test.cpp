@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "devices/display_box/bits_link.h"
+#include "devices/operator/gaze_tap.h"
 #include "devices/operator/watched_log.h"
 #include "devices/simulated/simulated_response_panel.h"
 #include "tests/devices/link/in_memory_line.h"
@@ -104,7 +105,8 @@ TEST_CASE("a session that is watched allocates nothing for it in a presentation,
     SimulatedResponsePanel silent(sitting.clock, sitting.observer);
     OperatorPanel panel(server, clock, silent);
     CountedLog record;
-    WatchedLog log(record, server, panel, clock);
+    GazeTap tap(server, clock);
+    WatchedLog log(record, server, panel, clock, &tap);
     log.trial_started({}, {});
     const long before = test::allocations;
     constexpr int refreshes = 1000;

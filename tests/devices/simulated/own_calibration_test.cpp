@@ -76,7 +76,8 @@ std::unique_ptr<CalibratedTracker> tracker_of(Sitting& sitting, const SimulatedT
 
 /// Mean place of what is recorded for half a second while a place is looked at.
 ScreenPoint measured_at(Sitting& sitting, EyeTracker& tracker, ScreenPoint place, Eye eye = Eye::right) {
-    sitting.observer.screen_shown({.kind = Screen::Kind::target, .text = "", .target_place = place}, sitting.clock.now());
+    sitting.observer.screen_shown({.kind = Screen::Kind::target, .text = "", .target_place = place},
+                                  sitting.clock.now());
     sitting.clock.wait_until(sitting.clock.now() + 500ms);
     tracker.start_recording();
     sitting.clock.wait_until(sitting.clock.now() + 500ms);
@@ -211,4 +212,59 @@ TEST_CASE("escape ends a calibration, backspace shows the target before again, s
     };
     REQUIRE(tracker->set_up(again).kind == SetupOutcome::Kind::done);
     CHECK(again.shown[3] == again.shown[1]);
+}
+
+TEST_CASE("who listens hears gaze as it is calibrated", "[unit]") {
+    /// A tracker whose gaze is told as it comes.
+    class Telling final : public EyeTracker {
+      public:
+        explicit Telling(std::unique_ptr<EyeTracker> tracker) : tracker_(std::move(tracker)) {}
+        TrackerDescription description() const override { return tracker_->description(); }
+        SetupOutcome set_up(SetupStage& stage) override { return tracker_->set_up(stage); }
+        DriftOutcome drift_check(ScreenPoint target) override { return tracker_->drift_check(target); }
+        std::optional<ClockPair> read_clocks() noexcept override { return tracker_->read_clocks(); }
+        void start_recording() override { tracker_->start_recording(); }
+        void stop_recording() override { tracker_->stop_recording(); }
+        bool tell_samples_to(SampleListener* listener) override {
+            listener_ = listener;
+            return true;
+        }
+        std::size_t poll(std::span<TrackerItem> into) noexcept override {
+            const std::size_t count = tracker_->poll(into);
+            for (const TrackerItem& item : into.first(count))
+                if (const auto* sample = std::get_if<GazeSample>(&item); sample && listener_)
+                    listener_->measured(*sample);
+            return count;
+        }
+
+      private:
+        std::unique_ptr<EyeTracker> tracker_;
+        SampleListener* listener_ = nullptr;
+    };
+    struct Listener final : SampleListener {
+        void measured(const GazeSample& sample) noexcept override { heard.push_back(sample); }
+        std::vector<GazeSample> heard;
+    };
+    Sitting sitting(31);
+    CalibratedTracker tracker(std::make_unique<Telling>(std::make_unique<SimulatedEyeTracker>(
+                                  sitting.clock, sitting.observer, 21, uncalibrated())),
+                              sitting.clock, {}, 21);
+    Listener listener;
+    CHECK(tracker.tell_samples_to(&listener));
+    WatchedStage stage(sitting);
+    REQUIRE(tracker.set_up(stage).kind == SetupOutcome::Kind::done);
+    listener.heard.clear();
+    const ScreenPoint place{700.0, 400.0};
+    const ScreenPoint measured = measured_at(sitting, tracker, place);
+    ScreenPoint sum{};
+    double count = 0.0;
+    for (const GazeSample& sample : listener.heard)
+        if (sample.gaze) {
+            sum = {sum.x_px + sample.gaze->x_px, sum.y_px + sample.gaze->y_px};
+            ++count;
+        }
+    REQUIRE(count > 200.0);
+    CHECK(sum.x_px / count == Approx(measured.x_px));
+    CHECK(sum.y_px / count == Approx(measured.y_px));
+    CHECK(sitting.observer.scene().screen.angle_between(measured, place).value < 1.0);
 }

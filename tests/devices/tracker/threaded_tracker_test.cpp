@@ -150,3 +150,33 @@ TEST_CASE("drift is measured from samples where a tracker has no check of its ow
     CHECK(bench.tracker.drift_check({960.0, 540.0}).kind == DriftOutcome::Kind::no_eye);
     CHECK(bench.diary.stops == 1);
 }
+
+TEST_CASE("who listens is told of each sample that poll() gives, at once and in order", "[unit]") {
+    struct Listener final : SampleListener {
+        void measured(const GazeSample& sample) noexcept override {
+            const std::lock_guard lock(mutex);
+            heard.push_back(sample.gaze->x_px);
+        }
+        std::size_t count() {
+            const std::lock_guard lock(mutex);
+            return heard.size();
+        }
+        std::mutex mutex;
+        std::vector<double> heard;
+    };
+    Bench bench;
+    Listener listener;
+    CHECK(bench.tracker.tell_samples_to(&listener));
+    bench.tracker.start_recording();
+    REQUIRE(comes_true([&] { return listener.count() > 200; })); // nobody polls
+    bench.tracker.stop_recording();
+    const std::vector<GazeSample> samples = all_of<GazeSample>(bench.take_all());
+    REQUIRE(samples.size() == listener.heard.size());
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        REQUIRE(samples[i].gaze->x_px == listener.heard[i]);
+    bench.tracker.tell_samples_to(nullptr);
+    bench.tracker.start_recording();
+    std::this_thread::sleep_for(20ms);
+    bench.tracker.stop_recording();
+    CHECK(listener.heard.size() == samples.size());
+}

@@ -6,7 +6,6 @@
 
 #include "experiment/base/json_text.h"
 #include "experiment/base/whole_file.h"
-#include "experiment/report/packed_array.h"
 #include "experiment/report/report_page.h"
 #include "experiment/report/surface_files.h"
 #include "tests/experiment/report/made_up_study.h"
@@ -26,17 +25,6 @@ std::string between(const std::string& text, const std::string& begin, const std
 }
 
 } // namespace
-
-TEST_CASE("bytes become base64 as RFC 4648 has it", "[unit]") {
-    const auto coded = [](std::string_view text) {
-        return base64_of(std::as_bytes(std::span(text.data(), text.size())));
-    };
-    CHECK(coded("").empty());
-    CHECK(coded("f") == "Zg==");
-    CHECK(coded("fo") == "Zm8=");
-    CHECK(coded("foo") == "Zm9v");
-    CHECK(coded("foobar") == "Zm9vYmFy");
-}
 
 TEST_CASE("the report's data come back from the page, whatever a session's texts hold", "[unit]") {
     const StudyResults study = test::made_up_study();

@@ -33,7 +33,6 @@ SessionView some_view() {
     view.lost = 50;
     view.samples_in_trial = 100;
     view.lost_in_trial = 10;
-    view.gaze = {{true, ScreenPoint{12.5, -3.0}}, {false, {}}};
     view.validation_mean_deg = 0.25;
     view.validation_max_deg = 0.75;
     view.drift_deg = 1.5;
@@ -50,7 +49,8 @@ SessionView some_view() {
 
 SessionFacts some_facts() {
     return {"small", "P01", "/data/s", 10,    120.0, 544, 192, 128,
-            128,     31,    true,      false, 1.0,   0.5, 1.0, {"sleepy", "a \"noise\""}};
+            128,     31,    true,      false, 1.0,   0.5, 1.0, {"sleepy", "a \"noise\""},
+            4711.25};
 }
 
 ViewNews news_of(ViewNews::Kind kind, double at_s) {
@@ -70,9 +70,6 @@ TEST_CASE("a state comes out of its line as it went in", "[unit]") {
     REQUIRE(read.view);
     // Every member is in the line, so that equal lines are equal states.
     CHECK(line_of(*read.view) == line);
-    CHECK(read.view->gaze.size() == 2);
-    CHECK(read.view->gaze[0].place == view.gaze[0].place);
-    CHECK(!read.view->gaze[1].place);
     CHECK(read.view->drift_deg == view.drift_deg);
     CHECK(line_of(*read.view) != line_of(SessionView()));
 
@@ -80,6 +77,7 @@ TEST_CASE("a state comes out of its line as it went in", "[unit]") {
     REQUIRE(facts.facts);
     CHECK(facts.version == view_version);
     CHECK(line_of(*facts.facts) == line_of(some_facts()));
+    CHECK(facts.facts->clock_zero_s == 4711.25);
     const ViewLine event = read_view_line(line_of(ViewedEvent{1.5, 2, "kind", "de\ntail"}));
     REQUIRE(event.event);
     CHECK(event.event->detail == "de\ntail");
@@ -89,11 +87,85 @@ TEST_CASE("no state makes a line that is longer than the language allows", "[uni
     SessionView view = some_view();
     const std::string endless(100'000, '\x01');
     view.task = view.question = view.sculpture = view.material = view.asks = view.answer = endless;
-    view.gaze.assign(10'000, ViewedGaze{true, ScreenPoint{-1234.56789012345, 1e-300}});
     const std::string line = line_of(view);
     CHECK(line.size() <= longest_view_line);
     REQUIRE(read_view_line(line).view);
-    CHECK(read_view_line(line).view->gaze.size() == SessionView::longest_gaze);
+    const std::vector<ViewedGaze> gaze(10'000, ViewedGaze{true, ScreenPoint{-1234.56789012345, 1e-300},
+                                                          1 << 30, 1 << 30, -1e-300, INT64_MIN});
+    const std::string points = line_of(std::span(gaze));
+    CHECK(points.size() <= longest_view_line);
+    CHECK(read_view_line(points).gaze.size() == longest_gaze);
+    ViewedCamera camera{ViewedCamera::most_width_px, ViewedCamera::most_height_px, {}, endless};
+    camera.rgb.resize(3 * 192 * 144);
+    const std::string image = line_of(camera);
+    CHECK(image.size() <= longest_camera_line);
+    REQUIRE(read_view_line(image).camera);
+}
+
+TEST_CASE("gaze comes out of its line as it went in, an eye that was lost too", "[unit]") {
+    const std::vector<ViewedGaze> gaze{{true, ScreenPoint{12.5, -3.0}, 4, 17, 61.25, 8'000'500},
+                                       {false, {}, -1, -1, 61.254, 8'004'500}};
+    const ViewLine read = read_view_line(line_of(std::span(gaze)));
+    REQUIRE(read.gaze.size() == 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+        CHECK(read.gaze[i].is_right == gaze[i].is_right);
+        CHECK(read.gaze[i].place == gaze[i].place);
+        CHECK(read.gaze[i].trial == gaze[i].trial);
+        CHECK(read.gaze[i].pose == gaze[i].pose);
+        CHECK(read.gaze[i].at_s == gaze[i].at_s);
+        CHECK(read.gaze[i].sampled_us == gaze[i].sampled_us);
+    }
+    CHECK(read_view_line(R"({"gaze":[["right",0,0,1.5,2,3,4],["right",0.5,0,1,2,3,4],["right",0],[],7]})")
+              .gaze.size() == 1);
+}
+
+TEST_CASE("a camera's image comes out of its line as it went in, or not at all", "[unit]") {
+    ViewedCamera camera{2, 3, {}, "right eye, 85 \xc2\xb0"};
+    for (int i = 0; i < 18; ++i)
+        camera.rgb.push_back(static_cast<std::byte>(13 * i));
+    const ViewLine read = read_view_line(line_of(camera));
+    REQUIRE(read.camera);
+    CHECK(read.camera->width_px == 2);
+    CHECK(read.camera->height_px == 3);
+    CHECK(read.camera->rgb == camera.rgb);
+    CHECK(read.camera->title == camera.title);
+    for (const char* const line :
+         {R"({"camera":{"width_px":2,"height_px":3,"rgb":"AAAA"}})",
+          R"({"camera":{"width_px":-1,"height_px":-1,"rgb":"AAAA"}})",
+          R"({"camera":{"width_px":100000,"height_px":100000,"rgb":""}})", R"({"camera":{"rgb":"A"}})"})
+        CHECK(!read_view_line(line).camera);
+}
+
+TEST_CASE("a point of gaze has the pose that was lit when it came, and none between animations", "[unit]") {
+    ViewBuilder builder({{"task", "What?", "bust", "matt", ""}}, 0);
+    const auto placed_at = [&](double at_s) {
+        return builder.placed({SessionTime(from_seconds(at_s)), tracker_time(7), false, true, {3.0, 4.0}});
+    };
+    CHECK(placed_at(0.5).pose == -1);
+    ViewNews news = news_of(ViewNews::Kind::phase, 1.0);
+    news.phase = SessionPhase::stimulus;
+    news.trial = 0;
+    builder.apply(news);
+    for (int frame = 0; frame < 5; ++frame) {
+        news = news_of(ViewNews::Kind::flip, 2.0 + frame);
+        news.pose = 10 + frame;
+        builder.apply(news);
+    }
+    CHECK(placed_at(1.999).pose == -1);
+    CHECK(placed_at(2.0).pose == 10);
+    // News of a flip may come before gaze from the time before it.
+    CHECK(placed_at(4.999).pose == 12);
+    CHECK(placed_at(5.0).pose == 13);
+    CHECK(placed_at(100.0).pose == 14);
+    CHECK(placed_at(100.0).trial == 0);
+    CHECK(placed_at(100.0).sampled_us == 7);
+    CHECK(placed_at(100.0).place == ScreenPoint{3.0, 4.0});
+    CHECK(!placed_at(100.0).is_right);
+    news = news_of(ViewNews::Kind::phase, 7.0);
+    news.phase = SessionPhase::response_screen;
+    builder.apply(news);
+    CHECK(placed_at(6.9).pose == 14);
+    CHECK(placed_at(7.0).pose == -1);
 }
 
 TEST_CASE("what is no line of the language is nothing, whatever it is", "[unit]") {
@@ -107,11 +179,9 @@ TEST_CASE("what is no line of the language is nothing, whatever it is", "[unit]"
     }
     CHECK(read_view_line("{\"overt_watch\":99}").version == 99);
     // Members of another kind than they should be leave the state as it begins.
-    const ViewLine odd =
-        read_view_line(R"({"state":{"trial":"x","phase":4,"gaze":[1,["right","a","b"]],"lost":null}})");
+    const ViewLine odd = read_view_line(R"({"state":{"trial":"x","phase":4,"lost":null}})");
     REQUIRE(odd.view);
     CHECK(odd.view->trial == -1);
-    CHECK(odd.view->gaze.size() == 1);
 }
 
 TEST_CASE("a command is read as it is written, and nothing else is one", "[unit]") {
@@ -142,10 +212,9 @@ TEST_CASE("a view is the sum of its news, and counts stay right where some were 
     news.push_back(news_of(ViewNews::Kind::trial_started, 1.0));
     news.back().trial = 0;
     for (int i = 1; i <= 40; ++i) {
-        news.push_back(news_of(ViewNews::Kind::gaze, 1.0 + 0.1 * i));
+        news.push_back(news_of(ViewNews::Kind::samples, 1.0 + 0.1 * i));
         news.back().samples = news.back().samples_in_trial = 100 * i;
         news.back().lost = news.back().lost_in_trial = i;
-        news.back().has_value = i % 2 == 0;
     }
     for (const ViewNews& one : news)
         all.apply(one);
@@ -156,7 +225,6 @@ TEST_CASE("a view is the sum of its news, and counts stay right where some were 
     CHECK(all.view().lost == 40);
     CHECK(all.view().sculpture == "bust");
     CHECK(all.view().phase == "stimulus");
-    CHECK(all.view().gaze.size() == SessionView::longest_gaze);
     CHECK(some.view().samples == all.view().samples);
     CHECK(some.view().lost == all.view().lost);
     CHECK(some.view().time_s == all.view().time_s);

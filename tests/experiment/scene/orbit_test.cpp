@@ -1,8 +1,8 @@
-#include "render/stimulus/live_view.h"
-
+/// Looking at a sculpture that is turned by hand.
 #include <catch2/catch.hpp>
 
 #include "experiment/base/random.h"
+#include "experiment/scene/orbit.h"
 
 using namespace overt;
 
