@@ -123,13 +123,16 @@ int watch_in_window(const std::filesystem::path& socket, const std::filesystem::
     ShownTimes shown(!times.empty());
     const auto between = window.description().is_software ? between_drawn_frames : between_frames;
     std::shared_ptr<const WatchedSculpture> prepared;
+    bool has_right = false; // of both eyes one is enough: their gaze would be counted twice
     SteadyClock::time_point due{};
     while (!window.is_closed() && !Interruption::requested()) {
         const auto take = [&](std::chrono::milliseconds wait) {
             session.read(wait);
-            for (const GazeOnSurface& one : session.new_gaze())
-                if (one.hit)
+            for (const GazeOnSurface& one : session.new_gaze()) {
+                has_right = has_right || one.gaze.is_right;
+                if (one.hit && one.gaze.is_right == has_right)
                     saliency.looked(session.sculpture(), one.gaze.trial, *one.hit, seconds_of_point);
+            }
             return !session.new_gaze().empty();
         };
         while (SteadyClock::now() < due)

@@ -72,9 +72,11 @@ class BlinkingTracker final : public EyeTracker {
     TrackerDescription description() const override { return {"blinking", 1000.0, Eye::left}; }
     bool measures_gaze() const noexcept override { return is_there; }
     enum class Step { set_up, drift_check, start };
-    SetupOutcome set_up(SetupStage&) override {
+    SetupOutcome set_up(SetupStage& stage) override {
         ++calibrations;
         fail(Step::set_up);
+        if (camera)
+            stage.show_camera(*camera);
         if (set_ups.empty())
             return {SetupOutcome::Kind::done, ValidationResult{}, "tracker", {}};
         SetupOutcome next = set_ups.front();
@@ -133,6 +135,7 @@ class BlinkingTracker final : public EyeTracker {
     void mark(const TrackerMark& mark) noexcept override { marks.emplace_back(mark.at, mark.text); }
 
     std::vector<int> blind;
+    std::optional<CameraImage> camera;                 ///< shown in each calibration
     std::vector<SetupOutcome> set_ups;                 ///< what each calibration gives; then all is well
     std::function<RecordingState(int recording)> says; ///< of the recording under way, by its number from 0
     std::vector<std::pair<SessionTime, std::string>> marks;
@@ -261,7 +264,8 @@ struct Sitting {
                         .listeners = {},
                         .observer = "P1",
                         .can_type = true,
-                        .recorder = recorder},
+                        .recorder = recorder,
+                        .on_camera = [this](const CameraImage& image) { cameras.push_back(image); }},
                        fields)
             .run({});
     }
@@ -273,6 +277,7 @@ struct Sitting {
     NotingLog log;
     FieldValues fields;
     AnswerRecorder* recorder = nullptr;
+    std::vector<CameraImage> cameras; ///< that the session told of
 };
 
 inline Protocol short_protocol(std::string_view more) {

@@ -62,6 +62,18 @@ TEST_CASE("a validation beyond a limit is shown, and the operator decides", "[un
     }
 }
 
+TEST_CASE("what the tracker's camera sees is shown, and told besides", "[unit]") {
+    Sitting sitting(short_protocol(""));
+    sitting.tracker.camera = CameraImage{2, 1, std::vector<std::byte>(8, std::byte{5}), "left eye"};
+    CHECK(sitting.run().completed_trials == 2);
+    REQUIRE(sitting.cameras.size() == 1);
+    CHECK(sitting.cameras[0].title == "left eye");
+    CHECK(sitting.cameras[0].rgba == sitting.tracker.camera->rgba);
+    CHECK(std::ranges::count_if(sitting.presenter.screens, [](const Screen& screen) {
+              return screen.kind == Screen::Kind::camera;
+          }) == 1);
+}
+
 TEST_CASE("a session does not go on uncalibrated", "[unit]") {
     for (const SetupOutcome::Kind kind : {SetupOutcome::Kind::cancelled, SetupOutcome::Kind::failed}) {
         Sitting again(short_protocol(""));
