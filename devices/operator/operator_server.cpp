@@ -27,7 +27,7 @@ constexpr std::size_t most_views = 4;
 constexpr std::size_t most_recent = 100;
 /// Lines that wait for a view that does not read: beyond this, events are left out.
 constexpr std::size_t most_waiting_bytes = 262144;
-constexpr std::chrono::milliseconds between_states{33}, longest_rest{15}, longest_farewell{200},
+constexpr std::chrono::milliseconds between_states{33}, longest_rest{15}, longest_farewell{1000},
     between_cameras{100};
 /// Even where nothing changes, so that a view can tell a session that stands from one that is gone.
 constexpr std::chrono::milliseconds longest_silence{500};

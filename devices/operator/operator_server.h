@@ -47,7 +47,7 @@ class OperatorServer {
     /// Opens the socket, for this user alone. One that nobody serves any more is replaced. Throws InputError
     /// if another session serves it, and DeviceError if it cannot be opened.
     explicit OperatorServer(Options options);
-    /// Tells the views what is left and that it is over, for at most a fifth of a second, and removes the
+    /// Tells the views what is left and that it is over, for at most a second, and removes the
     /// socket.
     ~OperatorServer();
     OperatorServer(const OperatorServer&) = delete;

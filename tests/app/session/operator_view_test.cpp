@@ -114,6 +114,7 @@ TEST_CASE(
         CHECK(::send(endless, line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT) > 0);
         run.go_on();
         check_same(run);
+        INFO(text_of(watch.said));
         CHECK(watch.program.wait() == 0);
         const std::string said = text_of(run.said);
         CHECK(said.find(

@@ -77,8 +77,8 @@ TEST_CASE("a view meets the surface where the session's own maps have it, and ad
             std::ranges::max_element(map.share) - map.share.begin())]);
     };
     const double kernel = sculpture->degree_on_surface();
-    REQUIRE(glm::distance(first->position, last->position) > 2.0 * kernel);
-    CHECK(glm::distance(highest(*both), first->position) < kernel);
+    REQUIRE(glm::distance(first->position, last->position) > 3.0 * kernel);
+    CHECK(glm::distance(highest(*both), first->position) < 1.5 * kernel);
     CHECK(*std::ranges::max_element(both->share) == 1.0f);
     CHECK(*std::ranges::min_element(both->share) >= 0.0f);
     // Of the last trial alone.
@@ -86,5 +86,5 @@ TEST_CASE("a view meets the surface where the session's own maps have it, and ad
     const auto of_trial =
         awaited(saliency, "bust", [](const SaliencyMap& map) { return map.gaze_s == Approx(1.0); });
     REQUIRE(of_trial);
-    CHECK(glm::distance(highest(*of_trial), last->position) < kernel);
+    CHECK(glm::distance(highest(*of_trial), last->position) < 1.5 * kernel);
 }
