@@ -5,7 +5,11 @@
 #include <optional>
 
 #include "devices/simulated/gaze_plan.h"
+#include "devices/simulated/gaze_script.h"
 #include "devices/simulated/gaze_targets.h"
+#include "experiment/base/parallel.h"
+#include "experiment/base/random.h"
+#include "experiment/statistics/point_spread.h"
 
 namespace overt {
 
@@ -22,26 +26,28 @@ class Plans {
     explicit Plans(const Experiment& experiment)
         : protocol_(&experiment.protocol),
           scene_(make_observed_scene(experiment.protocol, experiment.sculptures,
-                                     screen_geometry_of(experiment.protocol))) {
+                                     screen_geometry_of(experiment.protocol))),
+          turn_(scene_) {
         for (const ObservedSculpture& sculpture : scene_.sculptures) {
             spot_on_head_.emplace_back(scene_.effects.size(), false);
-            if (scene_.effects.empty() || !sculpture.mesh || sculpture.mesh->triangles.empty())
+            targets_.emplace_back();
+            if (!sculpture.mesh || sculpture.mesh->triangles.empty())
                 continue;
-            const GazeTargets targets(sculpture, scene_);
+            targets_.back() = std::make_unique<GazeTargets>(sculpture, scene_);
             for (std::size_t effect = 0; effect < scene_.effects.size(); ++effect)
                 spot_on_head_.back()[effect] =
-                    sculpture.mesh->part_names[targets.part_of_spot(static_cast<int>(effect))] == "head";
+                    sculpture.mesh->part_names[targets_.back()->part_of_spot(static_cast<int>(effect))] ==
+                    "head";
         }
     }
 
     /// Nothing if the protocol does not have the trial's task, sculpture and material.
     std::optional<double> head_share(const StudyTrial& trial, std::uint64_t seed) const {
-        const int task = number_of(trial.key("task"), protocol_->tasks);
-        const Condition condition{number_of(trial.key("sculpture"), protocol_->sculptures),
-                                  number_of(trial.key("material"), protocol_->materials)};
-        if (task < 0 || condition.sculpture < 0 || condition.material < 0)
+        const std::optional<Known> known = known_of(trial);
+        if (!known)
             return std::nullopt;
-        const GazePlan plan = gaze_plan(scene_, seed, task, condition);
+        const Condition& condition = known->condition;
+        const GazePlan plan = gaze_plan(scene_, seed, known->task, condition);
         double share = plan.head_share, elsewhere = 1.0, spots = 0.0;
         for (int i = 0; i < plan.spot_count; ++i) {
             const GazePlan::Spot& spot = plan.spots[static_cast<std::size_t>(i)];
@@ -54,20 +60,83 @@ class Plans {
         return share;
     }
 
+    /// The places, in the sculpture's coordinates, at which an observer means to look in presentations of a
+    /// trial, as many as there are repeats; none if its sculpture or its task is not known.
+    std::vector<glm::dvec3> meant_places(const StudyTrial& trial, std::uint64_t seed, int repeats) const {
+        std::vector<glm::dvec3> places;
+        const std::optional<Known> known = known_of(trial);
+        const GazeTargets* const targets =
+            known ? targets_[static_cast<std::size_t>(known->condition.sculpture)].get() : nullptr;
+        if (!targets)
+            return places;
+        GazeScript script(scene_, observer_);
+        const SessionDuration end = from_seconds(scene_.animation.duration_s);
+        for (int repeat = 0; repeat < repeats; ++repeat) {
+            script.compose(scene_, targets, turn_, observer_,
+                           RandomStream(seed, "meant places", static_cast<std::uint64_t>(repeat)).next_bits(),
+                           trial.number, gaze_plan(scene_, seed, known->task, known->condition));
+            // The first was under way at the onset.
+            for (const ScriptedFixation& fixation : script.fixations())
+                if (fixation.target && fixation.begin > SessionDuration{} && fixation.begin < end)
+                    places.push_back(fixation.target->position);
+        }
+        return places;
+    }
+
   private:
+    struct Known {
+        int task = 0;
+        Condition condition;
+    };
+    std::optional<Known> known_of(const StudyTrial& trial) const {
+        const Known known{number_of(trial.key("task"), protocol_->tasks),
+                          {number_of(trial.key("sculpture"), protocol_->sculptures),
+                           number_of(trial.key("material"), protocol_->materials)}};
+        if (known.task < 0 || known.condition.sculpture < 0 || known.condition.material < 0)
+            return std::nullopt;
+        return known;
+    }
+
     const Protocol* protocol_;
     ObservedScene scene_;
-    std::vector<std::vector<bool>> spot_on_head_; ///< by sculpture and effect
+    PursuedTurn turn_;
+    ObserverSettings observer_;
+    std::vector<std::unique_ptr<GazeTargets>> targets_; ///< by sculpture; null without a mesh
+    std::vector<std::vector<bool>> spot_on_head_;       ///< by sculpture and effect
 };
 
 bool is_of(const StudyTrial& trial, const std::vector<StudyKey>& keys) {
     return std::ranges::all_of(keys, [&](const StudyKey& key) { return trial.key(key.column) == key.value; });
 }
 
+/// Of a trial: what its observer's fixations scatter by is stable to about a percent.
+constexpr int repeats = 20;
+
+void add_planted_spreads(StudyResults& results, const Plans& plans, const ObserverSeeds& seeds) {
+    std::vector<std::vector<glm::dvec3>> places(results.trials.size());
+    parallel_for(static_cast<int>(places.size()), [&](int t) {
+        const StudyTrial& trial = results.trials[static_cast<std::size_t>(t)];
+        const auto seed = seeds.find(trial.key("observer"));
+        if (!trial.excluded && seed != seeds.end())
+            places[static_cast<std::size_t>(t)] = plans.meant_places(trial, seed->second, repeats);
+    });
+    for (DistributionRow& row : results.distributions) {
+        const auto& mm = results.sculptures[static_cast<std::size_t>(row.sculpture)].mm_per_unit;
+        std::vector<glm::dvec3> all;
+        for (const int t : results.groups[static_cast<std::size_t>(row.group)].trials)
+            if (results.trials[static_cast<std::size_t>(t)].sculpture == row.sculpture)
+                all.insert(all.end(), places[static_cast<std::size_t>(t)].begin(),
+                           places[static_cast<std::size_t>(t)].end());
+        if (const std::optional<PointSpread> spread = point_spread(all); spread && mm)
+            row.planted_wss_mm2 = spread->wss() * *mm * *mm;
+    }
+}
+
 } // namespace
 
 void add_planted_truth(StudyResults& results, const Experiment& experiment, const ObserverSeeds& seeds) {
     const Plans plans(experiment);
+    add_planted_spreads(results, plans, seeds);
     for (HeadFractionRow& row : results.head_fractions) {
         struct Mean {
             double sum = 0.0;

@@ -13,7 +13,8 @@ namespace overt {
 /// Seeds of simulated observers by their labels.
 using ObserverSeeds = std::map<std::string, std::uint64_t>;
 
-/// Sets HeadFractionRow::planted: the mean over the row's observers, and each one's trials, of the share of
+/// Sets DistributionRow::planted_wss_mm2: the WSS of the places that the observers of these seeds mean to
+/// look at in the row's trials, each presented twenty times. And HeadFractionRow::planted: the mean over the row's observers, and each one's trials, of the share of
 /// fixations that the observer of this seed means for the head (gaze_plan). Rows with an observer who has no
 /// seed stay without.
 void add_planted_truth(StudyResults& results, const Experiment& experiment, const ObserverSeeds& seeds);

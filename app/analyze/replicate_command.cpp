@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <thread>
@@ -189,6 +190,25 @@ Agreement agreement_of(const StudyResults& results) {
     return agreement;
 }
 
+/// How large WSS came out beside what was planted, over the groups' sculptures.
+void print_spreads(const StudyResults& results) {
+    Agreement agreement;
+    double log_ratios = 0.0;
+    for (const DistributionRow& row : results.distributions) {
+        if (!row.planted_wss_mm2 || !row.wss_mm2.value || !row.wss_mm2.interval ||
+            *row.planted_wss_mm2 <= 0.0 || *row.wss_mm2.value <= 0.0)
+            continue;
+        ++agreement.intervals;
+        agreement.holding += row.wss_mm2.interval->contains(*row.planted_wss_mm2);
+        log_ratios += std::log(*row.wss_mm2.value / *row.planted_wss_mm2);
+    }
+    if (agreement.intervals > 0)
+        fmt::print("WSS of fixations: {:.3f} times what was planted (geometric mean); {} of {} intervals of "
+                   "{:g} % hold it\n",
+                   std::exp(log_ratios / agreement.intervals), agreement.holding, agreement.intervals,
+                   100.0 * results.confidence);
+}
+
 void print(const StudyResults& results, const fs::path& analysis) {
     fmt::print("{}, {}, {} samples, {} of {} fixations counted\n",
                counted(results.glance.observers, "simulated observer"),
@@ -216,6 +236,7 @@ void print(const StudyResults& results, const fs::path& analysis) {
     if (agreement.intervals > 0)
         fmt::print("{} of {} corrected intervals of {:g} % hold what was planted\n", agreement.holding,
                    agreement.intervals, 100.0 * results.confidence);
+    print_spreads(results);
     fmt::print("analysis: {}\n", analysis.string());
 }
 

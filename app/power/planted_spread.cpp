@@ -128,9 +128,10 @@ std::string plant_spread(GazeStudies& studies, std::size_t index, std::uint64_t 
     studies.plant_spread(index, effect.size == 1.0 ? 0.0 : spread, spread / of_spread);
     return fmt::format(
         "Gaze in {} {} prefers places {} the middle of the sculpture, such that the mean WSS of "
-        "{} observers is {:.3f} times that without the preference.",
+        "{} observers is {:.3f} times that without the preference (spread = {:.3f} in a "
+        "[[simulated_effect]]).",
         effect.column, effect.level, wanted > 0.0 ? "far from" : "near", pilot.observers(),
-        effect.size == 1.0 ? 1.0 : std::exp(of_spread));
+        effect.size == 1.0 ? 1.0 : std::exp(of_spread), effect.size == 1.0 ? 0.0 : spread);
 }
 
 } // namespace overt

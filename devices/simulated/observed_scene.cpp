@@ -31,9 +31,10 @@ ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Scul
         return id.empty() || found == entries.end() ? -1 : static_cast<int>(found - entries.begin());
     };
     for (const SimulatedEffect& effect : protocol.simulated_effects)
-        scene.effects.push_back(
-            {number_of(effect.task, protocol.tasks), number_of(effect.sculpture, protocol.sculptures),
-             number_of(effect.material, protocol.materials), effect.head_odds, effect.spot_share});
+        scene.effects.push_back({number_of(effect.task, protocol.tasks),
+                                 number_of(effect.sculpture, protocol.sculptures),
+                                 number_of(effect.material, protocol.materials), effect.head_odds,
+                                 effect.spot_share, effect.spread});
     scene.head_share_sd = protocol.simulated_observers.head_share_sd;
     return scene;
 }

@@ -118,6 +118,9 @@ struct SimulatedEffect {
     std::string task, sculpture, material;
     double head_odds = 1.0;  ///< times the odds of the task's simulated_head_share
     double spot_share = 0.0; ///< share of fixations that go to the effect's own spot
+    /// How far from the sculpture's middle the other fixations lie: places at r times the usual distance are
+    /// looked at exp(spread r^2) times as often; 0: by area alone.
+    double spread = 0.0;
 };
 /// Effects with a spot that one trial can have.
 inline constexpr int most_simulated_spots = 8;

@@ -55,6 +55,16 @@ Section simulated_effect() {
                                  "own and the "
                                  "same for all observers, instead of to its head or elsewhere."},
                  &E::spot_share},
+                {{.name = "spread",
+                  .low = -4,
+                  .high = 1.2,
+                  .explanation =
+                      "How widely the fixations that go to no spot lie, and so their WSS: places at r times "
+                      "the "
+                      "usual distance from the sculpture's middle are looked at exp(spread * r^2) times as "
+                      "often as their area says; 0: by area alone. `overt power --effect wss:…` tells which "
+                      "spread makes a ratio of WSS."},
+                 &E::spread},
             },
         .home = &Protocol::simulated_effects};
 }

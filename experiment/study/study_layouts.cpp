@@ -198,24 +198,28 @@ RowLayout<DistributionRow> distributions_layout(const StudyResults& results) {
                          number_column<Row>("var_" + name + "_deg2", "The same", "deg^2", place_decimals,
                                             [axis](const Row& row) { return row.variance_deg2[axis]; }));
     }
-    return {"figure5_distribution",
-            "How the fixations of a group scatter on one sculpture; those of all observers together.",
-            joined_columns<Row>(
-                group_columns<Row>(results),
-                estimate_columns<Row>(
-                    "wss_mm2", "Mean within-cluster sum of squares: the sum of the three variances", "mm^2",
-                    place_decimals, [](const Row& row) -> auto& { return row.wss_mm2; }),
-                estimate_columns<Row>(
-                    "wss_deg2", "The same in degrees at the depth of the axis", "deg^2", place_decimals,
-                    [](const Row& row) -> auto& { return row.wss_deg2; }),
-                std::move(variances),
-                number_column<Row>("map_peak", "Highest density of the map by duration, of a trial",
-                                   "ms/mm^2", density_decimals, [](const Row& row) { return row.map_peak; }),
-                number_column<Row>("map_mean", "Its mean over the surface", "ms/mm^2", density_decimals,
-                                   [](const Row& row) { return row.map_mean; }),
-                count_column<Row>("observers", "Observers", [](const Row& row) { return row.observers; }),
-                count_column<Row>("fixations", "Counted fixations",
-                                  [](const Row& row) { return row.fixations; }))};
+    return {
+        "figure5_distribution",
+        "How the fixations of a group scatter on one sculpture; those of all observers together.",
+        joined_columns<Row>(
+            group_columns<Row>(results),
+            estimate_columns<Row>(
+                "wss_mm2", "Mean within-cluster sum of squares: the sum of the three variances", "mm^2",
+                place_decimals, [](const Row& row) -> auto& { return row.wss_mm2; }),
+            estimate_columns<Row>(
+                "wss_deg2", "The same in degrees at the depth of the axis", "deg^2", place_decimals,
+                [](const Row& row) -> auto& { return row.wss_deg2; }),
+            number_column<Row>("planted_wss_mm2",
+                               "Of simulated observers: the same of the places that they mean to look at",
+                               "mm^2", place_decimals, [](const Row& row) { return row.planted_wss_mm2; }),
+            std::move(variances),
+            number_column<Row>("map_peak", "Highest density of the map by duration, of a trial", "ms/mm^2",
+                               density_decimals, [](const Row& row) { return row.map_peak; }),
+            number_column<Row>("map_mean", "Its mean over the surface", "ms/mm^2", density_decimals,
+                               [](const Row& row) { return row.map_mean; }),
+            count_column<Row>("observers", "Observers", [](const Row& row) { return row.observers; }),
+            count_column<Row>("fixations", "Counted fixations",
+                              [](const Row& row) { return row.fixations; }))};
 }
 
 RowLayout<PairRow> pairs_layout(const StudyResults& results) {

@@ -267,7 +267,8 @@ struct HeadFractionRow {
 /// Figure 5: the distribution of a group's fixations on one sculpture.
 struct DistributionRow {
     int group = 0, sculpture = 0;
-    Estimate wss_mm2, wss_deg2;                                       ///< sum of the variances, 1 / N
+    Estimate wss_mm2, wss_deg2;            ///< sum of the variances, 1 / N
+    std::optional<double> planted_wss_mm2; ///< of simulated observers: of what they mean to look at
     std::array<std::optional<double>, 3> variance_mm2, variance_deg2; ///< of x, y, z
     std::optional<double> map_peak, map_mean; ///< of the map by duration, ms / mm^2 and trial
     int observers = 0, fixations = 0;
