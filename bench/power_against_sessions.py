@@ -2,12 +2,13 @@
 """Whether whole studies find an effect as often as `overt power` says.
 
     bench/power_against_sessions.py [--overt PROGRAM] [--observers N] [--studies N] [--jobs N] [--out DIR] [--json]
-                                    [--head-odds X | --spot-share X] [--material ID --against ID] PROTOCOL
+                                    [--head-odds X | --spot-share X | --wss-ratio X --spread S] [--material ID --against ID] PROTOCOL
 
 Plants the effect in a copy of the protocol as `[[simulated_effect]]`, simulates studies of whole sessions with
 `overt replicate` (schedule, presentation in virtual time, tracker, detected fixations, maps, analysis), and counts in
 how many table1_pairs has p <= 0.05; beside it the share that `overt power` predicts for the same design. Exit code 1 if
-the two differ at the 1 % level (Fisher's exact test). What is finished in --out is not done again.
+the two differ at the 1 % level (Fisher's exact test). A ratio of WSS is planted by the spread that `overt power` prints for it.
+What is finished in --out is not done again.
 """
 import argparse
 import csv
@@ -62,14 +63,19 @@ def main():
     parser.add_argument("--against", default="smooth")
     parser.add_argument("--head-odds", type=float)
     parser.add_argument("--spot-share", type=float)
+    parser.add_argument("--wss-ratio", type=float)
+    parser.add_argument("--spread", type=float)
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()
-    if (args.head_odds is None) == (args.spot_share is None):
-        parser.error("give one of --head-odds and --spot-share")
-    is_head = args.head_odds is not None
-    key = f"head_odds = {args.head_odds}" if is_head else f"spot_share = {args.spot_share}"
-    effect = (f"head:material={args.material}:against={args.against}:odds={args.head_odds}" if is_head
-              else f"cc:material={args.material}:against={args.against}:share={args.spot_share}")
+    # What is planted, what is predicted, and the column that tells whether it was found.
+    kinds = [(args.head_odds, f"head_odds = {args.head_odds}", "head", f"odds={args.head_odds}", "head_p"),
+             (args.spot_share, f"spot_share = {args.spot_share}", "cc", f"share={args.spot_share}", "maps_p"),
+             (args.wss_ratio, f"spread = {args.spread}", "wss", f"ratio={args.wss_ratio}", "wss_p")]
+    chosen = [kind[1:] for kind in kinds if kind[0] is not None]
+    if len(chosen) != 1 or (args.wss_ratio is None) != (args.spread is None):
+        parser.error("give one of --head-odds, --spot-share, and --wss-ratio with its --spread")
+    key, measure, size, column = chosen[0]
+    effect = f"{measure}:material={args.material}:against={args.against}:{size}"
     out = args.out or pathlib.Path(tempfile.mkdtemp(prefix="power_against_sessions_"))
     out.mkdir(parents=True, exist_ok=True)
     text = args.protocol.read_text(encoding="utf-8")
@@ -99,7 +105,7 @@ def main():
                       args.jobs, "--out", folder, "--overwrite")
                 analyses = list(folder.rglob("table1_pairs.csv"))
                 subprocess.run(["rm", "-rf", *map(str, folder.glob("sessions"))], check=False)
-            values.append(p_of_study(analyses[0].parent, args, "head_p" if is_head else "maps_p"))
+            values.append(p_of_study(analyses[0].parent, args, column))
             if not args.json:
                 print(f"study {study + 1} of {args.studies}: p = {values[-1]:.4f}", flush=True)
     finally:
