@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/fuzz/more_inputs.h"
+#include "tests/fuzz/view_lines.h"
 #include "tests/support/damaged_bytes.h"
 
 namespace {
@@ -55,4 +56,11 @@ TEST_CASE("meshes, maps, included texts and shards, whole and damaged, are read 
                              : target == std::string_view("map")   ? take_map
                              : target == std::string_view("texts") ? take_texts
                                                                    : take_shard) > 0);
+}
+
+TEST_CASE("what goes through the operator's socket is understood or left out, whole and damaged", "[unit]") {
+    CHECK(replay("view", [](std::string_view bytes) {
+              overt::test::each_damage(bytes, 2000, overt::fuzz::take_view);
+          }) > 0);
+    CHECK(replay("view", overt::fuzz::take_view) > 0);
 }
