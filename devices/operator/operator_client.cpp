@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cerrno>
+#include <thread>
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -60,6 +61,11 @@ OperatorClient::OperatorClient(const std::filesystem::path& file) {
 OperatorClient::~OperatorClient() { ::close(socket_); }
 
 bool OperatorClient::read(std::chrono::milliseconds wait) {
+    // A socket whose other end is gone is always ready: whoever reads again and again would never rest.
+    if (is_gone_) {
+        std::this_thread::sleep_for(wait);
+        return false;
+    }
     pollfd waits{socket_, POLLIN, 0};
     ::poll(&waits, 1, static_cast<int>(wait.count()));
     std::array<char, 16384> bytes{};

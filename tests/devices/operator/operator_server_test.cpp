@@ -309,3 +309,19 @@ TEST_CASE("a camera's image comes to the views small, with its colours, ten time
     CHECK(camera->rgb[at + 1] == std::byte(30));
     CHECK(camera->rgb[at + 2] == std::byte(7));
 }
+
+TEST_CASE("a view of a session that is over waits as it is asked to, and keeps what it has", "[unit]") {
+    const TemporaryFolder folder;
+    std::optional<OperatorServer> server(options_at(folder.path() / "view.sock"));
+    OperatorClient client(folder.path() / "view.sock");
+    server.reset();
+    while (client.read(20ms)) {
+    }
+    CHECK(client.view().is_over);
+    const auto began = std::chrono::steady_clock::now();
+    for (int i = 0; i < 10; ++i)
+        CHECK(!client.read(10ms));
+    CHECK(std::chrono::steady_clock::now() - began >= 90ms);
+    CHECK(client.view().is_over);
+    CHECK(client.facts().protocol == "small");
+}
