@@ -1,6 +1,7 @@
 #include "experiment/watch/session_view.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -37,7 +38,10 @@ template <class T> void take(const Json& from, const char* name, T& into) {
     if constexpr (std::is_same_v<T, bool>) {
         if (found->is_boolean())
             into = found->template get<bool>();
-    } else if constexpr (std::is_arithmetic_v<T>) {
+    } else if constexpr (std::is_integral_v<T>) {
+        if (found->is_number_integer() && std::in_range<T>(found->template get<std::int64_t>()))
+            into = found->template get<T>();
+    } else if constexpr (std::is_floating_point_v<T>) {
         if (found->is_number())
             into = found->template get<T>();
     } else if constexpr (std::is_same_v<T, std::string>) {

@@ -179,9 +179,13 @@ TEST_CASE("what is no line of the language is nothing, whatever it is", "[unit]"
     }
     CHECK(read_view_line("{\"overt_watch\":99}").version == 99);
     // Members of another kind than they should be leave the state as it begins.
-    const ViewLine odd = read_view_line(R"({"state":{"trial":"x","phase":4,"lost":null}})");
+    const ViewLine odd = read_view_line(
+        R"({"state":{"trial":"x","phase":4,"lost":null,"pose":1e81,"done":1.5,"failed":4294967296}})");
     REQUIRE(odd.view);
     CHECK(odd.view->trial == -1);
+    CHECK(odd.view->pose == -1);
+    CHECK(odd.view->done == 0);
+    CHECK(odd.view->failed == 0);
 }
 
 TEST_CASE("a command is read as it is written, and nothing else is one", "[unit]") {
