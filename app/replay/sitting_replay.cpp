@@ -134,8 +134,18 @@ std::optional<SittingCut> cut_of(const SessionRecord& record, int sitting) {
     if (!cut || !last || last->status != TrialRecord::Status::aborted || !last->outcome.failure.empty())
         return cut;
     cut->cut.attempt = last->id;
-    if (const std::vector<FlipRecord> flips = record.flips(*last); broke_off && !flips.empty())
+    if (const std::vector<FlipRecord> flips = record.flips(*last); broke_off && !flips.empty()) {
         cut->cut.from = flips.back().report.vertical_blank;
+        return cut;
+    }
+    // A screen that waits for the observer ended early: what is recorded once it is left came sooner than it
+    // comes in the replay.
+    SessionTime latest = last->started;
+    for (const SessionTime screen : {last->outcome.task_screen_onset, last->outcome.presentation_onset,
+                                     last->outcome.presentation_end, last->outcome.response_screen_onset})
+        if (last->reached(screen))
+            latest = std::max(latest, screen);
+    cut->cut.from = end ? std::min(*end, latest) : latest;
     return cut;
 }
 
