@@ -1,4 +1,5 @@
 #include "experiment/design/order_guide.h"
+#include "experiment/base/log_gamma.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,9 +95,9 @@ double OrderGuide::share() const {
     double all = 0.0;
     for (const auto& part : prepared_.kinds.counts) {
         for (const std::vector<int>& counts : part) {
-            all += std::lgamma(1.0 + std::accumulate(counts.begin(), counts.end(), 0));
+            all += log_gamma(1.0 + std::accumulate(counts.begin(), counts.end(), 0));
             for (const int count : counts)
-                all -= std::lgamma(1.0 + count);
+                all -= log_gamma(1.0 + count);
         }
     }
     return ways_->is_zero() ? -INFINITY : ways_->log() - all;

@@ -1,4 +1,5 @@
 #include "experiment/statistics/distributions.h"
+#include "experiment/base/log_gamma.h"
 
 #include <array>
 #include <cmath>
@@ -82,7 +83,7 @@ double incomplete_beta(double p, double q, double x) {
     if (x >= 1.0)
         return 1.0;
     const double front =
-        std::exp(std::lgamma(p + q) - std::lgamma(p) - std::lgamma(q) + p * std::log(x) + q * std::log1p(-x));
+        std::exp(log_gamma(p + q) - log_gamma(p) - log_gamma(q) + p * std::log(x) + q * std::log1p(-x));
     return x < (p + 1.0) / (p + q + 2.0) ? front * beta_fraction(p, q, x) / p
                                          : 1.0 - front * beta_fraction(q, p, 1.0 - x) / q;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiment/base/log_gamma.h"
 #include "experiment/base/random.h"
 
 namespace overt {
@@ -68,11 +69,11 @@ double least_p_of_exchanges(const std::vector<LevelMeans>& observers) {
     bool all_have_all = true;
     for (const LevelMeans& own : observers) {
         const auto count = std::ranges::count_if(own, [](const auto& mean) { return mean.has_value(); });
-        log_ways += std::lgamma(static_cast<double>(count) + 1.0);
+        log_ways += log_gamma(static_cast<double>(count) + 1.0);
         all_have_all &= static_cast<std::size_t>(count) == own.size();
     }
     if (all_have_all)
-        log_ways -= std::lgamma(static_cast<double>(observers.front().size()) + 1.0);
+        log_ways -= log_gamma(static_cast<double>(observers.front().size()) + 1.0);
     return std::exp(-log_ways);
 }
 
