@@ -151,6 +151,9 @@ void OperatorServer::serve(const std::stop_token& stop) {
             return view.is_gone;
         });
     }
+    // A view that came just now may have greeted.
+    for (View& view : views_)
+        receive(view);
     take_news();
     builder_.set_over();
     tell_state(true);
@@ -187,13 +190,20 @@ void OperatorServer::take_news() {
 }
 
 void OperatorServer::take_gaze() {
+    std::array<GazeNews, longest_gaze> taken;
     std::array<ViewedGaze, longest_gaze> points;
     for (std::size_t count = points.size(); count == points.size();) {
         count = 0;
-        for (GazeNews gaze; count < points.size() && gaze_.try_pop(gaze);)
-            points[count++] = builder_.placed(gaze);
+        while (count < taken.size() && gaze_.try_pop(taken[count]))
+            ++count;
         if (count == 0)
             return;
+        // What was told before this gaze is there by now, such as its trial; it may not have been a moment
+        // ago.
+        take_news();
+        tell_state(false);
+        for (std::size_t i = 0; i < count; ++i)
+            points[i] = builder_.placed(taken[i]);
         std::string line;
         for (View& view : views_) {
             // Gaze that cannot be sent now would be old.
