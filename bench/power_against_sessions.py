@@ -7,7 +7,8 @@
 Plants the effect in a copy of the protocol as `[[simulated_effect]]`, simulates studies of whole sessions with
 `overt replicate` (schedule, presentation in virtual time, tracker, detected fixations, maps, analysis), and counts in
 how many table1_pairs has p <= 0.05; beside it the share that `overt power` predicts for the same design. Exit code 1 if
-the two differ at the 1 % level (Fisher's exact test). A ratio of WSS is planted by the spread that `overt power` prints for it.
+the two differ at the 1 % level (Fisher's exact test). Of head fractions and WSS it also compares the sizes that were
+found, mean and standard deviation over studies, which tells more than shares do. A ratio of WSS is planted by the spread that `overt power` prints for it.
 What is finished in --out is not done again.
 """
 import argparse
@@ -39,14 +40,26 @@ def fisher_p(found_a, of_a, found_b, of_b):
                         if p <= here * (1 + 1e-9)))
 
 
-def p_of_study(analysis, args, column):
-    """Of the row over everything else that compares the two materials."""
+def difference_of_means(a, b):
+    """Mean and standard deviation of both, and their difference in standard errors."""
+    def moments(values):
+        mean = sum(values) / len(values)
+        return mean, math.sqrt(sum((v - mean) ** 2 for v in values) / max(1, len(values) - 1))
+    (mean_a, sd_a), (mean_b, sd_b) = moments(a), moments(b)
+    error = math.sqrt(sd_a ** 2 / len(a) + sd_b ** 2 / len(b))
+    return {"mean": mean_a, "sd": sd_a, "predicted_mean": mean_b, "predicted_sd": sd_b,
+            "difference_in_standard_errors": (mean_a - mean_b) / error if error > 0 else None}
+
+
+def found_in_study(analysis, args, columns):
+    """p and size, of the row over everything else that compares the two materials; the size as of --material."""
     with open(analysis / "table1_pairs.csv", newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
             others = [row[name] for name in ("task", "sculpture", "observer") if name in row]
             if (row["compared"] == "material" and {row["a"], row["b"]} == {args.material, args.against}
                     and all(level == "all" for level in others)):
-                return float(row[column])
+                size = float(row[columns[1]]) if columns[1] else None
+                return float(row[columns[0]]), size if size is None or row["a"] == args.material else -size
     raise SystemExit(f"{analysis}/table1_pairs.csv: no row compares {args.material} with {args.against}.")
 
 
@@ -68,13 +81,13 @@ def main():
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()
     # What is planted, what is predicted, and the column that tells whether it was found.
-    kinds = [(args.head_odds, f"head_odds = {args.head_odds}", "head", f"odds={args.head_odds}", "head_p"),
-             (args.spot_share, f"spot_share = {args.spot_share}", "cc", f"share={args.spot_share}", "maps_p"),
-             (args.wss_ratio, f"spread = {args.spread}", "wss", f"ratio={args.wss_ratio}", "wss_p")]
+    kinds = [(args.head_odds, f"head_odds = {args.head_odds}", "head", f"odds={args.head_odds}", ("head_p", "head_difference")),
+             (args.spot_share, f"spot_share = {args.spot_share}", "cc", f"share={args.spot_share}", ("maps_p", None)),
+             (args.wss_ratio, f"spread = {args.spread}", "wss", f"ratio={args.wss_ratio}", ("wss_p", "wss_difference_mm2"))]
     chosen = [kind[1:] for kind in kinds if kind[0] is not None]
     if len(chosen) != 1 or (args.wss_ratio is None) != (args.spread is None):
         parser.error("give one of --head-odds, --spot-share, and --wss-ratio with its --spread")
-    key, measure, size, column = chosen[0]
+    key, measure, size, columns = chosen[0]
     effect = f"{measure}:material={args.material}:against={args.against}:{size}"
     out = args.out or pathlib.Path(tempfile.mkdtemp(prefix="power_against_sessions_"))
     out.mkdir(parents=True, exist_ok=True)
@@ -94,9 +107,10 @@ def main():
     try:
         overt("power", args.protocol, "--effect", effect, "--observers", args.observers, "--studies",
               args.predicted_studies, "--out", out / "predicted", "--overwrite")
-        predicted = [float(row["p"]) for row in
-                     csv.DictReader(open(out / "predicted/power_studies.csv", newline="", encoding="utf-8"))]
-        values = []
+        with open(out / "predicted/power_studies.csv", newline="", encoding="utf-8") as file:
+            studies = list(csv.DictReader(file))
+        predicted = [float(row["p"]) for row in studies]
+        values, sizes = [], []
         for study in range(args.studies):
             folder = out / f"study_{study + 1:03}"
             analyses = list(folder.rglob("table1_pairs.csv"))
@@ -105,9 +119,11 @@ def main():
                       args.jobs, "--out", folder, "--overwrite")
                 analyses = list(folder.rglob("table1_pairs.csv"))
                 subprocess.run(["rm", "-rf", *map(str, folder.glob("sessions"))], check=False)
-            values.append(p_of_study(analyses[0].parent, args, column))
+            p, found_size = found_in_study(analyses[0].parent, args, columns)
+            values.append(p)
+            sizes.append(found_size)
             if not args.json:
-                print(f"study {study + 1} of {args.studies}: p = {values[-1]:.4f}", flush=True)
+                print(f"study {study + 1} of {args.studies}: p = {p:.4f}, size {found_size}", flush=True)
     finally:
         planted.unlink(missing_ok=True)
     found = sum(p <= ALPHA for p in values)
@@ -116,11 +132,16 @@ def main():
     result = {"effect": effect, "observers": args.observers, "studies": len(values), "found": found,
               "share": found / len(values), "predicted_studies": len(predicted),
               "predicted_share": found_predicted / len(predicted), "p_of_difference": p}
+    if columns[1]:
+        result["sizes"] = difference_of_means(sizes, [float(row["estimate"]) for row in studies])
     if args.json:
         print(json.dumps(result, indent=2))
     else:
         print(f"{effect}, {args.observers} observers: {found} of {len(values)} whole studies found it "
               f"({100 * result['share']:.0f} %); predicted {100 * result['predicted_share']:.1f} %; difference p = {p:.2f}")
+        if columns[1]:
+            print("sizes found: mean {mean:.4f}, SD {sd:.4f}; predicted {predicted_mean:.4f}, {predicted_sd:.4f}; the means "
+                  "differ by {difference_in_standard_errors:.1f} standard errors".format(**result["sizes"]))
     return 1 if p < 0.01 else 0
 
 
