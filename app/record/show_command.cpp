@@ -14,6 +14,7 @@
 #include "experiment/base/whole_file.h"
 #include "experiment/record/preview_file.h"
 #include "experiment/record/read/sample_join.h"
+#include "experiment/record/session_directory.h"
 #include "render/stimulus/trial_picture.h"
 
 namespace overt {
@@ -63,6 +64,11 @@ nlohmann::ordered_json session_json(const SessionRecord& record) {
                                     {"white_cd_m2", light->white_cd_m2()},
                                     {"black_cd_m2", light->black_xyz.y}};
     }
+    if (!header.further_tracker.empty())
+        json["further_tracker"] = header.further_tracker;
+    else if (const std::vector<std::string> further = further_trackers_of(record.directory());
+             !further.empty())
+        json["further_trackers"] = further;
     json["display_boxes"] = nlohmann::ordered_json::array();
     for (const auto& [sitting, box] : record.display_boxes()) {
         nlohmann::ordered_json item{{"sitting", sitting}, {"use", name_of(box.use)}};
@@ -92,6 +98,12 @@ void print_session(const SessionRecord& record) {
     fmt::print("{}: observer {}, session {}, seed {}, {} ({})\n", header.protocol.name,
                header.schedule.observer.label, header.session_number, header.schedule.seed,
                header.graphics.context, header.graphics.renderer);
+    if (!header.further_tracker.empty())
+        fmt::print("the record of the further eye tracker {} ({})\n", header.further_tracker,
+                   header.tracker.name);
+    for (const std::string& id : further_trackers_of(record.directory()))
+        fmt::print("further eye tracker {}: its record is {}\n", id,
+                   further_record(record.directory(), id).string());
     for (const auto& [sitting, box] : record.display_boxes())
         fmt::print("display box in sitting {}: {}\n", sitting, describe(box));
     fmt::print("\n{:>5}  {:<12} {:<12} {:<12} {:<16} {:>9} {:>8}  {}\n", "trial", "task", "sculpture",

@@ -6,6 +6,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/base/json_text.h"
+#include "experiment/record/session_directory.h"
 #include "experiment/record/verify/verification.h"
 
 namespace overt {
@@ -50,13 +51,24 @@ nlohmann::ordered_json to_json(const std::filesystem::path& session, const Verif
             {"damages", std::move(damages)}, {"notes", found.notes}};
 }
 
+/// Each session and the records of its further trackers.
+std::vector<std::filesystem::path> all_records(const std::vector<std::filesystem::path>& sessions) {
+    std::vector<std::filesystem::path> records;
+    for (const std::filesystem::path& session : sessions) {
+        records.push_back(session);
+        for (const std::string& id : further_trackers_of(session))
+            records.push_back(further_record(session, id));
+    }
+    return records;
+}
+
 } // namespace
 
 int run_verify(const VerifyOptions& options) {
     bool is_missing = false, is_damaged = false;
     std::size_t places = 0;
     auto sessions = nlohmann::ordered_json::array();
-    for (const std::filesystem::path& session : options.sessions) {
+    for (const std::filesystem::path& session : all_records(options.sessions)) {
         try {
             const Verification found = verify_session(session);
             is_damaged |= !found.is_sound();

@@ -15,6 +15,7 @@
 #include "app/replay/stimuli_again.h"
 #include "experiment/base/bytes_in_words.h"
 #include "experiment/base/counted.h"
+#include "experiment/base/error.h"
 #include "experiment/base/json_text.h"
 #include "experiment/base/scratch_folder.h"
 #include "experiment/record/session_schema.h"
@@ -85,7 +86,15 @@ void present_again(const SessionRecord& record, const ReplayOptions& options, co
             report.not_compared.push_back(fmt::format("what follows the end of sitting {}'s record, for {}",
                                                       sitting, replay->cut->why));
         report.differences = found.differences;
-        if (!found.is_same())
+        for (const auto& [id, further] : replay->further) {
+            report.compared.push_back(
+                fmt::format("further eye tracker {}: {}", id, counted(further.samples, "sample")));
+            for (RecordDifference difference : further.differences) {
+                difference.table = fmt::format("trackers/{}: {}", id, difference.table);
+                report.differences.push_back(std::move(difference));
+            }
+        }
+        if (!report.differences.empty())
             return;
     }
     add(compare_session_files(record.directory(), replay->folder, answers_beyond(*replay)),
@@ -127,6 +136,12 @@ int run_replay(const ReplayOptions& options) {
     if (options.trial)
         throw InputError("--trial says of which trial --picture or --movie is made: give one of them");
     const SessionHeader& header = record.header();
+    if (!header.further_tracker.empty())
+        throw InputError(
+            fmt::format("{}: this is the record of the further eye tracker {}: it is presented "
+                        "again with its session, `overt replay {}`",
+                        options.session.string(), header.further_tracker,
+                        (fs::absolute(options.session) / ".." / "..").lexically_normal().string()));
     ReplayReport report;
     report.session = options.session.string();
     report.recorded_by = version_of(header.program);

@@ -73,11 +73,16 @@ void put_back(const SessionRecord& record, int sitting, const fs::path& folder) 
         if (attempt.sitting >= sitting)
             if (const auto answer = record.answer_recording(attempt))
                 later.push_back(answer->file);
-    for (const std::string& file : files_of_session(record.directory(), false))
-        if (std::find(later.begin(), later.end(), file) == later.end())
-            copy_file_to(record.directory() / file, folder / file);
-    copy_session_file(record.directory() / session_file_name, folder / session_file_name);
-    forget_sittings_from(folder / session_file_name, sitting);
+    const auto put_record_back = [&](const fs::path& from, const fs::path& to) {
+        for (const std::string& file : files_of_session(from, false))
+            if (std::find(later.begin(), later.end(), file) == later.end())
+                copy_file_to(from / file, to / file);
+        copy_session_file(from / session_file_name, to / session_file_name);
+        forget_sittings_from(to / session_file_name, sitting);
+    };
+    put_record_back(record.directory(), folder);
+    for (const std::string& id : further_trackers_of(record.directory()))
+        put_record_back(further_record(record.directory(), id), further_record(folder, id));
 }
 
 int attempts_in(const SessionRecord& record, int sitting) {
@@ -154,6 +159,7 @@ SittingReplay replay_sitting(const SittingRequest& request) {
     const SessionHeader& header = record.header();
     const SessionPlace place{request.work / "sessions", header.protocol.name, header.schedule.observer.label};
     SittingReplay replay{{},
+                         {},
                          cut_of(record, request.sitting),
                          request.work / "recorded.sqlite",
                          session_path(place, header.session_number)};
@@ -187,10 +193,17 @@ SittingReplay replay_sitting(const SittingRequest& request) {
     if (Interruption::requested())
         throw Error("the replay was interrupted: nothing was compared");
 
-    copy_session_file(record.directory() / session_file_name, replay.recorded_file);
-    forget_sittings_from(replay.recorded_file, request.sitting + 1);
     const std::optional<RecordCut> cut = replay.cut ? std::optional(replay.cut->cut) : std::nullopt;
-    replay.comparison = compare_records(replay.recorded_file, replay.folder / session_file_name, cut);
+    const auto compare = [&](const fs::path& recorded, const fs::path& copy, const fs::path& presented) {
+        copy_session_file(recorded / session_file_name, copy);
+        forget_sittings_from(copy, request.sitting + 1);
+        return compare_records(copy, presented / session_file_name, cut);
+    };
+    replay.comparison = compare(record.directory(), replay.recorded_file, replay.folder);
+    for (const std::string& id : further_trackers_of(record.directory()))
+        replay.further[id] =
+            compare(further_record(record.directory(), id), request.work / ("recorded_" + id + ".sqlite"),
+                    further_record(replay.folder, id));
     return replay;
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -30,6 +31,7 @@ std::optional<SittingCut> cut_of(const SessionRecord& record, int sitting);
 
 struct SittingReplay {
     RecordComparison comparison;
+    std::map<std::string, RecordComparison> further; ///< of further eye trackers' records, by id
     std::optional<SittingCut> cut;
     std::filesystem::path recorded_file; ///< a copy: the session file as this sitting left it
     std::filesystem::path folder;        ///< the session as it was presented again

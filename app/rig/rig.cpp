@@ -10,6 +10,7 @@
 #include "devices/simulated/operator_script.h"
 #include "devices/simulated/simulated_observer.h"
 #include "experiment/base/error.h"
+#include "experiment/base/random.h"
 #include "render/vblank/timing_check.h"
 
 namespace overt {
@@ -125,10 +126,28 @@ void Rig::open(SimulatedFaults faults, SessionTime start) {
                                     request_.virtual_time);
     tracker_ = std::move(made.tracker);
     faulty_tracker_ = made.faulty;
+    open_further_trackers();
     panels_ = make_response_devices(
         {*protocol_, clock(), *observer_, display_.window(), request_.simulate_observer, operator_keys_});
     if (is_on_a_real_screen())
         display_.window()->hold_still();
+}
+
+void Rig::open_further_trackers() {
+    for (std::size_t i = 0; i < protocol_->further_trackers.size(); ++i) {
+        const std::string& id = protocol_->further_trackers[i].id;
+        Further& further = further_trackers_.emplace_back(id, protocol_of_further(*protocol_, i), nullptr);
+        // Simulated trackers err independently of each other.
+        RandomStream seeds(request_.seed, "further tracker " + id);
+        const std::uint64_t high = seeds.next_bits(), seed = high << 32U | seeds.next_bits();
+        further.tracker = make_tracker({.protocol = further.protocol,
+                                        .clock = clock(),
+                                        .observer = *observer_,
+                                        .seed = seed,
+                                        .file_name = id},
+                                       request_.virtual_time)
+                              .tracker;
+    }
 }
 
 AnswerEquipment Rig::answer_equipment() const {

@@ -2,6 +2,7 @@
 /// and handed to the session as the ports it declared.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <memory>
 
@@ -95,6 +96,13 @@ class Rig {
 
     PagePresenter& presenter() { return *presenter_; }
     EyeTracker& tracker() { return *tracker_; }
+    /// One that records at the same time.
+    struct Further {
+        std::string id;
+        Protocol protocol; ///< whose [tracker] it is
+        std::unique_ptr<EyeTracker> tracker;
+    };
+    std::deque<Further>& further_trackers() { return further_trackers_; }
     ResponsePanel& panel() { return *panels_.back(); }
     /// What spoken answers are recorded with: to be made once, after open(). Throws as its constructor.
     AnswerEquipment answer_equipment() const;
@@ -109,6 +117,8 @@ class Rig {
     LiveMaps* live_maps() { return live_maps_.get(); } ///< null unless maps_are_live()
 
   private:
+    void open_further_trackers();
+
     const Protocol* protocol_;
     std::span<const Sculpture> sculptures_;
     RigRequest request_;
@@ -123,6 +133,7 @@ class Rig {
     std::unique_ptr<SimulatedObserver> observer_;
     std::unique_ptr<EyeTracker> tracker_;
     FaultyTracker* faulty_tracker_ = nullptr;            ///< a part of it
+    std::deque<Further> further_trackers_;               ///< trackers refer to their protocols
     std::vector<std::unique_ptr<ResponsePanel>> panels_; ///< the session asks the last
 };
 

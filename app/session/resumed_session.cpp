@@ -174,7 +174,13 @@ bool finish_manifest(const RunOptions& options, const SessionPlace& place) {
     } catch (const RecordError&) {
         return false; // damaged, or of an earlier program: overt verify says which
     }
-    if (!fold_session_file(folder / session_file_name) || !close_manifest(folder))
+    const auto finish = [](const std::filesystem::path& record) {
+        return fold_session_file(record / session_file_name) && close_manifest(record);
+    };
+    bool are_finished = true;
+    for (const std::string& id : further_trackers_of(folder))
+        are_finished = finish(further_record(folder, id)) && are_finished;
+    if (!are_finished || !finish(folder))
         throw InputError(fmt::format("{}: all trials are done, but another program has the session open, so "
                                      "that its manifest cannot be finished: close it there, and run this "
                                      "again.",
@@ -213,6 +219,38 @@ ResumedSession take_up_session(const RunOptions& options, const SessionPlace& pl
     session.clock_start = record.last_time() + clock_leap;
     say_where_it_stands(session, before);
     return session;
+}
+
+Resumption resumption_of_further(const ResumedSession& session, const std::filesystem::path& further) {
+    // A kill may have left the further tracker's record one attempt ahead. Attempts began at the same time in
+    // both.
+    std::vector<SessionTime> counted_starts;
+    const SessionRecord own(session.folder);
+    const std::vector<std::int64_t>& superseded = session.resumption.superseded;
+    for (const TrialRecord& attempt : own.trials())
+        if (attempt.counts && std::ranges::find(superseded, attempt.id) == superseded.end())
+            counted_starts.push_back(attempt.started);
+    Resumption resumption = session.resumption;
+    resumption.superseded.clear();
+    for (const TrialRecord& attempt : SessionRecord(further).trials())
+        if (attempt.counts && std::ranges::find(counted_starts, attempt.started) == counted_starts.end())
+            resumption.superseded.push_back(attempt.id);
+    return resumption;
+}
+
+void require_same_trackers(const std::filesystem::path& session, std::vector<std::string> further_ids) {
+    std::ranges::sort(further_ids);
+    const std::vector<std::string> recorded = further_trackers_of(session);
+    if (recorded == further_ids)
+        return;
+    const auto list = [](const std::vector<std::string>& ids) {
+        return ids.empty() ? std::string("no further eye tracker")
+                           : fmt::format("the further eye trackers {}", fmt::join(ids, ", "));
+    };
+    throw InputError(
+        fmt::format("{}: this session was begun with {}, and would go on with {}: give --tracker "
+                    "as it was given then.",
+                    session.string(), list(recorded), list(further_ids)));
 }
 
 void require_same_stimuli(const ResumedSession& session, const SessionHeader& now) {

@@ -34,6 +34,13 @@ ResumedSession take_up_session(const RunOptions& options, const SessionPlace& pl
 /// Throws InputError if `now` would show something else than the session was begun with.
 void require_same_stimuli(const ResumedSession& session, const SessionHeader& now);
 
+/// What resuming the session means for the record of a further tracker: its attempts that do not count in the
+/// session's own do not count in it either. `further`: its folder. Throws RecordError if it cannot be read.
+Resumption resumption_of_further(const ResumedSession& session, const std::filesystem::path& further);
+
+/// Throws InputError if the session was not begun with exactly these further trackers.
+void require_same_trackers(const std::filesystem::path& session, std::vector<std::string> further_ids);
+
 /// The observer was asked last, and did not agree to take part.
 bool observer_declined(const SessionRecord& record);
 

@@ -12,6 +12,7 @@
 #include "app/rig/operator_equipment.h"
 #include "app/rig/rig.h"
 #include "app/rig/setup_sounds.h"
+#include "app/session/further_records.h"
 #include "app/session/recorded_options.h"
 #include "app/session/session_boxes.h"
 #include "app/session/session_circumstances.h"
@@ -50,12 +51,18 @@ SessionFolder open_folder(const RunOptions& options, const SessionPlace& place, 
     now.display.timing = rig.timing_word();
     if (plan.resumed) {
         require_same_stimuli(*plan.resumed, now);
+        std::vector<std::string> further;
+        for (const Rig::Further& tracker : rig.further_trackers())
+            further.push_back(tracker.id);
+        require_same_trackers(plan.resumed->folder, std::move(further));
         reopen_manifest(plan.resumed->folder, plan.resumed->header, this_program());
         return {plan.resumed->folder, plan.resumed->header, now.started_utc};
     }
     SessionDirectory directory(place, options.session_number);
     now.session_number = directory.session_number();
     put_files(directory, now, experiment.sculptures, rig.library(), options.draws_stimuli);
+    for (const Rig::Further& further : rig.further_trackers())
+        put_further_record(directory.path(), header_of_further(now, further));
     directory.publish();
     const std::string started_utc = now.started_utc;
     return {directory.path(), std::move(now), started_utc};
@@ -69,16 +76,16 @@ std::optional<SittingDetection> detection_of(const Protocol& protocol, const Eye
     return SittingDetection{protocol.events, screen_geometry_of(protocol)};
 }
 
-SessionStore::Options store_options(const RunOptions& options, const SessionPlan& plan,
-                                    const SessionFolder& folder, std::optional<SittingDetection> detection,
-                                    const PresentingAgain* again) {
+SessionStore::Options store_options(const RunOptions& options, const SessionFolder& folder,
+                                    const PresentingAgain* again, const Protocol& protocol,
+                                    const EyeTracker& tracker, const std::optional<Resumption>& resumption) {
     return {.wait_when_full = options.virtual_time,
             .ring_capacity = 65536,
             .started_utc = folder.started_utc,
             .program_version = this_program().version,
             .program_sha256 = this_program().sha256,
-            .resumption = plan.resumed ? std::optional(plan.resumed->resumption) : std::nullopt,
-            .detection = detection,
+            .resumption = resumption,
+            .detection = detection_of(protocol, tracker),
             .options = again ? again->options : recorded_options(options, folder.path)};
 }
 
@@ -108,6 +115,10 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
         experiment.protocol.tracker.kind = tracker_kind_called(options.tracker);
     if (!options.tracker_address.empty())
         experiment.protocol.tracker.address = options.tracker_address;
+    if (!options.tracker.empty() && !experiment.protocol.further_trackers.empty()) {
+        fmt::print("further eye trackers are left out, for --tracker says which one there is\n");
+        experiment.protocol.further_trackers.clear();
+    }
     const Protocol& protocol = experiment.protocol;
     // What would refuse the session at its end is said before anything is drawn.
     const SessionPlace place{options.sessions, protocol.name, observer.label};
@@ -160,11 +171,20 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
     fmt::print("spoken answers: {}\n", answers.description());
 
     const SessionFolder folder = open_folder(options, place, experiment, plan, rig);
+    const auto sitting_of = [&](const Protocol& with, const EyeTracker& tracker,
+                                const std::optional<Resumption>& resumption) {
+        return store_options(options, folder, again, with, tracker, resumption);
+    };
     SessionStore store(folder.path / session_file_name,
-                       store_options(options, plan, folder, detection_of(protocol, rig.tracker()), again));
+                       sitting_of(protocol, rig.tracker(),
+                                  plan.resumed ? std::optional(plan.resumed->resumption) : std::nullopt));
+    FurtherRecords further(rig, folder.path, plan.resumed ? &*plan.resumed : nullptr, sitting_of);
+    SharedLog records(store);
+    further.join(records);
+    const RecordedTracker own_tracker{{}, protocol.tracker, rig.tracker(), folder.path, store};
     box.write_beginning(store);
-    note_circumstances(options, protocol, plan.schedule, rig, store);
-    note_tracker(protocol.tracker, rig, store);
+    note_circumstances(options, protocol, plan.schedule, rig, records);
+    note_tracker(own_tracker, rig.clock());
     for (const std::string& description : markers.descriptions())
         store.event({rig.clock().now(), -1, marker_output_event, description});
     answers.keep_in(folder.path);
@@ -186,6 +206,7 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
                      .recorder = answers.recorder(),
                      .on_level = view ? view->meter_besides(answers.meter()) : answers.meter(),
                      .markers = markers.sinks(),
+                     .further_trackers = further.ports(),
                      .on_beep = [&](SetupBeep beep) { sounds.play(beep); },
                      .on_camera =
                          [&](const CameraImage& image) {
@@ -199,13 +220,13 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
                                  view->entered(phase, trial);
                              if (phase == SessionPhase::task_screen || phase == SessionPhase::stimulus)
                                  if (const auto regained = regain_realtime_priority())
-                                     note_thread({*regained}, rig.clock(), store);
+                                     note_thread({*regained}, rig.clock(), records);
                          }},
                     plan.fields);
-    note_faults(options.faults, rig.clock(), store);
+    note_faults(options.faults, rig.clock(), records);
     // Maps drawn live are written between trials, where loading the library would take its time.
     picture_library();
-    note_thread(prepare_thread({options.realtime, options.processor}), rig.clock(), store);
+    note_thread(prepare_thread({options.realtime, options.processor}), rig.clock(), records);
     if (options.refresh_check_s > 0.0)
         rehearse_timing(rig, protocol, plan.schedule, folder.header, folder.path, store);
     SessionResult result;
@@ -213,11 +234,16 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
         result = session.run(
             [&](const Trial& trial, const TrialOutcome& outcome, int done) {
                 if (LiveMaps* live = rig.live_maps())
-                    at_normal_priority(
-                        [&] { record_live_maps(live->take_finished(), folder.path, folder.header, store); });
+                    at_normal_priority([&] {
+                        for (const RecordedMap& map :
+                             record_live_maps(live->take_finished(), folder.path, folder.header)) {
+                            store.map_made(map);
+                            further.add_map(map);
+                        }
+                    });
                 progress(trial, outcome, done);
                 if (const VirtualRefresh* display = rig.virtual_refresh())
-                    note_struck(*display, trial, rig.clock(), store);
+                    note_struck(*display, trial, rig.clock(), records);
                 if (FaultyTracker* tracker = rig.faulty_tracker())
                     note_struck(*tracker, trial, rig.clock(), store);
                 box.check(store);
@@ -226,15 +252,18 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
             },
             plan.resumed ? plan.resumed->history : SessionHistory());
     } catch (...) {
-        rescue_tracker_file(rig, folder.path);
+        rescue_tracker_file(own_tracker);
+        further.rescue_files();
         throw;
     }
     view.reset();
     progress.finish();
-    end_tracker(rig, folder.path, store);
+    end_tracker(own_tracker, rig.clock());
     box.leave(store);
+    // Before the session's own: what is marked as complete has all its parts.
+    const bool are_finished = further.end();
     store.close();
-    if (!close_manifest(folder.path))
+    if (!close_manifest(folder.path) || !are_finished)
         fmt::print(stderr,
                    "the session is recorded, but its manifest is not finished, for another program has "
                    "session.sqlite open, or the disk is full: afterwards overt run … --resume finishes it\n");
@@ -243,8 +272,9 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
     if (boxes)
         for (const std::string& warning : boxes->closing_warnings())
             fmt::print(stderr, "{}\n", warning);
-    say_after(options, result, store.lost(), plan.schedule, folder.path,
-              folder.header.display.is_timing_unproven());
+    LostRows lost = store.lost();
+    lost += further.lost();
+    say_after(options, result, lost, plan.schedule, folder.path, folder.header.display.is_timing_unproven());
     return result.aborted ? 1 : 0;
 }
 

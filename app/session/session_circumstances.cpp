@@ -24,91 +24,101 @@ void check_timing(Rig& rig, double seconds) {
     say_risks(findings);
 }
 
-void note_faults(const std::filesystem::path& file, const Clock& clock, SessionStore& store) {
+void note_faults(const std::filesystem::path& file, const Clock& clock, SessionLog& log) {
     if (file.empty())
         return;
-    store.event({clock.now(), -1, simulated_faults_event, read_whole_file(file)});
+    log.event({clock.now(), -1, simulated_faults_event, read_whole_file(file)});
     fmt::print("with the simulated faults of {}\n", file.string());
 }
 
-void note_struck(FaultyTracker& tracker, const Trial& trial, const Clock& clock, SessionStore& store) {
+void note_struck(FaultyTracker& tracker, const Trial& trial, const Clock& clock, SessionLog& log) {
     for (const std::string& fault : tracker.take_struck())
-        store.event({clock.now(), trial.index, tracker_fault_event, fault});
+        log.event({clock.now(), trial.index, tracker_fault_event, fault});
 }
 
-void note_struck(const VirtualRefresh& display, const Trial& trial, const Clock& clock, SessionStore& store) {
+void note_struck(const VirtualRefresh& display, const Trial& trial, const Clock& clock, SessionLog& log) {
     for (const DisplayFault& fault : display.struck()) {
         const bool skips = fault.kind == DisplayFault::Kind::skip;
-        store.event({clock.now(), trial.index, display_fault_event,
-                     skips ? fmt::format("skip of {} at refresh {}", fault.refreshes, fault.refresh)
-                           : fmt::format("{} by {:.3f} ms at refresh {}", name_of(fault.kind),
-                                         fault.amount_ms, fault.refresh)});
+        log.event({clock.now(), trial.index, display_fault_event,
+                   skips ? fmt::format("skip of {} at refresh {}", fault.refreshes, fault.refresh)
+                         : fmt::format("{} by {:.3f} ms at refresh {}", name_of(fault.kind), fault.amount_ms,
+                                       fault.refresh)});
     }
 }
 
-void note_thread(const std::vector<ThreadWish>& wishes, const Clock& clock, SessionStore& store) {
+void note_thread(const std::vector<ThreadWish>& wishes, const Clock& clock, SessionLog& log) {
     for (const ThreadWish& wish : wishes) {
         const std::string answer =
             fmt::format("{}: {}{}", wish.what, wish.granted ? "" : "refused: ", wish.detail);
-        store.event({clock.now(), -1, thread_event, answer});
+        log.event({clock.now(), -1, thread_event, answer});
         fmt::print(wish.granted ? stdout : stderr, "{}\n", answer);
     }
 }
 
 void note_circumstances(const RunOptions& options, const Protocol& protocol, const Schedule& schedule,
-                        Rig& rig, SessionStore& store) {
+                        Rig& rig, SessionLog& log) {
     for (const ScreenFinding& finding : rig.screen_findings())
-        store.event(
+        log.event(
             {rig.clock().now(), -1, screen_event, fmt::format("{}: {}", finding.what, finding.finding)});
     if (!options.draws_stimuli)
-        store.event(
-            {rig.clock().now(), -1, screen_event,
-             "stimuli: not drawn (--no-pictures), for nobody saw them; gaze and times do not depend on "
-             "pictures"});
+        log.event({rig.clock().now(), -1, screen_event,
+                   "stimuli: not drawn (--no-pictures), for nobody saw them; gaze and times do not depend on "
+                   "pictures"});
     if (options.verify_output) {
         ProgressBar bar;
-        record_verification(rig.presenter(), rig.library(), protocol, schedule, rig.clock(), store,
+        record_verification(rig.presenter(), rig.library(), protocol, schedule, rig.clock(), log,
                             [&](int done, int total) { bar.update("verifying the output", done, total); });
     }
 }
 
-void end_tracker(Rig& rig, const std::filesystem::path& folder, SessionStore& store) {
+namespace {
+
+/// "eye tracker", or which of several.
+std::string name_of(const RecordedTracker& recorded) {
+    return recorded.id.empty() ? "eye tracker" : "eye tracker " + recorded.id;
+}
+
+} // namespace
+
+void note_tracker(const RecordedTracker& recorded, const Clock& clock) {
+    if (!recorded.tracker.measures_gaze())
+        return;
+    const TrackerDescription tracker = recorded.tracker.description();
+    const auto note = [&](const std::string& what) {
+        recorded.store.event({clock.now(), -1, tracker_event, what});
+    };
+    note(fmt::format("{}{}{}: {} Hz, {}", tracker.name, tracker.model.empty() ? "" : ", ", tracker.model,
+                     tracker.sample_rate_hz,
+                     tracker.both_eyes          ? "both eyes"
+                     : tracker.eye == Eye::left ? "left eye"
+                                                : "right eye"));
+    const double wished_hz = recorded.wish.rate_hz;
+    if (std::abs(tracker.sample_rate_hz - wished_hz) > 1e-3 * wished_hz && tracker.sample_rate_hz > 0.0) {
+        const std::string granted = fmt::format("samples at {:g} Hz where the protocol wishes {:g} Hz",
+                                                tracker.sample_rate_hz, wished_hz);
+        note(granted);
+        fmt::print(stderr, "the {} {}\n", name_of(recorded), granted);
+    }
+}
+
+void end_tracker(const RecordedTracker& recorded, const Clock& clock) {
     ProgressBar bar;
     const std::vector<std::string> said =
-        rig.tracker().finish(folder.string(), [&](std::int64_t done, std::int64_t total) {
+        recorded.tracker.finish(recorded.folder.string(), [&](std::int64_t done, std::int64_t total) {
             bar.update("fetching the eye tracker's file, kB", static_cast<int>(done / 1000),
                        static_cast<int>(std::max(done, total) / 1000));
         });
     bar.finish();
     for (const std::string& sentence : said) {
-        store.event({rig.clock().now(), -1, tracker_event, sentence});
-        fmt::print("eye tracker: {}\n", sentence);
+        recorded.store.event({clock.now(), -1, tracker_event, sentence});
+        fmt::print("{}: {}\n", name_of(recorded), sentence);
     }
 }
 
-void rescue_tracker_file(Rig& rig, const std::filesystem::path& folder) {
+void rescue_tracker_file(const RecordedTracker& recorded) {
     for (const std::string& sentence :
-         rig.tracker().finish(folder.string(), [](std::int64_t, std::int64_t) {}))
-        fmt::print(stderr, "eye tracker: {}\n", sentence);
-}
-
-void note_tracker(const TrackerSettings& wish, Rig& rig, SessionStore& store) {
-    const TrackerDescription tracker = rig.tracker().description();
-    if (!rig.tracker().measures_gaze())
-        return;
-    store.event({rig.clock().now(), -1, tracker_event,
-                 fmt::format("{}{}{}: {} Hz, {}", tracker.name, tracker.model.empty() ? "" : ", ",
-                             tracker.model, tracker.sample_rate_hz,
-                             tracker.both_eyes          ? "both eyes"
-                             : tracker.eye == Eye::left ? "left eye"
-                                                        : "right eye")});
-    if (std::abs(tracker.sample_rate_hz - wish.rate_hz) > 1e-3 * wish.rate_hz &&
-        tracker.sample_rate_hz > 0.0) {
-        const std::string granted = fmt::format("samples at {:g} Hz where the protocol wishes {:g} Hz",
-                                                tracker.sample_rate_hz, wish.rate_hz);
-        store.event({rig.clock().now(), -1, tracker_event, granted});
-        fmt::print(stderr, "the eye tracker {}\n", granted);
-    }
+         recorded.tracker.finish(recorded.folder.string(), [](std::int64_t, std::int64_t) {}))
+        fmt::print(stderr, "{}: {}\n", name_of(recorded), sentence);
 }
 
 } // namespace overt

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "app/rig/rig.h"
@@ -20,26 +21,35 @@ void check_timing(Rig& rig, double seconds);
 /// What the record must know of the machine before the first trial; decodes the pages if `options` ask for
 /// it. Throws as record_verification().
 void note_circumstances(const RunOptions& options, const Protocol& protocol, const Schedule& schedule,
-                        Rig& rig, SessionStore& store);
+                        Rig& rig, SessionLog& log);
+
+/// An eye tracker of the session, and its record.
+struct RecordedTracker {
+    std::string id; ///< of a further one; empty: the session's own
+    const TrackerSettings& wish;
+    EyeTracker& tracker;
+    std::filesystem::path folder;
+    SessionStore& store;
+};
 
 /// Which tracker it is, and what it granted of what was wished.
-void note_tracker(const TrackerSettings& wish, Rig& rig, SessionStore& store);
+void note_tracker(const RecordedTracker& recorded, const Clock& clock);
 
 /// A session with simulated faults must not be taken for one on a real display. `file` may be empty: there
 /// are none.
-void note_faults(const std::filesystem::path& file, const Clock& clock, SessionStore& store);
+void note_faults(const std::filesystem::path& file, const Clock& clock, SessionLog& log);
 
 /// The simulated faults that struck since the last call.
-void note_struck(FaultyTracker& tracker, const Trial& trial, const Clock& clock, SessionStore& store);
-void note_struck(const VirtualRefresh& display, const Trial& trial, const Clock& clock, SessionStore& store);
+void note_struck(FaultyTracker& tracker, const Trial& trial, const Clock& clock, SessionLog& log);
+void note_struck(const VirtualRefresh& display, const Trial& trial, const Clock& clock, SessionLog& log);
 
 /// How the session's thread is scheduled.
-void note_thread(const std::vector<ThreadWish>& wishes, const Clock& clock, SessionStore& store);
+void note_thread(const std::vector<ThreadWish>& wishes, const Clock& clock, SessionLog& log);
 
-/// Fetches the tracker's own file into the session's folder, if it has one, and records what it says.
-void end_tracker(Rig& rig, const std::filesystem::path& folder, SessionStore& store);
+/// Fetches the tracker's own file into its record's folder, if it has one, and records what it says.
+void end_tracker(const RecordedTracker& recorded, const Clock& clock);
 
 /// The same when the session itself has failed: its record may not take anything any more.
-void rescue_tracker_file(Rig& rig, const std::filesystem::path& folder);
+void rescue_tracker_file(const RecordedTracker& recorded);
 
 } // namespace overt

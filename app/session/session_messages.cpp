@@ -24,6 +24,8 @@ void say_before(const Protocol& protocol, const Schedule& schedule, const GlDesc
         fmt::print("tracker: {}\n", tracker);
     else if (!options.simulate_observer)
         fmt::print("tracker: simulated; the gaze in this session is made by the program, not measured\n");
+    for (const FurtherTrackerSettings& further : protocol.further_trackers)
+        fmt::print("further tracker {}: {}\n", further.id, name_of(further.kind));
 }
 
 void say_frames(const StimulusLibrary& library, bool to_people) {

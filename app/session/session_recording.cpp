@@ -8,6 +8,7 @@
 #include "experiment/base/whole_file.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/record/header_rows.h"
+#include "experiment/record/session_schema.h"
 #include "experiment/scene/ply_writer.h"
 
 namespace overt {
@@ -195,8 +196,26 @@ void put_files(const SessionDirectory& directory, const SessionHeader& header,
     }
 }
 
-void record_live_maps(std::vector<LiveMap> maps, const std::filesystem::path& folder,
-                      const SessionHeader& header, SessionStore& store) {
+void share_file(const std::filesystem::path& session, const std::filesystem::path& further,
+                const std::string& name) {
+    std::error_code error;
+    std::filesystem::create_directories((further / name).parent_path(), error);
+    if (!error)
+        std::filesystem::create_hard_link(session / name, further / name, error);
+    if (error)
+        copy_into(session / name, further / name);
+}
+
+void put_further_record(const std::filesystem::path& session, const SessionHeader& further) {
+    const std::filesystem::path folder = further_record(session, further.further_tracker);
+    for (const std::string& name : files_of_session(session, false))
+        share_file(session, folder, name);
+    create_session_file(folder / session_file_name, further);
+    begin_manifest(folder, further, this_program());
+}
+
+std::vector<RecordedMap> record_live_maps(std::vector<LiveMap> maps, const std::filesystem::path& folder,
+                                          const SessionHeader& header) {
     std::erase_if(maps, [&](const LiveMap& map) {
         return std::any_of(header.maps.begin(), header.maps.end(), [&](const RecordedMap& recorded) {
             return recorded.sculpture == map.sculpture && recorded.pose == map.pose;
@@ -216,8 +235,7 @@ void record_live_maps(std::vector<LiveMap> maps, const std::filesystem::path& fo
         recorded[static_cast<std::size_t>(i)] = {map.sculpture, map.pose, name, hash_of_file(file),
                                                  RecordedMap::Made::live};
     });
-    for (const RecordedMap& map : recorded)
-        store.map_made(map);
+    return recorded;
 }
 
 } // namespace overt

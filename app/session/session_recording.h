@@ -7,7 +7,6 @@
 #include "experiment/record/preview_file.h"
 #include "experiment/record/session_directory.h"
 #include "experiment/record/session_header.h"
-#include "experiment/record/write/session_store.h"
 #include "render/stimulus/live_maps.h"
 #include "render/stimulus/stimulus_library.h"
 
@@ -27,9 +26,18 @@ void put_files(const SessionDirectory& directory, const SessionHeader& header,
                std::span<const Sculpture> sculptures, const StimulusLibrary& library,
                bool with_pictures = true);
 
-/// Writes maps that were made live into a published session's folder; those that the header has already, from
-/// before the session was resumed, stay. Throws RecordError.
-void record_live_maps(std::vector<LiveMap> maps, const std::filesystem::path& folder,
-                      const SessionHeader& header, SessionStore& store);
+/// Makes the record of a further tracker in a session's directory whose files have been put there: they are
+/// shared with it. Throws RecordError.
+void put_further_record(const std::filesystem::path& session, const SessionHeader& further);
+
+/// Brings a file of the session's directory, such as a map, into a further tracker's as well: the same file,
+/// or a copy where the disk has no such thing. Throws RecordError.
+void share_file(const std::filesystem::path& session, const std::filesystem::path& further,
+                const std::string& name);
+
+/// Writes maps that were made live into a published session's folder and gives what its record is to know of
+/// them; those that the header has already, from before the session was resumed, stay. Throws RecordError.
+std::vector<RecordedMap> record_live_maps(std::vector<LiveMap> maps, const std::filesystem::path& folder,
+                                          const SessionHeader& header);
 
 } // namespace overt

@@ -1,13 +1,15 @@
 #include "app/session/timing_rehearsal.h"
 
+#include <deque>
+
 #include <fmt/format.h>
 
 #include "experiment/base/counted.h"
 #include "experiment/base/scratch_folder.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/record/header_rows.h"
-#include "experiment/record/session_schema.h"
 #include "experiment/session/presentation_rehearsal.h"
+#include "experiment/session/shared_log.h"
 
 namespace overt {
 
@@ -20,16 +22,27 @@ void rehearse_timing(Rig& rig, const Protocol& protocol, const Schedule& schedul
     LostRows lost;
     {
         const ScratchFolder scratch(".overt-rehearsal", folder.parent_path());
-        create_session_file(scratch.path() / session_file_name, header);
-        SessionStore scratch_store(scratch.path() / session_file_name, {});
+        std::deque<SessionStore> stores; // one for each tracker, as in the session
+        const auto make_store = [&]() -> SessionStore& {
+            const std::filesystem::path file = scratch.path() / fmt::format("{}.sqlite", stores.size());
+            create_session_file(file, header);
+            return stores.emplace_back(file, SessionStore::Options());
+        };
+        std::vector<RehearsedTracker> trackers{{rig.tracker(), make_store()}};
+        SharedLog log(stores.front());
+        for (Rig::Further& further : rig.further_trackers()) {
+            trackers.push_back({*further.tracker, make_store()});
+            log.add(stores.back());
+        }
         std::vector<PresentationListener*> listeners;
         if (LiveMaps* const maps = rig.live_maps())
             listeners.push_back(maps);
-        rehearsed =
-            rehearse_presentation(protocol, schedule.trials.front(),
-                                  {rig.clock(), rig.presenter(), rig.tracker(), scratch_store, listeners});
-        scratch_store.close();
-        lost = scratch_store.lost();
+        rehearsed = rehearse_presentation(protocol, schedule.trials.front(),
+                                          {rig.clock(), rig.presenter(), log, listeners, trackers});
+        for (SessionStore& written : stores) {
+            written.close();
+            lost += written.lost();
+        }
     }
     std::string found = describe(rehearsed);
     if (lost.flips + lost.samples > 0)

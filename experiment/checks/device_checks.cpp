@@ -7,6 +7,7 @@
 #include "experiment/checks/protocol_checks.h"
 #include "experiment/ports/button_meaning.h"
 #include "experiment/protocol/marker_codes.h"
+#include "experiment/protocol/protocol_keys.h"
 
 namespace overt {
 namespace {
@@ -153,10 +154,42 @@ void check_marker_output(ProtocolExamination& examination, std::size_t index) {
         examination.error({path("library")}, "only outputs of kind lsl need a library");
 }
 
+/// Two of the same device would wait for each other. What is simulated or played back is a device of its own.
+bool is_same_device(const TrackerSettings& one, const TrackerSettings& other) {
+    const std::string_view kind = name_of(one.kind);
+    return one.kind == other.kind && one.address == other.address && kind != "simulated" && kind != "replay";
+}
+
+void check_further_tracker(ProtocolExamination& examination, std::size_t index) {
+    const Protocol& protocol = examination.protocol;
+    const FurtherTrackerSettings& further = protocol.further_trackers[index];
+    const auto path = [&](std::string_view key) { return fmt::format("further_tracker[{}].{}", index, key); };
+    if (!measures_gaze(further.kind))
+        examination.error({path("kind")}, "a further tracker must measure gaze",
+                          "leave the [[further_tracker]] out");
+    if (!measures_gaze(protocol.tracker.kind))
+        examination.error({"tracker.kind", path("kind")},
+                          "there is no eye tracker of the session's own, which trials are judged by",
+                          "write the further tracker's keys under [tracker] instead");
+    const auto refuse = [&](const std::string& other) {
+        examination.error({path("kind"), path("address")},
+                          fmt::format("this is the same device as that of {}", other),
+                          "give each its own \"address\"");
+    };
+    if (is_same_device(further, protocol.tracker))
+        refuse("[tracker]");
+    for (std::size_t other = 0; other < index; ++other)
+        if (is_same_device(further, protocol.further_trackers[other]))
+            refuse(fmt::format("the further tracker \"{}\"", protocol.further_trackers[other].id));
+}
+
 } // namespace
 
 void check_devices(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
+    check_device_ids(examination, "further_tracker", protocol.further_trackers);
+    for (std::size_t i = 0; i < protocol.further_trackers.size(); ++i)
+        check_further_tracker(examination, i);
     check_device_ids(examination, "button_box", protocol.button_boxes);
     check_device_ids(examination, "marker_output", protocol.marker_outputs);
     std::vector<ButtonMeaning> observers;

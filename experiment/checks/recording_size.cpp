@@ -8,7 +8,6 @@
 #include "experiment/animation.h"
 #include "experiment/base/bytes_in_words.h"
 #include "experiment/maps/light_pictures.h"
-#include "experiment/ports/tracker_kinds.h"
 
 namespace overt {
 
@@ -28,11 +27,16 @@ RecordingSize recording_size(const Protocol& protocol, std::span<const Sculpture
     const PageCycle cycle = make_page_cycle(protocol.animation, protocol.display.refresh_hz);
     const double recorded_s =
         cycle.total_refreshes / protocol.display.refresh_hz + 2.0 * protocol.screens.recording_lead_s;
-    const double sample_rate_hz = tracker_kinds[static_cast<std::size_t>(protocol.tracker.kind)].measures_gaze
-                                      ? protocol.tracker.rate_hz
-                                      : 0.0;
-    const double trial_bytes =
-        recorded_s * sample_rate_hz * bytes_per_sample + cycle.total_refreshes * bytes_per_flip;
+    // Each tracker's record has the flips as well.
+    const double flip_bytes = cycle.total_refreshes * bytes_per_flip;
+    const auto bytes_of = [&](const TrackerSettings& tracker) {
+        return recorded_s * (measures_gaze(tracker.kind) ? tracker.rate_hz : 0.0) * bytes_per_sample +
+               flip_bytes;
+    };
+    double trial_bytes = bytes_of(protocol.tracker);
+    for (const FurtherTrackerSettings& further : protocol.further_trackers)
+        trial_bytes += bytes_of(further);
+    const double records = 1.0 + static_cast<double>(protocol.further_trackers.size());
     const auto sculpture_count = static_cast<double>(sculptures.size());
     // Sculptures that are frames only have no maps.
     double mapped = 0.0;
@@ -42,7 +46,7 @@ RecordingSize recording_size(const Protocol& protocol, std::span<const Sculpture
     const double picture_bytes = bytes_per_px * protocol.view.width_px * protocol.view.height_px;
     RecordingSize size;
     // SQLite's log holds a trial's rows until they are in the file.
-    size.rows = bytes_at_first + (trials + 1) * trial_bytes;
+    size.rows = records * bytes_at_first + (trials + 1) * trial_bytes;
     const auto poses = static_cast<double>(distinct_poses(protocol.animation).angles.size());
     const auto materials = static_cast<double>(protocol.materials.size());
     size.maps = picture_bytes * mapped * poses;

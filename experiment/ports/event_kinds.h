@@ -44,6 +44,8 @@ inline constexpr std::string_view calibration_failed_event = "calibration failed
 inline constexpr std::string_view tracker_event = "eye tracker"; ///< what it is, and what it told at its end
 inline constexpr std::string_view tracker_lost_event = "eye tracker lost";
 inline constexpr std::string_view tracker_regained_event = "eye tracker regained"; ///< connected again
+/// What befell one, in the record of the session's own: its id, and the event as its own record has it.
+inline constexpr std::string_view further_tracker_event = "further eye tracker";
 inline constexpr std::string_view keyboard_event = "keyboard"; ///< another window took it, or gave it back
 inline constexpr std::string_view response_box_event = "response box"; ///< what it is
 inline constexpr std::string_view response_box_lost_event = "response box lost";

@@ -8,6 +8,7 @@ namespace overt::key_rows {
 // What the experiment runs on (rig_keys.cpp).
 Section display();
 Section tracker();
+Section further_tracker();
 Section calibration();
 Section events();
 Section screens();

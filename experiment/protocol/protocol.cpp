@@ -7,6 +7,18 @@
 
 namespace overt {
 
+Protocol protocol_of_further(const Protocol& protocol, std::size_t index) {
+    Protocol further = protocol;
+    const TrackerSettings& own = protocol.tracker;
+    TrackerSettings& settings = further.tracker = protocol.further_trackers.at(index);
+    // These are the session's, whichever tracker it has.
+    settings.drift_limit_deg = own.drift_limit_deg;
+    settings.on_drift = own.on_drift;
+    settings.drift_checks = own.drift_checks;
+    further.further_trackers.clear();
+    return further;
+}
+
 ScreenGeometry screen_geometry_of(const Protocol& protocol) {
     const DisplaySettings& display = protocol.display;
     ScreenGeometry geometry;

@@ -110,6 +110,9 @@ enum class TrackerKind : std::uint8_t {};
 /// The kind that is called so. Throws InputError naming those there are.
 TrackerKind tracker_kind_called(std::string_view name);
 
+/// Whether there is a tracker at all.
+bool measures_gaze(TrackerKind kind);
+
 /// Which point of gaze is taken of a tracker that tells several.
 enum class TrackedPoint : std::uint8_t {
     eyes, ///< each eye's own
@@ -158,6 +161,11 @@ struct TrackerSettings {
     double simulated_noise_deg = 0.05;       ///< standard deviation of each sample
     double simulated_accuracy_deg = 0.3;     ///< standard deviation of a trial's constant offset
     double simulated_clock_drift_ppm = 40.0; ///< rate of its clock against the session's
+};
+
+/// [[further_tracker]]: one that records at the same time. Drift checks are the session's own tracker's.
+struct FurtherTrackerSettings : TrackerSettings {
+    std::string id;
 };
 
 /// Who calibrates the eye tracker.
@@ -338,6 +346,7 @@ struct Protocol {
     std::string title;
     DisplaySettings display;
     TrackerSettings tracker;
+    std::vector<FurtherTrackerSettings> further_trackers;
     CalibrationKeys calibration;
     EventDetectionSettings events;
     ViewSettings view;
@@ -375,6 +384,9 @@ struct Protocol {
 
 /// The screen and the stimulus's place on it, as the protocol has them.
 ScreenGeometry screen_geometry_of(const Protocol& protocol);
+
+/// The protocol as the further tracker of this index has it: that is its [tracker], and there is no other.
+Protocol protocol_of_further(const Protocol& protocol, std::size_t index);
 
 /// File of one frame of a ready-made animation: the #s of `files` replaced by the number, zeros in front.
 std::filesystem::path frame_file(const FrameSequenceSettings& sequence, AnimationFrameIndex frame);

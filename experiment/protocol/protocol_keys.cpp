@@ -15,6 +15,7 @@ const KeyTable& protocol_keys() {
     static const KeyTable table({key_rows::protocol(),
                                  key_rows::display(),
                                  key_rows::tracker(),
+                                 key_rows::further_tracker(),
                                  key_rows::calibration(),
                                  key_rows::events(),
                                  key_rows::view(),
@@ -54,6 +55,8 @@ TrackerKind tracker_kind_called(std::string_view name) {
                                      fmt::join(tracker_names, ", ")));
     return static_cast<TrackerKind>(found - tracker_names.begin());
 }
+
+bool measures_gaze(TrackerKind kind) { return tracker_kinds[static_cast<std::size_t>(kind)].measures_gaze; }
 
 std::string_view name_of(TrackerKind kind) { return tracker_names[static_cast<std::size_t>(kind)]; }
 

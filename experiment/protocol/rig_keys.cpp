@@ -20,6 +20,81 @@ std::string_view tracker_explanation() {
     return text;
 }
 
+/// What each tracker of a session has, as members of `T`: TrackerSettings, or what is made from it.
+template <class T> std::vector<Key> tracker_keys() {
+    const auto at = []<class Value>(Value TrackerSettings::*member) -> Value T::* { return member; };
+    return {
+        {{.name = "kind", .choices = tracker_names, .explanation = tracker_explanation()},
+         at(&TrackerSettings::kind)},
+        {{.name = "rate_hz",
+          .unit = "Hz",
+          .low = 10,
+          .high = 10000,
+          .explanation = "Gaze samples per second."},
+         at(&TrackerSettings::rate_hz)},
+        {{.name = "address",
+          .if_left_out = "what is usual for the kind",
+          .explanation = "Where the tracker is. `eyelink`: address of its host, or `dummy` to try the "
+                         "library without one. `opengaze` and `pupil`: host or host:port. `lsl`: name of "
+                         "the stream. `hid`: /dev/hidrawN, or vendor:product. `replay`: a session's folder, "
+                         "or an EyeLink recording (.asc)."},
+         at(&TrackerSettings::address)},
+        {{.name = "library",
+          .if_left_out = "where the system looks",
+          .explanation = "The library of the tracker's maker, a file, for kinds that need one."},
+         at(&TrackerSettings::library)},
+        {{.name = "outlet",
+          .explanation = "Whether samples are also sent on as a stream \"overt gaze\" of the Lab "
+                         "Streaming Layer, of trackers that measure in real time."},
+         at(&TrackerSettings::outlet)},
+        {{.name = "point",
+          .explanation = "Of `opengaze`, which point of gaze is taken. `eyes`: each eye's own. "
+                         "`best`: the mean of both, or that of the one that is found."},
+         at(&TrackerSettings::point)},
+        {{.name = "surface", .explanation = "Of `pupil`, the surface in Pupil Capture that is the screen."},
+         at(&TrackerSettings::surface)},
+        {{.name = "least_confidence",
+          .low = 0,
+          .high = 1,
+          .explanation = "Of `pupil`, and of streams that tell confidence: gaze of less is lost."},
+         at(&TrackerSettings::least_confidence)},
+        {{.name = "channels",
+          .if_left_out = "what the stream tells",
+          .explanation =
+              "Of `lsl`, what the stream's channels mean: eye (or none), meaning, and the channel's "
+              "label or its number from 1, such as `[\"left x 1\", \"left y 2\", \"right pupil "
+              "PupilRight\"]`. Meanings are x, y, confidence, pupil, eye-x, eye-y, eye-z."},
+         at(&TrackerSettings::channels)},
+        {{.name = "unit", .explanation = "Of `lsl`, the unit of gaze: pixels, or shares of the screen."},
+         at(&TrackerSettings::unit)},
+        {{.name = "y_is_up",
+          .explanation = "Of `lsl`, whether y grows upward from the lower edge of the screen."},
+         at(&TrackerSettings::y_is_up)},
+        {{.name = "eye",
+          .choices = eyes,
+          .explanation = "The eye that is tracked. Of both, the right one is analysed."},
+         at(&TrackerSettings::eye)},
+        {{.name = "simulated_noise_deg",
+          .unit = "deg",
+          .low = 0,
+          .high = 10,
+          .explanation = "Standard deviation of each simulated sample."},
+         at(&TrackerSettings::simulated_noise_deg)},
+        {{.name = "simulated_accuracy_deg",
+          .unit = "deg",
+          .low = 0,
+          .high = 10,
+          .explanation = "Standard deviation of the constant error of a simulated trial."},
+         at(&TrackerSettings::simulated_accuracy_deg)},
+        {{.name = "simulated_clock_drift_ppm",
+          .unit = "ppm",
+          .low = -10000,
+          .high = 10000,
+          .explanation = "How much faster the simulated tracker's clock runs than the session's."},
+         at(&TrackerSettings::simulated_clock_drift_ppm)},
+    };
+}
+
 } // namespace
 
 Section display() {
@@ -211,105 +286,57 @@ Section display() {
 
 Section tracker() {
     using T = TrackerSettings;
+    std::vector<Key> keys = tracker_keys<T>();
+    const std::vector<Key> drift{
+        {{.name = "drift_limit_deg",
+          .unit = "deg",
+          .low = 0.01,
+          .high = 45,
+          .explanation =
+              "A drift check that finds a larger error, or no eye, has failed. The record says so."},
+         &T::drift_limit_deg},
+        {{.name = "on_drift",
+          .explanation = "What becomes of a trial whose drift check failed. `note`: it is presented "
+                         "all the same. "
+                         "`retry`: the target is shown again. `recalibrate`: the tracker is "
+                         "calibrated, and the trial "
+                         "begun anew. `reject`: it is not presented, and comes again as `[repeat] "
+                         "rejected` says."},
+         &T::on_drift},
+        {{.name = "drift_checks",
+          .low = 1,
+          .high = 20,
+          .explanation =
+              "Of a trial, with `retry` and `recalibrate`. If the last fails, too, it is presented "
+              "all the same."},
+         &T::drift_checks},
+    };
+    keys.insert(keys.end(), drift.begin(), drift.end());
+    return {.name = "tracker",
+            .explanation = "The eye tracker, and how a simulated one differs from a perfect one.",
+            .keys = std::move(keys),
+            .home = &Protocol::tracker};
+}
+
+Section further_tracker() {
+    using F = FurtherTrackerSettings;
+    std::vector<Key> keys = tracker_keys<F>();
+    keys.insert(keys.begin(), {{.name = "id",
+                                .is_required = true,
+                                .is_identifier = true,
+                                .explanation = "By which its record is named: `trackers/ID` in the session's "
+                                               "folder."},
+                               &F::id});
     return {
-        .name = "tracker",
-        .explanation = "The eye tracker, and how a simulated one differs from a perfect one.",
-        .keys =
-            {
-                {{.name = "kind", .choices = tracker_names, .explanation = tracker_explanation()}, &T::kind},
-                {{.name = "rate_hz",
-                  .unit = "Hz",
-                  .low = 10,
-                  .high = 10000,
-                  .explanation = "Gaze samples per second."},
-                 &T::rate_hz},
-                {{.name = "address",
-                  .if_left_out = "what is usual for the kind",
-                  .explanation =
-                      "Where the tracker is. `eyelink`: address of its host, or `dummy` to try the "
-                      "library without one. `opengaze` and `pupil`: host or host:port. `lsl`: name of "
-                      "the stream. `hid`: /dev/hidrawN, or vendor:product. `replay`: a session's folder, "
-                      "or an EyeLink recording (.asc)."},
-                 &T::address},
-                {{.name = "library",
-                  .if_left_out = "where the system looks",
-                  .explanation = "The library of the tracker's maker, a file, for kinds that need one."},
-                 &T::library},
-                {{.name = "outlet",
-                  .explanation = "Whether samples are also sent on as a stream \"overt gaze\" of the Lab "
-                                 "Streaming Layer, of trackers that measure in real time."},
-                 &T::outlet},
-                {{.name = "point",
-                  .explanation = "Of `opengaze`, which point of gaze is taken. `eyes`: each eye's own. "
-                                 "`best`: the mean of both, or that of the one that is found."},
-                 &T::point},
-                {{.name = "surface",
-                  .explanation = "Of `pupil`, the surface in Pupil Capture that is the screen."},
-                 &T::surface},
-                {{.name = "least_confidence",
-                  .low = 0,
-                  .high = 1,
-                  .explanation = "Of `pupil`, and of streams that tell confidence: gaze of less is lost."},
-                 &T::least_confidence},
-                {{.name = "channels",
-                  .if_left_out = "what the stream tells",
-                  .explanation =
-                      "Of `lsl`, what the stream's channels mean: eye (or none), meaning, and the channel's "
-                      "label or its number from 1, such as `[\"left x 1\", \"left y 2\", \"right pupil "
-                      "PupilRight\"]`. Meanings are x, y, confidence, pupil, eye-x, eye-y, eye-z."},
-                 &T::channels},
-                {{.name = "unit",
-                  .explanation = "Of `lsl`, the unit of gaze: pixels, or shares of the screen."},
-                 &T::unit},
-                {{.name = "y_is_up",
-                  .explanation = "Of `lsl`, whether y grows upward from the lower edge of the screen."},
-                 &T::y_is_up},
-                {{.name = "eye",
-                  .choices = eyes,
-                  .explanation = "The eye that is tracked. Of both, the right one is analysed."},
-                 &T::eye},
-                {{.name = "drift_limit_deg",
-                  .unit = "deg",
-                  .low = 0.01,
-                  .high = 45,
-                  .explanation =
-                      "A drift check that finds a larger error, or no eye, has failed. The record says so."},
-                 &T::drift_limit_deg},
-                {{.name = "on_drift",
-                  .explanation = "What becomes of a trial whose drift check failed. `note`: it is presented "
-                                 "all the same. "
-                                 "`retry`: the target is shown again. `recalibrate`: the tracker is "
-                                 "calibrated, and the trial "
-                                 "begun anew. `reject`: it is not presented, and comes again as `[repeat] "
-                                 "rejected` says."},
-                 &T::on_drift},
-                {{.name = "drift_checks",
-                  .low = 1,
-                  .high = 20,
-                  .explanation =
-                      "Of a trial, with `retry` and `recalibrate`. If the last fails, too, it is presented "
-                      "all the same."},
-                 &T::drift_checks},
-                {{.name = "simulated_noise_deg",
-                  .unit = "deg",
-                  .low = 0,
-                  .high = 10,
-                  .explanation = "Standard deviation of each simulated sample."},
-                 &T::simulated_noise_deg},
-                {{.name = "simulated_accuracy_deg",
-                  .unit = "deg",
-                  .low = 0,
-                  .high = 10,
-                  .explanation = "Standard deviation of the constant error of a simulated trial."},
-                 &T::simulated_accuracy_deg},
-                {{.name = "simulated_clock_drift_ppm",
-                  .unit = "ppm",
-                  .low = -10000,
-                  .high = 10000,
-                  .explanation = "How much faster the simulated tracker's clock runs than the session's."},
-                 &T::simulated_clock_drift_ppm},
-            },
-        .home = &Protocol::tracker};
+        .name = "further_tracker",
+        .explanation =
+            "Eye trackers that record at the same time as that of `[tracker]`, such as two that are to be "
+            "compared. Each is calibrated as `[calibration]` says, after the session's own, and has a "
+            "record of its own, which every command reads as a session; see [trackers.md](trackers.md). "
+            "Drift checks, and whether a trial counts, are a matter of `[tracker]` alone. The keys are "
+            "those of `[tracker]`.",
+        .keys = std::move(keys),
+        .home = &Protocol::further_trackers};
 }
 
 Section calibration() {

@@ -50,6 +50,8 @@ constexpr RowColumn<SessionHeader> session_columns[] = {
                                                              "0"),
     column<&Header::tracker, &TrackerDescription::model>(
         "tracker_model", "what the device says of itself; empty if nothing", "''"),
+    column<&Header::further_tracker>(
+        "further_tracker", "of the record of a further tracker, its id; empty in the session's own", "''"),
     column<&Header::display, &Display::screen, &Screen::screen_px, 0>("screen_width_px", "of the screen"),
     column<&Header::display, &Display::screen, &Screen::screen_px, 1>("screen_height_px", "of the screen"),
     column<&Header::display, &Display::screen, &Screen::screen_mm, 0>("screen_width_mm",

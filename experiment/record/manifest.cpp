@@ -136,7 +136,9 @@ std::vector<std::string> files_of_session(const fs::path& folder, bool with_sess
          ++entry) {
         const std::string name = entry->path().filename().string();
         const bool is_export = entry.depth() == 0 && entry->is_directory() && name.starts_with("export_");
-        if (name.starts_with('.') || is_export) {
+        // Records of further trackers have manifests of their own.
+        const bool is_further = entry.depth() == 0 && entry->is_directory() && name == further_records_folder;
+        if (name.starts_with('.') || is_export || is_further) {
             entry.disable_recursion_pending();
             continue;
         }

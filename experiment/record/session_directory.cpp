@@ -148,6 +148,20 @@ int next_session_number(const SessionPlace& place) {
     return highest + 1;
 }
 
+fs::path further_record(const fs::path& session, const std::string& tracker_id) {
+    return session / further_records_folder / tracker_id;
+}
+
+std::vector<std::string> further_trackers_of(const fs::path& session) {
+    std::vector<std::string> ids;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(session / further_records_folder, none))
+        if (fs::exists(entry.path() / session_file_name, none))
+            ids.push_back(entry.path().filename().string());
+    std::sort(ids.begin(), ids.end());
+    return ids;
+}
+
 SessionDirectory::SessionDirectory(const SessionPlace& place, std::optional<int> session_number)
     : place_(place) {
     if (session_number && *session_number < 1)

@@ -35,6 +35,12 @@ int next_session_number(const SessionPlace& place);
 /// Numbers of the sessions that this observer has in this protocol, ascending.
 std::vector<int> session_numbers(const SessionPlace& place);
 
+/// Where the record of a further tracker lies in a session's directory.
+std::filesystem::path further_record(const std::filesystem::path& session, const std::string& tracker_id);
+
+/// Ids of the further trackers that have a record in a session's directory, in the order of their names.
+std::vector<std::string> further_trackers_of(const std::filesystem::path& session);
+
 /// A session's directory in the making: hidden under another name until publish(), so that a directory with a
 /// session's name always is a whole one. Without publish() it removes itself; what a killed program left of
 /// one is removed by the next that makes one for this observer. The number is taken from the beginning on:

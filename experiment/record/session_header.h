@@ -151,6 +151,8 @@ struct SessionHeader {
     ProgramBuild program;
     GraphicsSystem graphics;
     TrackerDescription tracker;
+    /// Of the record of a further tracker: its id. Empty: the session's own record.
+    std::string further_tracker = {};
     RecordedDisplay display;
     std::optional<RecordedCharacterisation> characterisation; ///< of the display, if the protocol names one
     Animation animation;

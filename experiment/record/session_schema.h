@@ -23,6 +23,10 @@ inline constexpr int first_version_with_seals = 3;
 /// Name of the session file in a session's directory.
 inline constexpr const char* session_file_name = "session.sqlite";
 
+/// Folder in a session's directory in which each further tracker has its record, in a folder of its name: a
+/// session's directory of its own, whose maps and meshes are the same files.
+inline constexpr const char* further_records_folder = "trackers";
+
 /// Statements that make the display box's tables where they are not there: sessions of earlier programs have
 /// none.
 extern const char* const box_tables_sql;

@@ -9,6 +9,7 @@
 #include "experiment/session/session_stage.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -225,13 +226,44 @@ void OperatorControl::pause() {
     state_.note(operator_event, fmt::format("goes on after {:.1f} s", to_seconds(state_.now() - onset)));
 }
 
-void OperatorControl::calibrate() {
+namespace {
+
+/// A question about a tracker; of several, the further ones are named.
+std::string about(const UsedTracker& used, const std::string& question) {
+    return used.is_further() ? used.id + ": " + question : question;
+}
+
+} // namespace
+
+void OperatorControl::begin_calibration() {
     if (state_.phase() != SessionPhase::calibration)
         state_.enter(SessionPhase::calibration, state_.trial());
     // An empty screen would look like a session that has stopped.
     state_.show(screens::please_wait(state_.protocol));
-    EyeTracker& tracker = state_.ports.tracker;
-    if (!tracker.measures_gaze()) {
+}
+
+void OperatorControl::calibrate() {
+    for (UsedTracker& used : state_.trackers()) {
+        if (state_.is_over())
+            return;
+        if (used.is_left_out) {
+            begin_calibration();
+            try {
+                used.tracker.reconnect();
+                used.is_left_out = false;
+                state_.note_of(used, tracker_regained_event);
+            } catch (const DeviceError& error) {
+                state_.note_of(used, tracker_lost_event, error.what());
+                continue;
+            }
+        }
+        calibrate(used);
+    }
+}
+
+void OperatorControl::calibrate(UsedTracker& used) {
+    begin_calibration();
+    if (!used.tracker.measures_gaze()) {
         state_.note("calibration", "none: the session has no eye tracker");
         return;
     }
@@ -239,22 +271,22 @@ void OperatorControl::calibrate() {
     while (!state_.ends_by_itself()) {
         SetupOutcome outcome;
         try {
-            outcome = tracker.set_up(stage);
+            outcome = used.tracker.set_up(stage);
         } catch (const DeviceError& error) {
-            if (!connect_again(error.what()))
+            if (!connect_again(used, error.what()))
                 return;
             continue;
         }
         if (outcome.kind == SetupOutcome::Kind::done) {
-            if (accepts(outcome))
+            if (accepts(used, outcome))
                 return;
             continue;
         }
-        state_.note(calibration_failed_event, outcome.message);
+        state_.note_of(used, calibration_failed_event, outcome.message);
         if (state_.ends_by_itself())
             return;
-        if (!confirm(state_.protocol.words.not_calibrated)) {
-            state_.end_session("the eye tracker was not calibrated");
+        if (!confirm(about(used, state_.protocol.words.not_calibrated))) {
+            give_up(used, "the eye tracker was not calibrated");
             return;
         }
     }
@@ -262,27 +294,29 @@ void OperatorControl::calibrate() {
 
 /// Records what the validation found. What is too poor by the protocol, or was calibrated by the program, is
 /// shown to the operator, who decides.
-bool OperatorControl::accepts(const SetupOutcome& outcome) {
+bool OperatorControl::accepts(UsedTracker& used, const SetupOutcome& outcome) {
     const CalibrationKeys& limits = state_.protocol.calibration;
     const WordSettings& words = state_.protocol.words;
     if (!outcome.validation) {
-        state_.note(calibrated_event, outcome.message);
+        state_.note_of(used, calibrated_event, outcome.message);
         return true;
     }
     const ValidationResult& found = *outcome.validation;
-    state_.note(validation_event, fmt::format("mean error {:.3f} deg, largest {:.3f} deg",
-                                              found.mean_error.value, found.max_error.value));
+    state_.note_of(used, validation_event,
+                   fmt::format("mean error {:.3f} deg, largest {:.3f} deg", found.mean_error.value,
+                               found.max_error.value));
     const bool is_good =
         found.mean_error.value <= limits.mean_limit_deg && found.max_error.value <= limits.max_limit_deg;
-    if (!is_good || !state_.ports.tracker.calibrates_itself()) {
-        const std::optional<int> goes_on = confirm(
-            screens::validation(state_.protocol, found, is_good ? words.validation : words.validation_poor));
+    if (!is_good || !used.tracker.calibrates_itself()) {
+        const std::optional<int> goes_on = confirm(screens::validation(
+            state_.protocol, found, about(used, is_good ? words.validation : words.validation_poor)));
         if (!goes_on)
             return false;
         if (!is_good)
-            state_.note(operator_event, "goes on with a validation that is poorer than the protocol allows");
+            state_.note_of(used, operator_event,
+                           "goes on with a validation that is poorer than the protocol allows");
     }
-    state_.log().calibration({state_.now(), state_.trial(), outcome.method, found, is_good});
+    state_.log_of(used).calibration({state_.now(), state_.trial(), outcome.method, found, is_good});
     return true;
 }
 
@@ -301,32 +335,44 @@ void OperatorControl::check_drift() {
     try {
         const DriftOutcome drift = tracker.drift_check(screen_geometry_of(state_.protocol).centre());
         if (drift.kind == DriftOutcome::Kind::set_up_wanted) {
-            state_.note(drift_check_failed_event, "the tracker asked to be set up");
-            calibrate();
+            state_.note_of(state_.own_tracker(), drift_check_failed_event, "the tracker asked to be set up");
+            calibrate(state_.own_tracker());
         } else if (drift.kind == DriftOutcome::Kind::measured) {
-            state_.note(drift_checked_event, fmt::format("{:.3f} deg", drift.error.value));
+            state_.note_of(state_.own_tracker(), drift_checked_event,
+                           fmt::format("{:.3f} deg", drift.error.value));
         } else {
-            state_.note(drift_check_failed_event, "no eye was found");
+            state_.note_of(state_.own_tracker(), drift_check_failed_event, "no eye was found");
         }
     } catch (const DeviceError& error) {
         regain_tracker(error.what());
     }
 }
 
-/// Until it is reached; false: the session is over.
-bool OperatorControl::connect_again(const std::string& why) {
-    state_.note(tracker_lost_event, why);
+/// The session does not go on without its own tracker, and goes on without a further one.
+void OperatorControl::give_up(UsedTracker& used, const std::string& why) {
+    if (!used.is_further()) {
+        state_.end_session(why);
+        return;
+    }
+    used.is_left_out = true;
+    state_.note_of(used, tracker_event, "is left out from here on, until it is calibrated again: " + why);
+}
+
+/// Until it is reached; false: it was given up, or the session is over.
+bool OperatorControl::connect_again(UsedTracker& used, const std::string& why) {
+    if (!std::exchange(used.is_lost, false))
+        state_.note_of(used, tracker_lost_event, why);
     while (!state_.is_over()) {
-        if (!confirm(state_.protocol.words.tracker_lost)) {
-            state_.end_session("the eye tracker was lost");
+        if (!confirm(about(used, state_.protocol.words.tracker_lost))) {
+            give_up(used, "the eye tracker was lost");
             return false;
         }
         try {
-            state_.ports.tracker.reconnect();
-            state_.note(tracker_regained_event);
+            used.tracker.reconnect();
+            state_.note_of(used, tracker_regained_event);
             return true;
         } catch (const DeviceError& error) {
-            state_.note(tracker_lost_event, error.what());
+            state_.note_of(used, tracker_lost_event, error.what());
         }
     }
     return false;
@@ -335,11 +381,18 @@ bool OperatorControl::connect_again(const std::string& why) {
 void OperatorControl::regain_tracker(const std::string& why) {
     const SessionPhase phase = state_.phase();
     const int trial = state_.trial();
-    if (!connect_again(why))
+    if (!connect_again(state_.own_tracker(), why))
         return;
-    calibrate();
+    calibrate(state_.own_tracker());
     if (!state_.is_over() && state_.phase() != phase)
         state_.enter(phase, trial);
+}
+
+void OperatorControl::regain_further_trackers() {
+    for (UsedTracker& used : state_.trackers())
+        if (used.is_further() && !used.is_left_out && (used.is_lost || used.tracker.lost()) &&
+            !state_.is_over() && connect_again(used, "between trials"))
+            calibrate(used);
 }
 
 } // namespace overt

@@ -71,18 +71,24 @@ class OperatorControl {
     const TrialDecision& decision() const { return decision_; }
     void begin_trial() { decision_ = {}; }
 
-    /// Sets the tracker up, until it is calibrated well enough or the operator goes on all the same; else the
-    /// session is over. A tracker that is lost meanwhile is connected again as regain_tracker() does.
+    /// Sets all trackers up, the session's own first; those that were left out are connected again first.
     void calibrate();
+    /// Sets one up, until it is calibrated well enough or the operator goes on all the same; else the session
+    /// is over, or a further tracker is left out. A tracker that is lost meanwhile is connected again as
+    /// regain_tracker() does.
+    void calibrate(UsedTracker& used);
     /// Shows the target in the middle of the screen and compares gaze with it, for the operator: the record
     /// notes what was found. Does nothing else about a drift, except where the tracker asks to be set up.
     void check_drift();
     /// Where what is typed goes to another window: says so on the screen until it comes back, or the session
     /// is over. Between trials.
     void await_keyboard();
-    /// The tracker was lost, with what it said: asks whether to connect again, and sets it up. Otherwise the
-    /// session is over.
+    /// The session's own tracker was lost, with what it said: asks whether to connect again, and sets it up.
+    /// Otherwise the session is over.
     void regain_tracker(const std::string& why = {});
+    /// The same of all further trackers that are lost; what the operator gives up is left out.
+    /// Between trials.
+    void regain_further_trackers();
 
     /// What was decided at the tracker's host.
     void repeat_trial() { decision_ = {TrialDecision::Word::repeated, {}}; }
@@ -92,8 +98,10 @@ class OperatorControl {
   private:
     void pause();
     bool end_trial(ResponsePress::Key key);
-    bool accepts(const SetupOutcome& outcome);
-    bool connect_again(const std::string& why);
+    bool accepts(UsedTracker& used, const SetupOutcome& outcome);
+    bool connect_again(UsedTracker& used, const std::string& why);
+    void give_up(UsedTracker& used, const std::string& why);
+    void begin_calibration();
     void rest_a_little(SessionTime latest);
 
     SessionState& state_;

@@ -1,12 +1,11 @@
 #include "experiment/session/presentation_rehearsal.h"
 
 #include <algorithm>
-#include <variant>
 
 #include <fmt/format.h>
 
 #include "experiment/base/counted.h"
-#include "experiment/base/error.h"
+#include "experiment/session/tracker_feed.h"
 #include "experiment/timing/refresh_ledger.h"
 
 namespace overt {
@@ -27,25 +26,6 @@ std::string quantiles_of(std::vector<double> values) {
         at(0.0), at(0.01), at(0.05), at(0.25), at(0.5), at(0.75), at(0.95), at(0.99), at(1.0));
 }
 
-/// Of the tracker, as a session takes them.
-std::int64_t take_items(int trial, const RehearsalPorts& ports, std::span<TrackerItem> room) noexcept {
-    std::int64_t samples = 0;
-    for (std::size_t count = room.size(); count == room.size();) {
-        count = ports.tracker.poll(room);
-        for (const TrackerItem& item : room.first(count)) {
-            if (const auto* sample = std::get_if<GazeSample>(&item)) {
-                ports.log.sample(trial, *sample);
-                ++samples;
-            } else if (const auto* pair = std::get_if<ClockPair>(&item)) {
-                ports.log.clock_pair(*pair);
-            } else {
-                ports.log.tracker_item(trial, item);
-            }
-        }
-    }
-    return samples;
-}
-
 } // namespace
 
 RehearsedPresentation rehearse_presentation(const Protocol& protocol, const Trial& trial,
@@ -54,7 +34,13 @@ RehearsedPresentation rehearse_presentation(const Protocol& protocol, const Tria
     PageCycle cycle = make_page_cycle(protocol.animation, protocol.display.refresh_hz);
     cycle.total_refreshes = std::min(cycle.total_refreshes, static_cast<int>(cycle.entry_of_refresh.size()));
     RefreshLedger ledger(cycle, protocol.animation.when_late);
-    std::vector<TrackerItem> room(4096);
+    std::vector<TrackerFeed> feeds;
+    for (const RehearsedTracker& rehearsal : ports.trackers)
+        feeds.emplace_back(rehearsal.tracker);
+    const auto take_items = [&]() noexcept {
+        for (std::size_t i = 0; i < feeds.size(); ++i)
+            feeds[i].take_items(trial.index, ports.trackers[i].log);
+    };
     std::vector<FlipReport> flips;
     flips.reserve(static_cast<std::size_t>(cycle.total_refreshes));
 
@@ -62,16 +48,14 @@ RehearsedPresentation rehearse_presentation(const Protocol& protocol, const Tria
     ports.presenter.veil(true);
     ports.presenter.show({});
     ports.log.trial_started(trial, ports.clock.now());
-    try {
-        ports.tracker.start_recording();
-    } catch (const DeviceError& error) {
-        rehearsed.tracker_refusal = error.what();
-    }
+    for (TrackerFeed& feed : feeds)
+        if (!feed.start_recording() && !rehearsed.tracker_refusal)
+            rehearsed.tracker_refusal = feed.why_lost();
     for (PresentationListener* listener : ports.listeners)
         listener->presentation_begins(trial);
     ledger.begin(trial.index);
     while (!ledger.is_complete() && !ports.presenter.closed()) {
-        rehearsed.samples += take_items(trial.index, ports, room);
+        take_items();
         const FlipRecord& flip = ledger.enter(ports.presenter.flip(ledger.next().frame));
         for (int i = 0; i < ledger.missed_count(); ++i)
             ports.log.missed(ledger.missed(i));
@@ -83,9 +67,11 @@ RehearsedPresentation rehearse_presentation(const Protocol& protocol, const Tria
     const SessionTime end = ports.presenter.show({}).vertical_blank;
     for (PresentationListener* listener : ports.listeners)
         listener->screen_shown({}, end);
-    if (!rehearsed.tracker_refusal)
-        ports.tracker.stop_recording();
-    rehearsed.samples += take_items(trial.index, ports, room);
+    for (TrackerFeed& feed : feeds)
+        feed.stop_recording();
+    take_items();
+    for (const TrackerFeed& feed : feeds)
+        rehearsed.samples += feed.sample_count();
     ports.presenter.veil(false);
     ports.presenter.show({});
 

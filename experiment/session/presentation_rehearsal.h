@@ -16,22 +16,28 @@
 
 namespace overt {
 
+/// An eye tracker, and the log of what it alone delivers.
+struct RehearsedTracker {
+    EyeTracker& tracker;
+    SessionLog& log;
+};
+
 /// All of them as the session has them, but for the log: what is rehearsed is not to be in its record.
 struct RehearsalPorts {
     Clock& clock;
     Presenter& presenter;
-    EyeTracker& tracker;
-    SessionLog& log;
+    SessionLog& log; ///< of all trackers, see SharedLog
     std::span<PresentationListener* const> listeners;
+    std::span<const RehearsedTracker> trackers; ///< the session's own first
 };
 
 struct RehearsedPresentation {
     int refreshes = 0; ///< that got their picture
     int missed = 0;
-    std::int64_t samples = 0;                   ///< of the tracker, meanwhile
+    std::int64_t samples = 0;                   ///< of all trackers, meanwhile
     std::vector<double> intervals_ms;           ///< from each vertical blank with a picture to the next such
     std::vector<double> work_ms;                ///< from asking for each picture to handing over its swap
-    std::optional<std::string> tracker_refusal; ///< why the tracker did not record; nothing if it did
+    std::optional<std::string> tracker_refusal; ///< why a tracker did not record; nothing if all did
 };
 
 /// Shows one period of the trial's stimulus, or the whole presentation if that is shorter, on a veiled

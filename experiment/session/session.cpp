@@ -27,32 +27,6 @@ bool comes_again(const AttemptResult& practice, const RepeatSettings& repeats) {
     return practice.is_repeated || (practice.is_rejected && repeats.rejected != RepeatWhen::never);
 }
 
-/// Keeps the events of practice and drops its flips and samples: those are recorded of trials only.
-class PracticeLog final : public SessionLog {
-  public:
-    explicit PracticeLog(SessionLog& record) : record_(record) {}
-    void flip(const FlipRecord&) noexcept override {}
-    void missed(const MissedRefresh&) noexcept override {}
-    void sample(int, const GazeSample&) noexcept override {}
-    void clock_pair(const ClockPair& pair) noexcept override { record_.clock_pair(pair); }
-    void buttons(const std::vector<RecordedButton>& buttons) override {
-        std::vector<RecordedButton> outside = buttons;
-        for (RecordedButton& button : outside)
-            button.trial = -1;
-        record_.buttons(outside);
-    }
-    void markers(const std::vector<RecordedMarker>& markers) override { record_.markers(markers); }
-    void event(const SessionEvent& event) override {
-        record_.event({event.at, -1, event.kind,
-                       event.detail.empty() ? "in practice" : event.detail + ", in practice"});
-    }
-    void trial_started(const Trial&, SessionTime) override {}
-    void trial_finished(const Trial&, const TrialOutcome&) override {}
-
-  private:
-    SessionLog& record_;
-};
-
 } // namespace
 
 Session::Session(const Protocol& protocol, const Schedule& schedule, const ScreenPoint& screen_centre,
@@ -109,6 +83,7 @@ void Session::farewell() {
 void Session::run_step(TrialQueue& queue, const SessionStep& step, SessionResult& result,
                        const TrialDone& trial_done) {
     control_.await_keyboard();
+    control_.regain_further_trackers();
     if (state_.is_over())
         return;
     switch (step.kind) {
@@ -126,7 +101,7 @@ void Session::run_step(TrialQueue& queue, const SessionStep& step, SessionResult
     }
     TrialRun::Attempt attempt = trials_.run(step.trial, queue.expected(), false);
     judge(queue, step.trial, attempt);
-    ports_.log.trial_finished(step.trial, attempt.outcome);
+    state_.record().trial_finished(step.trial, attempt.outcome);
     result.missed_refreshes += attempt.outcome.missed_refreshes;
     if (attempt.outcome.status == TrialOutcome::Status::completed)
         ++result.completed_trials;
@@ -147,13 +122,13 @@ void Session::judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& at
     constexpr std::string_view afterwards[] = {"does not come again", "comes again now",
                                                "comes again at the end of the block"};
     const std::string& why = control_.decision().why;
-    ports_.log.event({state_.now(), trial.index, trial_failed_event,
-                      fmt::format("{}{}{} ({} missed, {:.1f} % of samples without gaze): {}{}",
-                                  name_of(verdict.failure), why.empty() ? "" : ": ", why,
-                                  counted(attempt.result.missed_refreshes, "refresh", "refreshes"),
-                                  100.0 * attempt.result.gaze_lost_share,
-                                  afterwards[static_cast<int>(verdict.comes_again)],
-                                  verdict.counts ? ", and counts as it is" : "")});
+    state_.record().event({state_.now(), trial.index, trial_failed_event,
+                           fmt::format("{}{}{} ({} missed, {:.1f} % of samples without gaze): {}{}",
+                                       name_of(verdict.failure), why.empty() ? "" : ": ", why,
+                                       counted(attempt.result.missed_refreshes, "refresh", "refreshes"),
+                                       100.0 * attempt.result.gaze_lost_share,
+                                       afterwards[static_cast<int>(verdict.comes_again)],
+                                       verdict.counts ? ", and counts as it is" : "")});
 }
 
 void Session::run_instructions(const SessionStep& step) {
@@ -165,23 +140,22 @@ void Session::run_instructions(const SessionStep& step) {
 void Session::run_practice(const SessionStep& step, const std::optional<Condition>& next) {
     const Trial& trial = step.trial;
     const PracticeSettings& practice = state_.protocol.practice[static_cast<std::size_t>(trial.index)];
-    PracticeLog log(ports_.log);
     TrialRun::Attempt attempt;
     do {
-        ports_.log.event({state_.now(), -1, practice_event,
-                          fmt::format("{}: {}, {}, {}", trial.index + 1, practice.task, practice.sculpture,
-                                      practice.material)});
-        state_.log_to(log);
+        state_.record().event({state_.now(), -1, practice_event,
+                               fmt::format("{}: {}, {}, {}", trial.index + 1, practice.task,
+                                           practice.sculpture, practice.material)});
+        state_.set_practice(true);
         attempt = trials_.run(trial, next, true);
-        state_.log_to(ports_.log);
+        state_.set_practice(false);
         if (state_.is_over())
             return;
     } while (comes_again(attempt.result, state_.protocol.repeat));
     if (attempt.result.is_skipped || attempt.result.is_rejected) {
-        ports_.log.event({state_.now(), -1, practice_skipped_event, control_.decision().why});
+        state_.record().event({state_.now(), -1, practice_skipped_event, control_.decision().why});
         return;
     }
-    ports_.log.event({state_.now(), -1, practice_answered_event, attempt.outcome.answer});
+    state_.record().event({state_.now(), -1, practice_answered_event, attempt.outcome.answer});
     if (practice.feedback.empty() || state_.phase() != SessionPhase::response_screen)
         return;
     state_.enter(SessionPhase::feedback);

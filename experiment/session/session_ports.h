@@ -19,6 +19,13 @@
 
 namespace overt {
 
+/// An eye tracker that records beside the session's own.
+struct FurtherTracker {
+    std::string id; ///< as [[further_tracker]] has it
+    EyeTracker& tracker;
+    SessionLog& log; ///< a record of its own: it gets what was shown and answered as well, see SharedLog
+};
+
 /// All of it must outlive the session.
 struct SessionPorts {
     Clock& clock;
@@ -35,6 +42,8 @@ struct SessionPorts {
     /// One for each [[marker_output]] of the protocol, in their order; null for one that rides on the video
     /// signal, or is left out. None at all: no marker is sent.
     std::vector<MarkerSink*> markers = {};
+    /// They are set up and record with the session's own tracker, by which alone trials are judged.
+    std::vector<FurtherTracker> further_trackers = {};
     /// Sounds while the tracker is set up; may be empty.
     std::function<void(SetupBeep)> on_beep = {};
     /// Told of each image of the tracker's camera that is shown; may be empty.

@@ -1,8 +1,19 @@
 #include "experiment/session/session_state.h"
 
+#include <fmt/format.h>
+
 #include "experiment/base/error.h"
 
 namespace overt {
+
+SessionState::SessionState(const Protocol& of, SessionPorts& on)
+    : protocol(of), ports(on), markers(of, on.markers), record_(on.log), practice_(record_) {
+    trackers_.emplace_back(std::string(), on.tracker, on.log);
+    for (const FurtherTracker& further : on.further_trackers) {
+        trackers_.emplace_back(further.id, further.tracker, further.log);
+        record_.add(further.log);
+    }
+}
 
 void SessionState::enter(SessionPhase phase, int trial) {
     OVERT_EXPECTS(may_follow(phase_, phase));
@@ -15,7 +26,15 @@ void SessionState::enter(SessionPhase phase, int trial) {
 }
 
 void SessionState::note(std::string_view kind, std::string detail) {
-    log_->event({now(), trial_, kind, std::move(detail)});
+    log().event({now(), trial_, kind, std::move(detail)});
+}
+
+void SessionState::note_of(UsedTracker& used, std::string_view kind, const std::string& detail) {
+    log_of(used).event({now(), trial_, kind, detail});
+    if (used.is_further())
+        log_of(own_tracker())
+            .event({now(), trial_, further_tracker_event,
+                    fmt::format("{}: {}{}{}", used.id, kind, detail.empty() ? "" : ": ", detail)});
 }
 
 SessionTime SessionState::show(const Screen& screen) {

@@ -1,22 +1,41 @@
-/// What all parts of a session work on: its ports, its phase, and whether it is over.
+/// What all parts of a session work on: its ports, its trackers and records, its phase, and whether it is
+/// over.
 #pragma once
 
+#include <deque>
 #include <string>
 #include <string_view>
 
 #include "experiment/ports/event_kinds.h"
 #include "experiment/ports/session_phase.h"
 #include "experiment/protocol/protocol.h"
+#include "experiment/session/practice_log.h"
 #include "experiment/session/session_markers.h"
 #include "experiment/session/session_ports.h"
+#include "experiment/session/shared_log.h"
 
 namespace overt {
+
+/// One of the eye trackers of a session, and its record.
+struct UsedTracker {
+    UsedTracker(std::string called, EyeTracker& of, SessionLog& into)
+        : id(std::move(called)), tracker(of), record(into), practice(into) {}
+    std::string id; ///< empty: the session's own
+    EyeTracker& tracker;
+    SessionLog& record;
+    PracticeLog practice;
+    bool is_lost = false;     ///< in a trial, which the record says; the operator was not asked yet
+    bool is_left_out = false; ///< a further one that the operator gave up, until it is calibrated again
+
+    bool is_further() const { return !id.empty(); }
+};
 
 class SessionState {
   public:
     /// Both must outlive this.
-    SessionState(const Protocol& of, SessionPorts& on)
-        : protocol(of), ports(on), markers(of, on.markers), log_(&on.log) {}
+    SessionState(const Protocol& of, SessionPorts& on);
+    SessionState(const SessionState&) = delete;
+    SessionState& operator=(const SessionState&) = delete;
 
     const Protocol& protocol;
     SessionPorts& ports;
@@ -24,9 +43,19 @@ class SessionState {
 
     SessionTime now() const noexcept { return ports.clock.now(); }
 
-    /// The record; in practice, one that keeps events only.
-    SessionLog& log() { return *log_; }
-    void log_to(SessionLog& log) { log_ = &log; }
+    /// All records at once.
+    SessionLog& record() { return record_; }
+    /// The same; in practice, it keeps events only.
+    SessionLog& log() { return is_practice_ ? static_cast<SessionLog&>(practice_) : record_; }
+    void set_practice(bool is_practice) { is_practice_ = is_practice; }
+
+    /// The session's own comes first.
+    std::deque<UsedTracker>& trackers() { return trackers_; }
+    UsedTracker& own_tracker() { return trackers_.front(); }
+    /// The tracker's record alone; in practice, it keeps events only.
+    SessionLog& log_of(UsedTracker& used) {
+        return is_practice_ ? static_cast<SessionLog&>(used.practice) : used.record;
+    }
 
     SessionPhase phase() const noexcept { return phase_; }
     int trial() const noexcept { return trial_; } ///< -1 outside of trials
@@ -35,6 +64,8 @@ class SessionState {
 
     /// An event now, of the trial that is running.
     void note(std::string_view kind, std::string detail = {});
+    /// The same of one tracker, in its own record. Of a further one the session's record knows as well.
+    void note_of(UsedTracker& used, std::string_view kind, const std::string& detail = {});
 
     /// Records what response boxes and outputs of markers did since. Not during a presentation.
     void write_down() {
@@ -57,7 +88,10 @@ class SessionState {
     bool ends_by_itself();
 
   private:
-    SessionLog* log_;
+    std::deque<UsedTracker> trackers_;
+    SharedLog record_;
+    PracticeLog practice_;
+    bool is_practice_ = false;
     SessionPhase phase_ = SessionPhase::set_up;
     int trial_ = -1;
     bool is_over_ = false;

@@ -7,7 +7,6 @@
 
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
-#include "experiment/clock_map.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/ports/trial_mark.h"
 #include "experiment/session/answer_check.h"
@@ -19,9 +18,6 @@ namespace overt {
 namespace {
 
 constexpr SessionDuration poll_interval = std::chrono::milliseconds(4);
-
-/// Readings of both clocks at each end of a presentation.
-constexpr int clock_readings = 8;
 
 /// The two clocks that tell of a sleep are read one after the other: less than this may be that.
 constexpr double shortest_sleep_s = 0.005;
@@ -41,7 +37,10 @@ using How = OperatorControl::How;
 TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre)
     : state_(state), control_(control), screen_centre_(screen_centre),
       cycle_(make_page_cycle(state.protocol.animation, state.protocol.display.refresh_hz)),
-      ledger_(cycle_, state.protocol.animation.when_late), items_(4096) {}
+      ledger_(cycle_, state.protocol.animation.when_late) {
+    for (UsedTracker& used : state.trackers())
+        feeds_.push_back({used, TrackerFeed(used.tracker)});
+}
 
 TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Condition>& next, bool is_practice) {
     Attempt attempt;
@@ -102,12 +101,12 @@ void TrialRun::check_drift(TrialOutcome& outcome) {
     }
     while (const std::optional<std::string> failure = failed_check(outcome)) {
         ++failed_checks_;
-        state_.note(drift_check_failed_event, *failure);
+        state_.note_of(state_.own_tracker(), drift_check_failed_event, *failure);
         const bool may_check_again = failed_checks_ < settings.drift_checks;
         if (settings.on_drift == DriftPolicy::reject)
             control_.reject_trial();
         if (settings.on_drift == DriftPolicy::recalibrate && may_check_again) {
-            control_.calibrate();
+            control_.calibrate(state_.own_tracker());
             control_.repeat_trial();
             return;
         }
@@ -140,8 +139,8 @@ std::optional<std::string> TrialRun::failed_check(TrialOutcome& outcome) {
     }
     if (drift.kind == DriftOutcome::Kind::set_up_wanted) {
         // Asked for at the tracker's host: the trial begins anew once it is done.
-        state_.note(drift_check_failed_event, "the tracker asked to be set up");
-        control_.calibrate();
+        state_.note_of(state_.own_tracker(), drift_check_failed_event, "the tracker asked to be set up");
+        control_.calibrate(state_.own_tracker());
         control_.repeat_trial();
         return {};
     }
@@ -160,12 +159,14 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
     const SessionPorts& ports = state_.ports;
     const SessionDuration lead = from_seconds(state_.protocol.screens.recording_lead_s);
     state_.enter(SessionPhase::stimulus, state_.trial());
+    TrackerFeed& own = feeds_.front().items;
     read_clocks();
-    if (jump_)
-        state_.note(tracker_clock_jumped_event,
-                    fmt::format("by {:+.3f} ms before the trial", 1e3 * to_seconds(*jump_)));
-    jump_.reset();
-    if (!start_recording())
+    for (Feed& feed : feeds_)
+        if (const std::optional<SessionDuration> jump = feed.items.take_jump())
+            state_.note_of(feed.used, tracker_clock_jumped_event,
+                           fmt::format("by {:+.3f} ms before the trial", 1e3 * to_seconds(*jump)));
+    start_recording();
+    if (!own.has_recorded())
         return;
     state_.show({});
     wait_and_take_items(trial.index, state_.now() + lead);
@@ -178,8 +179,8 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
     ledger_.begin(trial.index);
     state_.markers.begin_presentation();
     while (!ledger_.is_complete() && !state_.went_away() && !is_broken_off() &&
-           recording_ == RecordingState::running) {
-        // Take what the tracker has seen so far.
+           own.state() == RecordingState::running) {
+        // Take what the trackers have seen so far.
         take_items(trial.index);
         // Show the frame that the plan has next, and learn when it was lit.
         state_.markers.before_flip(ledger_.next_refresh(), ledger_.next().frame, ports.presenter);
@@ -194,96 +195,91 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
             listener->flipped(flip);
         // Remember what the operator pressed, here or at the tracker's host.
         look_at_keys();
-        recording_ = ports.tracker.recording_state();
+        own.look_at_state();
     }
     outcome.presentation_onset = ledger_.onset();
     outcome.shown_refreshes = ledger_.shown_refreshes();
     outcome.missed_refreshes = ledger_.missed_refreshes();
     attempt.result.missed_refreshes = outcome.missed_refreshes;
-    if (sample_count_ > 0)
-        attempt.result.gaze_lost_share =
-            static_cast<double>(lost_count_) / static_cast<double>(sample_count_);
+    attempt.result.gaze_lost_share = own.lost_share();
 
     outcome.presentation_end = state_.show({});
     outcome.swaps = ports.presenter.take_swap_modes();
     mark(MarkedEvent::end, outcome.presentation_end, "PRESENTATION_END");
     state_.ends_by_itself();
     wait_and_take_items(trial.index, state_.now() + lead);
-    ports.tracker.stop_recording();
+    for (Feed& feed : feeds_)
+        feed.items.stop_recording();
     take_items(trial.index);
     read_clocks();
-    if (recording_ == RecordingState::running)
-        recording_ = ports.tracker.recording_state();
+    for (Feed& feed : feeds_)
+        feed.items.look_at_state();
     note_what_came(attempt);
+    note_lost_trackers();
 }
 
-/// Whether it began; else it is lost.
-bool TrialRun::start_recording() {
-    sample_count_ = lost_count_ = doubled_count_ = 0;
-    last_at_ = {};
+/// Of all trackers; that of the session must begin, the others may be missing.
+void TrialRun::start_recording() {
     pressed_.reset();
     marked_frame_ = no_frame;
-    recording_ = RecordingState::running;
-    why_lost_.clear();
-    has_presented_ = false;
-    try {
-        state_.ports.tracker.start_recording();
-    } catch (const DeviceError& error) {
-        why_lost_ = error.what();
-        recording_ = RecordingState::lost;
-        return false;
-    }
-    has_presented_ = true;
-    return true;
-}
-
-/// What became of the tracker's clock and samples meanwhile. An attempt in which the clock jumped has samples
-/// whose times are not known.
-void TrialRun::note_what_came(Attempt& attempt) {
-    if (doubled_count_ > 0)
-        state_.note(tracker_event,
-                    fmt::format("{} came twice and {} left out the second time",
-                                counted(doubled_count_, "sample"), doubled_count_ == 1 ? "was" : "were"));
-    if (!jump_)
-        return;
-    state_.note(tracker_clock_jumped_event,
-                fmt::format("by {:+.3f} ms in the trial", 1e3 * to_seconds(*jump_)));
-    jump_.reset();
-    attempt.result.is_rejected = true;
-}
-
-/// Two readings in a row that agree with each other and not with the one before tell of a jump; one alone
-/// may have been delayed.
-void TrialRun::watch(const ClockPair& pair) noexcept {
-    if (const std::optional<SessionDuration> jump = steady_ ? clock_jump(*steady_, pair) : std::nullopt) {
-        if (!suspect_ || clock_jump(*suspect_, pair)) {
-            suspect_ = pair;
+    // The session's own is asked first: without it there is no presentation.
+    for (Feed& feed : feeds_)
+        if (!feed.used.is_left_out && !feed.items.start_recording() && !feed.used.is_further())
             return;
+}
+
+/// What became of the trackers' clocks and samples meanwhile. An attempt in which the clock of the session's
+/// own jumped has samples whose times are not known.
+void TrialRun::note_what_came(Attempt& attempt) {
+    for (Feed& feed : feeds_) {
+        if (feed.used.is_left_out)
+            continue;
+        const std::int64_t doubled = feed.items.doubled_count();
+        if (doubled > 0)
+            state_.note_of(feed.used, tracker_event,
+                           fmt::format("{} came twice and {} left out the second time",
+                                       counted(doubled, "sample"), doubled == 1 ? "was" : "were"));
+        if (const std::optional<SessionDuration> jump = feed.items.take_jump()) {
+            state_.note_of(feed.used, tracker_clock_jumped_event,
+                           fmt::format("by {:+.3f} ms in the trial", 1e3 * to_seconds(*jump)));
+            attempt.result.is_rejected = attempt.result.is_rejected || !feed.used.is_further();
         }
-        jump_ = jump;
     }
-    steady_ = pair;
-    suspect_.reset();
+}
+
+/// Further trackers that did not record all of the presentation. The operator is asked about them before the
+/// next trial: this one goes on.
+void TrialRun::note_lost_trackers() {
+    for (Feed& feed : feeds_)
+        if (feed.used.is_further() && !feed.used.is_left_out && feed.items.state() == RecordingState::lost) {
+            feed.used.is_lost = true;
+            state_.note_of(feed.used, tracker_lost_event, feed.items.why_lost());
+        }
 }
 
 void TrialRun::mark(MarkedEvent event, SessionTime at, std::string_view text) noexcept {
-    state_.ports.tracker.mark({at, text});
+    mark_trackers(at, text);
     state_.markers.mark(event, at, text);
 }
 
-/// For the tracker, the onset, and each change of the frame: "FRAME 12" is on the screen from its flip's
+void TrialRun::mark_trackers(SessionTime at, std::string_view text) noexcept {
+    for (Feed& feed : feeds_)
+        if (!feed.used.is_left_out)
+            feed.used.tracker.mark({at, text});
+}
+
+/// For the trackers, the onset, and each change of the frame: "FRAME 12" is on the screen from its flip's
 /// vertical blank on.
 void TrialRun::mark_flip(const FlipRecord& flip) noexcept {
     if (flip.shown == marked_frame_)
         return;
     const SessionTime lit = flip.report.vertical_blank;
-    EyeTracker& tracker = state_.ports.tracker;
     if (marked_frame_ == no_frame)
-        tracker.mark({lit, "SYNCTIME"});
+        mark_trackers(lit, "SYNCTIME");
     marked_frame_ = flip.shown;
     std::array<char, 24> text{};
     const auto end = fmt::format_to_n(text.data(), text.size(), "FRAME {}", flip.shown.value).out;
-    tracker.mark({lit, {text.data(), end}});
+    mark_trackers(lit, {text.data(), end});
 }
 
 /// What a viewer of the tracker's file groups trials by, and how the attempt ended.
@@ -291,7 +287,7 @@ void TrialRun::mark_result(const Trial& trial, const Attempt& attempt) {
     const SessionTime now = state_.now();
     const auto variable = [&](std::string_view name, std::string_view value) {
         const std::string text = fmt::format("!V TRIAL_VAR {} {}", name, value);
-        state_.ports.tracker.mark({now, text});
+        mark_trackers(now, text);
         state_.markers.tell(now, text);
     };
     variable("task", state_.protocol.tasks[static_cast<std::size_t>(trial.task)].id);
@@ -312,14 +308,15 @@ void TrialRun::look_at_keys() noexcept {
 
 /// What was decided at the tracker's host, or became of the tracker, becomes of the attempt.
 void TrialRun::act_on_tracker(Attempt& attempt) {
-    if (recording_ == RecordingState::running || state_.is_over())
+    const TrackerFeed& own = feeds_.front().items;
+    if (own.state() == RecordingState::running || state_.is_over())
         return;
     attempt.result.is_rejected = true;
-    if (has_presented_ && !ledger_.is_complete())
+    if (own.has_recorded() && !ledger_.is_complete())
         state_.note(presentation_broken_off_event,
                     fmt::format("by the eye tracker, after {}",
                                 counted(attempt.outcome.shown_refreshes, "refresh", "refreshes")));
-    switch (recording_) {
+    switch (own.state()) {
     case RecordingState::running:
         break;
     case RecordingState::repeat:
@@ -335,7 +332,7 @@ void TrialRun::act_on_tracker(Attempt& attempt) {
         state_.end_session("aborted at the eye tracker");
         break;
     case RecordingState::lost:
-        control_.regain_tracker(why_lost_);
+        control_.regain_tracker(own.why_lost());
         break;
     }
 }
@@ -434,31 +431,9 @@ void TrialRun::note_disturbance(const Clock::Disturbance& before) {
 }
 
 void TrialRun::take_items(int trial) noexcept {
-    std::size_t taken = 0;
-    do {
-        taken = state_.ports.tracker.poll(items_);
-        for (std::size_t i = 0; i < taken; ++i)
-            take(trial, items_[i]);
-    } while (taken == items_.size());
-}
-
-void TrialRun::take(int trial, const TrackerItem& item) noexcept {
-    if (const auto* sample = std::get_if<GazeSample>(&item)) {
-        std::optional<TrackerTime>& last_at = last_at_[sample->eye == Eye::left ? 0 : 1];
-        if (last_at == sample->sampled_at) {
-            ++doubled_count_;
-            return;
-        }
-        last_at = sample->sampled_at;
-        ++sample_count_;
-        lost_count_ += sample->gaze ? 0 : 1;
-        state_.log().sample(trial, *sample);
-    } else if (const auto* pair = std::get_if<ClockPair>(&item)) {
-        watch(*pair);
-        state_.log().clock_pair(*pair);
-    } else {
-        state_.log().tracker_item(trial, item);
-    }
+    for (Feed& feed : feeds_)
+        if (!feed.used.is_left_out && feed.items.has_recorded())
+            feed.items.take_items(trial, state_.log_of(feed.used));
 }
 
 void TrialRun::wait_and_take_items(int trial, SessionTime until) noexcept {
@@ -470,13 +445,9 @@ void TrialRun::wait_and_take_items(int trial, SessionTime until) noexcept {
 }
 
 void TrialRun::read_clocks() noexcept {
-    if (!state_.ports.tracker.measures_gaze())
-        return;
-    for (int i = 0; i < clock_readings; ++i)
-        if (const std::optional<ClockPair> pair = state_.ports.tracker.read_clocks()) {
-            watch(*pair);
-            state_.log().clock_pair(*pair);
-        }
+    for (Feed& feed : feeds_)
+        if (!feed.used.is_left_out)
+            feed.items.read_clocks(state_.log_of(feed.used));
 }
 
 } // namespace overt

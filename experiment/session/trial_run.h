@@ -1,13 +1,13 @@
 /// One attempt at a trial: question, drift check, animation, answer.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "experiment/design/trial_queue.h"
 #include "experiment/session/operator_control.h"
+#include "experiment/session/tracker_feed.h"
 #include "experiment/timing/refresh_ledger.h"
 
 namespace overt {
@@ -31,10 +31,10 @@ class TrialRun {
     void ask(const Trial& trial, Attempt& attempt);
     void check_drift(TrialOutcome& outcome);
     std::optional<std::string> failed_check(TrialOutcome& outcome);
-    bool start_recording();
-    void watch(const ClockPair& pair) noexcept;
+    void start_recording();
     void note_what_came(Attempt& attempt);
     void act_on_tracker(Attempt& attempt);
+    void note_lost_trackers();
     void present(const Trial& trial, Attempt& attempt);
     void act_on_pressed_keys(Attempt& attempt);
     void take_answer(const Trial& trial, const std::optional<Condition>& next, bool is_practice,
@@ -42,12 +42,12 @@ class TrialRun {
     void keep_answer(AnswerRecording& recording);
     bool goes_on(const Attempt& attempt) const;
     void take_items(int trial) noexcept;
-    void take(int trial, const TrackerItem& item) noexcept;
     void wait_and_take_items(int trial, SessionTime until) noexcept;
     void read_clocks() noexcept;
     void look_at_keys() noexcept;
-    /// To the tracker and to the outputs of markers.
+    /// To the trackers and to the outputs of markers.
     void mark(MarkedEvent event, SessionTime at, std::string_view text) noexcept;
+    void mark_trackers(SessionTime at, std::string_view text) noexcept;
     void mark_flip(const FlipRecord& flip) noexcept;
     void mark_result(const Trial& trial, const Attempt& attempt);
     void note_disturbance(const Clock::Disturbance& before);
@@ -57,19 +57,16 @@ class TrialRun {
     ScreenPoint screen_centre_;
     PageCycle cycle_;
     RefreshLedger ledger_;
-    std::vector<TrackerItem> items_;                     ///< room for one poll
-    std::int64_t sample_count_ = 0, lost_count_ = 0;     ///< samples taken, and those without gaze
-    std::optional<ResponsePress> pressed_;               ///< by the operator during a presentation, the first
-    AnimationFrameIndex marked_frame_ = no_frame;        ///< the last whose flip the tracker was told of
-    RecordingState recording_ = RecordingState::running; ///< the first that was not, of this presentation
-    bool has_presented_ = false;                         ///< the recording began
-    std::string why_lost_;                               ///< as the tracker said before it began to record
-    std::array<std::optional<TrackerTime>, 2> last_at_;  ///< of each eye's samples, of this recording
-    std::int64_t doubled_count_ = 0;                     ///< samples that had been taken already
-    std::optional<int> checked_trial_;                   ///< whose drift checks are counted
+    /// Of one tracker of the session.
+    struct Feed {
+        UsedTracker& used;
+        TrackerFeed items;
+    };
+    std::vector<Feed> feeds_;                     ///< of all trackers, the session's own first
+    std::optional<ResponsePress> pressed_;        ///< by the operator during a presentation, the first
+    AnimationFrameIndex marked_frame_ = no_frame; ///< the last whose flip the trackers were told of
+    std::optional<int> checked_trial_;            ///< whose drift checks are counted
     int failed_checks_ = 0;
-    std::optional<ClockPair> steady_, suspect_; ///< the last reading on the line, and one that is off it
-    std::optional<SessionDuration> jump_;       ///< of the tracker's clock
 };
 
 } // namespace overt

@@ -14,6 +14,7 @@
 #include "experiment/events/event_agreement.h"
 #include "experiment/events/event_detector.h"
 #include "experiment/record/tables/table_export.h"
+#include "experiment/record/write/session_store.h"
 #include "experiment/session/session.h"
 #include "render/gl/headless_context.h"
 #include "render/presenter/page_presenter.h"

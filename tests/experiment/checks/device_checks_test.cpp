@@ -40,6 +40,24 @@ TEST_CASE("response boxes that cannot be meant so are errors at their keys", "[u
     check_fault(box("kind = \"joystick\"\n"), "14:8", "unknown value");
 }
 
+TEST_CASE("further eye trackers that cannot be meant so are errors at their keys", "[unit]") {
+    const std::string further = "[[further_tracker]]\nid = \"second\"\n";
+    CHECK(found(further).empty());
+    CHECK(found(further + "kind = \"eyelink\"\nrate_hz = 500\n").empty());
+    check_fault(further + "kind = \"none\"\n", "14:8", "must measure gaze");
+    check_fault(further + "[tracker]\nkind = \"none\"\n", "15:8",
+                "there is no eye tracker of the session's own");
+    check_fault(further + "kind = \"lsl\"\n[tracker]\nkind = \"lsl\"\n", "14:8",
+                "the same device as that of [tracker]");
+    check_fault(further +
+                    "kind = \"lsl\"\naddress = \"a\"\n[[further_tracker]]\nid = \"third\"\nkind = \"lsl\"\n"
+                    "address = \"a\"\n",
+                "18:8", "that of the further tracker \"second\"");
+    CHECK(found(further + "kind = \"lsl\"\naddress = \"a\"\n[tracker]\nkind = \"lsl\"\n").empty());
+    check_fault(further + further, "15:6", "is taken already");
+    check_fault(further + "drift_limit_deg = 1\n", "14:1", "drift_limit_deg");
+}
+
 TEST_CASE("a keyboard that is the operator's alone needs a box that answers", "[unit]") {
     const std::string alone = "[operator]\nkeyboard_answers = false\n";
     check_fault(alone, "13:20", "nothing would answer for the observer");

@@ -265,6 +265,7 @@ struct Sitting {
                         .observer = "P1",
                         .can_type = true,
                         .recorder = recorder,
+                        .further_trackers = further,
                         .on_camera = [this](const CameraImage& image) { cameras.push_back(image); }},
                        fields)
             .run({});
@@ -277,6 +278,7 @@ struct Sitting {
     NotingLog log;
     FieldValues fields;
     AnswerRecorder* recorder = nullptr;
+    std::vector<FurtherTracker> further;
     std::vector<CameraImage> cameras; ///< that the session told of
 };
 

@@ -34,8 +34,9 @@ struct Rehearsal {
     RehearsedPresentation run() {
         const Schedule schedule = make_schedule(protocol, {"P", 1}, 1);
         PresentationListener* const listeners[] = {&hindrance};
+        const RehearsedTracker trackers[] = {{tracker, log}};
         return rehearse_presentation(protocol, schedule.trials.front(),
-                                     {clock, presenter, tracker, log, listeners});
+                                     {clock, presenter, log, listeners, trackers});
     }
 };
 

@@ -1,0 +1,108 @@
+#include "experiment/session/tracker_feed.h"
+
+#include <utility>
+
+#include "experiment/base/error.h"
+#include "experiment/clock_map.h"
+
+namespace overt {
+
+namespace {
+
+/// Readings of both clocks at each end of a presentation.
+constexpr int clock_readings = 8;
+
+constexpr std::size_t items_of_a_poll = 4096;
+
+} // namespace
+
+TrackerFeed::TrackerFeed(EyeTracker& tracker) : tracker_(tracker), items_(items_of_a_poll) {}
+
+bool TrackerFeed::start_recording() {
+    sample_count_ = lost_count_ = doubled_count_ = 0;
+    last_at_ = {};
+    state_ = RecordingState::running;
+    why_lost_.clear();
+    has_recorded_ = false;
+    try {
+        tracker_.start_recording();
+    } catch (const DeviceError& error) {
+        why_lost_ = error.what();
+        state_ = RecordingState::lost;
+        return false;
+    }
+    has_recorded_ = true;
+    return true;
+}
+
+void TrackerFeed::stop_recording() {
+    if (has_recorded_)
+        tracker_.stop_recording();
+}
+
+void TrackerFeed::look_at_state() noexcept {
+    if (state_ == RecordingState::running)
+        state_ = tracker_.recording_state();
+}
+
+double TrackerFeed::lost_share() const noexcept {
+    return sample_count_ > 0 ? static_cast<double>(lost_count_) / static_cast<double>(sample_count_) : 0.0;
+}
+
+std::optional<SessionDuration> TrackerFeed::take_jump() noexcept {
+    return std::exchange(jump_, std::nullopt);
+}
+
+void TrackerFeed::take_items(int trial, SessionLog& log) noexcept {
+    std::size_t taken = 0;
+    do {
+        taken = tracker_.poll(items_);
+        for (std::size_t i = 0; i < taken; ++i)
+            take(trial, items_[i], log);
+    } while (taken == items_.size());
+}
+
+void TrackerFeed::take(int trial, const TrackerItem& item, SessionLog& log) noexcept {
+    if (const auto* sample = std::get_if<GazeSample>(&item)) {
+        std::optional<TrackerTime>& last_at = last_at_[sample->eye == Eye::left ? 0 : 1];
+        if (last_at == sample->sampled_at) {
+            ++doubled_count_;
+            return;
+        }
+        last_at = sample->sampled_at;
+        ++sample_count_;
+        lost_count_ += sample->gaze ? 0 : 1;
+        log.sample(trial, *sample);
+    } else if (const auto* pair = std::get_if<ClockPair>(&item)) {
+        watch(*pair);
+        log.clock_pair(*pair);
+    } else {
+        log.tracker_item(trial, item);
+    }
+}
+
+void TrackerFeed::read_clocks(SessionLog& log) noexcept {
+    if (!tracker_.measures_gaze())
+        return;
+    for (int i = 0; i < clock_readings; ++i)
+        if (const std::optional<ClockPair> pair = tracker_.read_clocks()) {
+            watch(*pair);
+            log.clock_pair(*pair);
+        }
+}
+
+/// Two readings in a row that agree with each other and not with the one before tell of a jump; one alone
+/// may have been delayed.
+void TrackerFeed::watch(const ClockPair& pair) noexcept {
+    if (const std::optional<SessionDuration> jump = steady_ ? clock_jump(*steady_, pair) : std::nullopt) {
+        if (!suspect_ || clock_jump(*suspect_, pair)) {
+            suspect_ = pair;
+            return;
+        }
+        jump_ = jump;
+    }
+    steady_ = pair;
+    suspect_.reset();
+}
+
+} // namespace overt
