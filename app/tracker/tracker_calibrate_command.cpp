@@ -6,6 +6,7 @@
 #include "app/rig/rig.h"
 #include "app/rig/setup_sounds.h"
 #include "app/tracker/calibration_text.h"
+#include "app/tracker/chosen_tracker.h"
 #include "app/tracker/tracker_commands.h"
 #include "experiment/base/error.h"
 #include "experiment/session/operator_control.h"
@@ -38,6 +39,7 @@ int run_tracker_calibrate(const TrackerCalibrateOptions& options) {
     Experiment experiment =
         read_experiment_or_report(options.protocol, cache_folder(), InputDepth::sculptures);
     Protocol& protocol = experiment.protocol;
+    protocol = with_one_tracker(protocol, options.further);
     if (!options.kind.empty())
         protocol.tracker.kind = tracker_kind_called(options.kind);
     if (options.by_overt)

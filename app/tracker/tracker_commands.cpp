@@ -7,6 +7,11 @@ namespace overt {
 
 namespace {
 
+void add_further(CLI::App& command, std::string& further) {
+    command.add_option("--further", further, "Id of the protocol's [[further_tracker]] that is meant")
+        ->type_name("ID");
+}
+
 void add_list(CLI::App& app, ChosenCommand& chosen) {
     const auto given = std::make_shared<TrackerListOptions>();
     CLI::App& command = add_command(app, "list", "The kinds of eye tracker, and what of them is found here",
@@ -23,6 +28,7 @@ void add_test(CLI::App& app, ChosenCommand& chosen) {
         "Records for some seconds and says how fast the tracker samples, what it loses, how its clock runs",
         "overt tracker test --tracker opengaze --address 127.0.0.1:4242 --seconds 30");
     command.add_option("PROTOCOL", options.protocol, "Whose [tracker] is tested (default: a simulated one)");
+    add_further(command, options.further);
     command.add_option("--tracker", options.kind, "Kind of eye tracker, instead of the protocol's")
         ->check(CLI::IsMember(std::vector<std::string>(tracker_names.begin(), tracker_names.end())));
     command.add_option("--address", options.address, "Where it is, as [tracker] address")->type_name("TEXT");
@@ -48,6 +54,7 @@ void add_calibrate(CLI::App& app, ChosenCommand& chosen) {
         "  overt tracker calibrate protocols/overt_2019.toml --by-overt --simulate-observer 1 --virtual-time "
         "--context osmesa --picture validation.png");
     command.add_option("PROTOCOL", options.protocol, "Whose screen and tracker")->required();
+    add_further(command, options.further);
     command.add_option("--tracker", options.kind, "Kind of eye tracker, instead of the protocol's")
         ->check(CLI::IsMember(std::vector<std::string>(tracker_names.begin(), tracker_names.end())));
     command.add_flag("--by-overt", options.by_overt,

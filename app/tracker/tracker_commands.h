@@ -22,6 +22,7 @@ int run_tracker_list(const TrackerListOptions& options);
 
 struct TrackerTestOptions {
     std::filesystem::path protocol; ///< whose [tracker] is tested; empty: the defaults
+    std::string further;            ///< id of the further tracker that is meant; empty: that of [tracker]
     std::string kind;               ///< instead of the protocol's
     std::string address, library;   ///< likewise
     double rate_hz = 0.0;           ///< likewise; 0: the protocol's
@@ -32,6 +33,7 @@ int run_tracker_test(const TrackerTestOptions& options);
 
 struct TrackerCalibrateOptions {
     std::filesystem::path protocol;
+    std::string further;   ///< as in TrackerTestOptions
     std::string kind;      ///< instead of the protocol's
     bool by_overt = false; ///< by the program, on top of what the tracker measures
     ContextChoice context;

@@ -8,6 +8,7 @@
 #include "app/cli/progress_bar.h"
 #include "app/inputs/protocol_file.h"
 #include "app/rig/tracker_devices.h"
+#include "app/tracker/chosen_tracker.h"
 #include "app/tracker/stream_figures.h"
 #include "app/tracker/tracker_commands.h"
 #include "devices/host/clocks.h"
@@ -24,6 +25,7 @@ Protocol wished(const TrackerTestOptions& options) {
     Protocol protocol;
     if (!options.protocol.empty())
         protocol = read_protocol_or_report(options.protocol);
+    protocol = with_one_tracker(protocol, options.further);
     TrackerSettings& tracker = protocol.tracker;
     if (!options.kind.empty())
         tracker.kind = tracker_kind_called(options.kind);

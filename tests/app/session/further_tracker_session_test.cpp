@@ -143,6 +143,27 @@ TEST_CASE("attempts that only a further tracker's record has do not count once t
     CHECK(experiment.overt({"verify", session.string()}).exit_code == 0);
 }
 
+TEST_CASE("overt tracker tests and calibrates the further tracker that is named", "[session]") {
+    const SmallExperiment experiment = of_two();
+    const std::string protocol = experiment.protocol().string();
+    const auto rate_of = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"tracker", "test", protocol, "--seconds", "0.5", "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramRun run = experiment.overt(arguments);
+        INFO(run.out << run.err);
+        return run.out.find("\"granted_rate_hz\": 500.0") != std::string::npos;
+    };
+    CHECK(rate_of({"--further", "second"}));
+    CHECK_FALSE(rate_of({}));
+    const ProgramRun unknown = experiment.overt({"tracker", "test", protocol, "--further", "third"});
+    CHECK(unknown.exit_code == 2);
+    CHECK_THAT(unknown.err, Contains("--further third: the protocol's further trackers are second"));
+    CHECK(experiment
+              .overt({"tracker", "calibrate", protocol, "--further", "second", "--simulate-observer", "1",
+                      "--virtual-time", "--context", "osmesa"})
+              .exit_code == 0);
+}
+
 TEST_CASE("with --tracker further trackers are left out, and it is said", "[session]") {
     const SmallExperiment experiment = of_two();
     const ProgramRun run = experiment.run({"--trials", "1", "--tracker", "simulated"});
