@@ -29,7 +29,6 @@ class PupilPeer {
     std::atomic<double> confidence{0.95};
     std::atomic<int> cameras{2}; ///< 2: both eyes; 0, 1: that camera only
     std::atomic<double> calibration_s{0.1};
-    std::string sub_port_answer; ///< set before connecting; empty: the true one
 
     PupilPeer() : context_(zmq_ctx_new()) {
         remote_ = bound(ZMQ_REP, remote_port_);
@@ -46,6 +45,12 @@ class PupilPeer {
     }
     PupilPeer(const PupilPeer&) = delete;
     PupilPeer& operator=(const PupilPeer&) = delete;
+
+    /// Instead of the true one, to who asks for the port of what is published.
+    void answer_sub_port(const std::string& answer) {
+        const std::scoped_lock lock(mutex_);
+        sub_port_answer_ = answer;
+    }
 
     NetworkAddress address() const { return {"127.0.0.1", remote_port_}; }
 
@@ -114,7 +119,7 @@ class PupilPeer {
         commands_.push_back(frames.size() > 1 ? command + " " + nlohmann::json::from_msgpack(frames[1]).dump()
                                               : command);
         if (command == "SUB_PORT")
-            return sub_port_answer.empty() ? std::to_string(published_port_) : sub_port_answer;
+            return sub_port_answer_.empty() ? std::to_string(published_port_) : sub_port_answer_;
         if (command == "PUB_PORT")
             return std::to_string(annotations_port_);
         if (command == "v")
@@ -197,6 +202,7 @@ class PupilPeer {
     void *remote_ = nullptr, *published_ = nullptr, *annotations_ = nullptr;
     std::uint16_t remote_port_ = 0, published_port_ = 0, annotations_port_ = 0;
     mutable std::mutex mutex_;
+    std::string sub_port_answer_; ///< empty: the true one
     std::vector<std::string> commands_;
     std::vector<nlohmann::json> told_;
     std::vector<std::pair<std::string, std::string>> waiting_;

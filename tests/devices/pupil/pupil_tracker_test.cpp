@@ -206,7 +206,7 @@ TEST_CASE("Pupil Capture that is not there, or is something else, is refused wit
     CHECK_THROWS_WITH(bench.connect(), Contains("does not answer at 127.0.0.1") && Contains("Pupil Remote"));
     bench.peer.answers = true;
     bench.settings.patience = 20s;
-    bench.peer.sub_port_answer = "Hello\n";
+    bench.peer.answer_sub_port("Hello\n");
     CHECK_THROWS_WITH(bench.connect(), Contains("is not Pupil Remote") && Contains("Hello\\x0a"));
 }
 
