@@ -2,7 +2,9 @@
 # gl, session and bench. A test case of a session or a benchmark is a test of its own. The cases of a file that are tagged
 # unit or gl are one test, named after program and file: hundreds of programs that each load some 280 libraries for a case of
 # milliseconds take longer than the cases. A test case without such a tag stops the build, for it would never be run; one
-# that is tagged [.long] is run by hand (tests/README.md).
+# that is tagged [.long] is run by hand (tests/README.md). A test that is also tagged [waits], or a file with such a case,
+# spends most of its time waiting for a screen, a device or an observer in real time: ./test runs two of them where it runs
+# one other, and runs them first.
 cmake_policy(VERSION 3.25)
 
 function(list_of_program result pattern)
@@ -23,11 +25,14 @@ if(unlabelled)
     message(FATAL_ERROR "Test cases without a tag [unit], [gl], [session] or [bench]: ${unlabelled}")
 endif()
 
+set(waits PROCESSORS 1 COST 1000)
+set(computes PROCESSORS 2)
 set(script "")
 get_filename_component(program "${PROGRAM}" NAME)
 function(add_program_test name label specification)
+    list(JOIN ARGN " " share)
     string(APPEND script "add_test([==[${name}]==] [==[${PROGRAM}]==] [==[${specification}]==] \"-#\")\n"
-        "set_tests_properties([==[${name}]==] PROPERTIES LABELS ${label} TIMEOUT 600 "
+        "set_tests_properties([==[${name}]==] PROPERTIES LABELS ${label} TIMEOUT 600 ${share} "
         "SKIP_REGULAR_EXPRESSION [==[overt test skipped: ]==] "
         "WORKING_DIRECTORY [==[${FOLDER}]==] ENVIRONMENT [==[${ENVIRONMENT}]==])\n")
     set(script "${script}" PARENT_SCOPE)
@@ -35,23 +40,35 @@ endfunction()
 
 foreach(label unit gl)
     # Catch2's option -# gives each case the name of its file as a tag.
-    list_of_program(tags "\\[#" "[${label}]" -\# --list-tags)
-    foreach(tag IN LISTS tags)
-        string(REGEX REPLACE ".*\\[#(.*)\\].*" "\\1" file "${tag}")
+    list_of_program(files "\\[#" "[${label}]" -\# --list-tags)
+    list_of_program(waiting "\\[#" "[${label}][waits]" -\# --list-tags)
+    foreach(list files waiting)
+        list(TRANSFORM ${list} REPLACE ".*\\[#(.*)\\].*" "\\1")
+    endforeach()
+    foreach(file IN LISTS files)
         set(name "${program} ${file}")
         if(NOT label STREQUAL "unit")
             string(APPEND name " (${label})")
         endif()
-        add_program_test("${name}" ${label} "[#${file}][${label}]")
+        set(share ${computes})
+        if(file IN_LIST waiting)
+            set(share ${waits})
+        endif()
+        add_program_test("${name}" ${label} "[#${file}][${label}]" ${share})
     endforeach()
 endforeach()
 foreach(label session bench)
     list_of_program(tests "." "[${label}]" --list-test-names-only)
+    list_of_program(waiting "." "[${label}][waits]" --list-test-names-only)
     foreach(test IN LISTS tests)
+        set(share ${computes})
+        if(test IN_LIST waiting)
+            set(share ${waits})
+        endif()
         string(REPLACE "<semicolon>" ";" test "${test}")
         # Commas and brackets are read as parts of a test specification.
         string(REGEX REPLACE "([][,])" "\\\\\\1" specification "${test}")
-        add_program_test("${test}" ${label} "${specification}")
+        add_program_test("${test}" ${label} "${specification}" ${share})
     endforeach()
 endforeach()
 file(WRITE ${FILE} "${script}")

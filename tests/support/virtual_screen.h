@@ -10,6 +10,11 @@
 
 namespace overt::test {
 
+/// The environment of a program that is to see an X server alone, whatever desktop the tests run on. The
+/// libraries behind a window keep memory until the end of the process.
+inline const std::vector<std::string> x_server_alone{
+    "WAYLAND_DISPLAY=", "XDG_SESSION_TYPE=", "ASAN_OPTIONS=detect_leaks=0"};
+
 class VirtualScreen {
   public:
     /// Starts a server and points DISPLAY to it. Throws if there is no Xvfb: ./test installs it.

@@ -12,6 +12,7 @@
 #include "tests/app/small_experiment.h"
 #include "tests/support/running_program.h"
 #include "tests/support/tsv_file.h"
+#include "tests/support/virtual_screen.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -40,9 +41,10 @@ struct Rigged {
                     "output = \"color++\"\ntiming = \"unproven\"\n" + light + box);
     }
     std::vector<std::string> environment() const {
-        // The libraries behind a window keep memory until the end of the process.
-        return {"OVERT_STATE=" + state.path().string(), "OVERT_CACHE=" + experiment->cache().string(),
-                "WAYLAND_DISPLAY=", "XDG_SESSION_TYPE=", "ASAN_OPTIONS=detect_leaks=0"};
+        std::vector<std::string> all = x_server_alone;
+        all.insert(all.end(),
+                   {"OVERT_STATE=" + state.path().string(), "OVERT_CACHE=" + experiment->cache().string()});
+        return all;
     }
     std::vector<std::string> session(int trials) const {
         return {"run",
@@ -111,7 +113,7 @@ TEST_CASE("every output mode with T-Lock has a mode of the box, and no other has
 }
 
 TEST_CASE("a session on a screen switches the display box, relates its clock and switches it back",
-          "[session]") {
+          "[session][waits]") {
     const Rigged rig;
     const ProgramRun run = rig.overt(rig.session(2));
     INFO(run.out << run.err);
@@ -158,7 +160,7 @@ TEST_CASE("a session on a screen switches the display box, relates its clock and
 }
 
 TEST_CASE("a session that is killed leaves a note, and the next start switches the display box back",
-          "[session]") {
+          "[session][waits]") {
     const Rigged rig;
     {
         RunningProgram session(rig.session(9), rig.environment(), rig.said());
@@ -186,7 +188,7 @@ TEST_CASE("a session that is killed leaves a note, and the next start switches t
     CHECK_FALSE(std::filesystem::exists(rig.note()));
 }
 
-TEST_CASE("Ctrl-C ends a session in order, with the display box switched back", "[session]") {
+TEST_CASE("Ctrl-C ends a session in order, with the display box switched back", "[session][waits]") {
     const Rigged rig;
     RunningProgram session(rig.session(9), rig.environment(), rig.said());
     REQUIRE(rig.comes_to_a_trial());
@@ -201,7 +203,7 @@ TEST_CASE("Ctrl-C ends a session in order, with the display box switched back", 
     CHECK(record.trials().size() < 9);
 }
 
-TEST_CASE("a display box that was restarted within a session ends it", "[session]") {
+TEST_CASE("a display box that was restarted within a session ends it", "[session][waits]") {
     const Rigged rig;
     RunningProgram session(rig.session(9), rig.environment(), rig.said());
     REQUIRE(rig.comes_to_a_trial());
@@ -215,7 +217,7 @@ TEST_CASE("a display box that was restarted within a session ends it", "[session
 }
 
 TEST_CASE("a box that is missing, of another rate, or not asked for is never passed over in silence",
-          "[session]") {
+          "[session][waits]") {
     const Rigged rig;
     SECTION("missing: refused, with how to go on, and nothing is left") {
         const SmallExperiment experiment(Rigged::protocol("box = \"/dev/no-such-port\"\n"));
@@ -353,7 +355,7 @@ TEST_CASE("display verify --hardware finds what the way from the graphics card t
 }
 
 TEST_CASE("a session through a box wants to know that its bytes arrive, and has on record who said so",
-          "[session]") {
+          "[session][waits]") {
     const Rigged rig;
     const std::vector<std::string> verify{"display", "verify", "--hardware", "--port", rig.box->port()};
     const std::string asked = with(text_of(rig.experiment->protocol()), "video_check_days = 0\n", "");

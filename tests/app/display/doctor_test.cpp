@@ -107,8 +107,7 @@ TEST_CASE("the doctor's page has a screen's refreshes, flip by flip", "[session]
     const auto screen = VirtualScreen::start(640, 360, 24, folder.path().string());
     const std::filesystem::path page = folder.path() / "rig.md";
     const ProgramRun run =
-        run_overt({"doctor", "--report", page.string(), "--window", "--seconds", "1"},
-                  {"WAYLAND_DISPLAY=", "XDG_SESSION_TYPE=", "ASAN_OPTIONS=detect_leaks=0"});
+        run_overt({"doctor", "--report", page.string(), "--window", "--seconds", "1"}, x_server_alone);
     INFO(run.out << run.err);
     REQUIRE(std::filesystem::exists(page)); // whatever it found there
     const std::string text = text_of(page);

@@ -8,7 +8,7 @@ using namespace overt::test;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
-TEST_CASE("of a session in real time all is made again that does not come from devices", "[session]") {
+TEST_CASE("of a session in real time all is made again that does not come from devices", "[session][waits]") {
     const SmallExperiment experiment;
     REQUIRE(experiment.overt(run_arguments(experiment, "P01", {"--trials", "2"})).exit_code == 0);
     fs::remove_all(experiment.cache());

@@ -155,7 +155,8 @@ int run_two_trials(const SmallExperiment& experiment, const std::filesystem::pat
 
 } // namespace
 
-TEST_CASE("a box answers and a cable is told, and both are in the record and in every export", "[session]") {
+TEST_CASE("a box answers and a cable is told, and both are in the record and in every export",
+          "[session][waits]") {
     Desk desk;
     const SmallExperiment experiment(protocol_with(desk));
     const std::filesystem::path said = experiment.folder().path() / "said";
@@ -250,7 +251,7 @@ TEST_CASE("a box answers and a cable is told, and both are in the record and in 
     CHECK_THAT(events, Contains("\tbutton\t") && Contains("\tmarker\t"));
 }
 
-TEST_CASE("a box that is unplugged in a trial is data, and the session goes on", "[session]") {
+TEST_CASE("a box that is unplugged in a trial is data, and the session goes on", "[session][waits]") {
     Desk desk;
     const SmallExperiment experiment(protocol_with(desk));
     const std::filesystem::path said = experiment.folder().path() / "said";

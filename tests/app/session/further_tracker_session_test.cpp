@@ -1,5 +1,6 @@
 /// Whole sessions with two eye trackers: two records of the same trials.
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <chrono>
 
@@ -23,7 +24,7 @@ std::vector<SessionTime> counted_starts(const SessionRecord& record) {
 }
 
 SmallExperiment of_two(const std::string& keys = "rate_hz = 500\neye = \"both\"\n") {
-    return SmallExperiment(std::string(small_protocol) + "\n[[further_tracker]]\nid = \"second\"\n" + keys);
+    return SmallExperiment(fmt::format("{}\n[[further_tracker]]\nid = \"second\"\n{}", small_protocol, keys));
 }
 
 } // namespace

@@ -44,7 +44,7 @@ std::pair<std::string, std::string> found_by_doctor(const std::string& what) {
 } // namespace
 
 TEST_CASE("a session whose pictures are copied is refused; its record says how many were flipped otherwise",
-          "[session]") {
+          "[session][waits]") {
     const auto screen = VirtualScreen::start(800, 600, 24);
     const SmallExperiment refused(protocol_with("proven"));
     const ProgramRun run = run_in_real_time(refused);

@@ -126,7 +126,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("commands from the view do what the operator's keys do, and stand in the record", "[session]") {
+TEST_CASE("commands from the view do what the operator's keys do, and stand in the record",
+          "[session][waits]") {
     const SmallExperiment experiment;
     // In real time, so that a command meets the trial that it is for.
     WatchedRun run(experiment, {"--trials", "3"});

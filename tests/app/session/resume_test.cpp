@@ -213,7 +213,7 @@ TEST_CASE("imported sessions and copies with imported gaze are not gone on with,
 }
 
 TEST_CASE("a session that is being read when it ends is finished afterwards, and it is said how",
-          "[session]") {
+          "[session][waits]") {
     const SmallExperiment experiment(two_blocks());
     const fs::path said = experiment.folder().path() / "said";
     RunningProgram program(run_arguments(experiment, "P01", {"--virtual-time"}),

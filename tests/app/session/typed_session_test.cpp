@@ -116,7 +116,7 @@ auto has_event(const std::string& kind, const std::string& begin, int times = 1)
 
 TEST_CASE("a session in a window is led by its keys: consent, form, pages, pause, skip, and an end that is "
           "asked for",
-          "[session]") {
+          "[session][waits]") {
     const SmallExperiment experiment(typed_protocol());
     {
         TypedSession session(experiment);

@@ -58,7 +58,7 @@ std::string native_at(int refresh_hz, const std::string& timing = "timing = \"un
 } // namespace
 
 TEST_CASE("a session in real time is stamped by the server's vertical blanks, and records what it measured",
-          "[session]") {
+          "[session][waits]") {
     const auto screen = VirtualScreen::start(800, 600, 24);
     const SmallExperiment experiment(native_at(60));
     const ProgramRun run = run_overt(in_real_time(experiment), x_server_alone);
@@ -95,7 +95,7 @@ TEST_CASE("a session in real time is stamped by the server's vertical blanks, an
 }
 
 TEST_CASE("a session whose times nothing proves is refused with the remedy, and leaves nothing",
-          "[session]") {
+          "[session][waits]") {
     const auto screen = VirtualScreen::start(800, 600, 24);
     for (const char* const timing : {"", "timing = \"proven\""}) {
         const SmallExperiment experiment(native_at(60, timing));
@@ -118,7 +118,7 @@ TEST_CASE("a session whose times nothing proves is refused with the remedy, and 
 }
 
 TEST_CASE("where nothing proves the times, the record, its exports and reports claim no missed refreshes",
-          "[session]") {
+          "[session][waits]") {
     const auto screen = VirtualScreen::start(800, 600, 24);
     const SmallExperiment experiment(native_at(60));
     const ProgramRun run = run_overt(in_real_time(experiment), x_server_alone);

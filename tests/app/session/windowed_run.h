@@ -26,9 +26,4 @@ inline std::vector<std::string> windowed_run(const SmallExperiment& experiment,
     return arguments;
 }
 
-/// An X server alone, whatever desktop the tests run on. The libraries behind a window keep memory until the
-/// end of the process.
-inline const std::vector<std::string> x_server_alone{
-    "WAYLAND_DISPLAY=", "XDG_SESSION_TYPE=", "ASAN_OPTIONS=detect_leaks=0"};
-
 } // namespace overt::test

@@ -267,7 +267,7 @@ TEST_CASE("a person is not shown previews unless somebody says so", "[session]")
         return experiment.overt({"run", experiment.protocol().string(), "--observer", "P01", "--context",
                                  "window", "--windowed", "--refresh-check", "0", "--sessions",
                                  experiment.sessions().string()},
-                                {"WAYLAND_DISPLAY=", "XDG_SESSION_TYPE="});
+                                x_server_alone);
     };
     const SmallExperiment experiment(text);
     const ProgramRun run = refused(experiment);

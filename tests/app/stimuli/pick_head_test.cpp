@@ -7,7 +7,7 @@
 
 #include "app/stimuli/head_outline.h"
 #include "experiment/scene/mesh_reader.h"
-#include "tests/app/session/windowed_run.h"
+#include "tests/app/small_experiment.h"
 #include "tests/experiment/protocol/protocol_fixtures.h"
 #include "tests/support/running_program.h"
 #include "tests/support/virtual_screen.h"

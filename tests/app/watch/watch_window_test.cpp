@@ -5,9 +5,9 @@
 #include <thread>
 
 #include "devices/operator/operator_server.h"
-#include "tests/app/session/windowed_run.h"
 #include "tests/support/running_program.h"
 #include "tests/support/seen_screen.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/virtual_screen.h"
 // Defines words, so comes last.
 #include "tests/support/keyboard.h"

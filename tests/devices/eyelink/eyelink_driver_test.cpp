@@ -53,7 +53,7 @@ void check_unbroken(const std::vector<GazeSample>& samples, std::int64_t interva
 
 } // namespace
 
-TEST_CASE("an EyeLink's library that is not there is said with where to get it", "[unit]") {
+TEST_CASE("an EyeLink's library that is not there is said with where to get it", "[unit][waits]") {
     CHECK_THROWS_WITH(EyelinkLibrary("/nowhere/libeyelink_core.so"),
                       Catch::Contains("/nowhere/libeyelink_core.so") && Catch::Contains("Developers Kit") &&
                           Catch::Contains("OVERT_EYELINK_LIBRARY"));

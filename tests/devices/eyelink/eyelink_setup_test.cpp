@@ -58,7 +58,7 @@ TEST_CASE("an EyeLink is set up on the stage: targets, camera, sounds, words and
     CHECK(bench.library.heard("key 99 type 1 state 10 with 0"));
 }
 
-TEST_CASE("a set-up of an EyeLink that ends without a good calibration says so", "[unit]") {
+TEST_CASE("a set-up of an EyeLink that ends without a good calibration says so", "[unit][waits]") {
     SetupBench bench;
     SECTION("left at once") {
         bench.stage.keys = {key_of(SetupKey::Kind::escape)};

@@ -83,7 +83,7 @@ TEST_CASE("samples of a stream keep their own times, each once and in order", "[
     CHECK(fed.items.all<TrackerGap>().empty());
 }
 
-TEST_CASE("what a stream sends between recordings is no part of the next", "[unit]") {
+TEST_CASE("what a stream sends between recordings is no part of the next", "[unit][waits]") {
     FedStream fed;
     fed.connect();
     fed.inlet->start();

@@ -99,7 +99,8 @@ TEST_CASE("what is published between recordings is no part of the next", "[unit]
     CHECK(bench.items.all<GazeSample>().front().sampled_at.time_since_epoch().count() > started - 50'000);
 }
 
-TEST_CASE("gaze of little confidence is lost, and one eye's camera is not the other eye's gaze", "[unit]") {
+TEST_CASE("gaze of little confidence is lost, and one eye's camera is not the other eye's gaze",
+          "[unit][waits]") {
     PupilBench bench;
     bench.peer.confidence = 0.5;
     bench.peer.cameras = 0;

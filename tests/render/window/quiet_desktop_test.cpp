@@ -152,7 +152,7 @@ class Desktop {
 
 } // namespace
 
-TEST_CASE("a desktop is asked for a quiet screen, and is free again afterwards", "[gl]") {
+TEST_CASE("a desktop is asked for a quiet screen, and is free again afterwards", "[gl][waits]") {
     if (std::system("command -v dbus-daemon >/dev/null") != 0)
         OVERT_SKIP("no dbus-daemon (packages.txt)");
     Desktop desktop({"org.freedesktop.ScreenSaver", "org.freedesktop.Notifications"});
