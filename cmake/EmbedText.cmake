@@ -12,5 +12,8 @@ function(overt_embed_text target header)
         DEPENDS ${inputs} ${CMAKE_SOURCE_DIR}/cmake/EmbedTextScript.cmake
         VERBATIM)
     target_sources(${target} PRIVATE ${output})
+    # A target of its own: the header needs none of the libraries that TARGET is linked to, so it need not wait for them.
+    add_custom_target(${target}_${header} DEPENDS ${output})
+    add_dependencies(${target} ${target}_${header})
     target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/generated)
 endfunction()
