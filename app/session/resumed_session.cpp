@@ -232,7 +232,8 @@ Resumption resumption_of_further(const ResumedSession& session, const std::files
             counted_starts.push_back(attempt.started);
     Resumption resumption = session.resumption;
     resumption.superseded.clear();
-    for (const TrialRecord& attempt : SessionRecord(further).trials())
+    const SessionRecord theirs(further);
+    for (const TrialRecord& attempt : theirs.trials())
         if (attempt.counts && std::ranges::find(counted_starts, attempt.started) == counted_starts.end())
             resumption.superseded.push_back(attempt.id);
     return resumption;
