@@ -18,6 +18,7 @@
 #include "devices/replay/replay_tracker.h"
 #include "devices/simulated/faulty_tracker.h"
 #include "devices/simulated/simulated_eye_tracker.h"
+#include "devices/tobii/tobii_driver.h"
 #include "devices/tracker/threaded_tracker.h"
 #include "experiment/base/error.h"
 #include "experiment/calibration/own_calibration.h"
@@ -44,11 +45,10 @@ std::unique_ptr<EyeTracker> threaded(std::unique_ptr<TrackerDriver> driver, cons
                                                          .file_name = parts.file_name});
 }
 
-/// Whether a vendor's library can be loaded, or what the system says of it.
-std::string library_found(void (*load)()) {
+/// What is found, or why nothing can be.
+std::string found_or_why(std::string (*look)()) {
     try {
-        load();
-        return "its library is there";
+        return look();
     } catch (const Error& error) {
         return error.what();
     }
@@ -115,9 +115,27 @@ constexpr TrackerDevice known_trackers[] = {
          settings.target_deg = parts.protocol.calibration.target_deg;
          return threaded(std::make_unique<EyelinkDriver>(settings, parts.clock), parts);
      },
-     [] { return library_found([] { EyelinkLibrary(); }); },
+     [] {
+         return found_or_why([] {
+             EyelinkLibrary();
+             return std::string("its library is there");
+         });
+     },
      "up to 2000 Hz of one eye or 1000 Hz of both, calibrates itself, tells fixations and saccades, keeps a "
      "file of its own"},
+    {"tobii", true,
+     [](const TrackerParts& parts) -> std::unique_ptr<EyeTracker> {
+         TobiiSettings settings;
+         settings.library = parts.protocol.tracker.library;
+         settings.device = parts.protocol.tracker.address;
+         settings.calibration_points =
+             calibration_targets(parts.protocol.calibration.points, parts.protocol.calibration.area,
+                                 screen_geometry_of(parts.protocol));
+         settings.target = Degrees{parts.protocol.calibration.target_deg};
+         return threaded(std::make_unique<TobiiDriver>(settings, parts.clock), parts);
+     },
+     [] { return found_or_why(tobii_trackers_found); },
+     "30 to 1200 Hz of both eyes, calibrates itself, tells changes of its input port"},
     {"opengaze", true,
      [](const TrackerParts& parts) -> std::unique_ptr<EyeTracker> {
          OpenGazeSettings settings;
@@ -148,7 +166,12 @@ constexpr TrackerDevice known_trackers[] = {
          settings.layout = lsl_layout(parts.protocol.tracker);
          return threaded(std::make_unique<LslInlet>(settings, parts.clock), parts);
      },
-     [] { return library_found([] { load_lsl({}); }); },
+     [] {
+         return found_or_why([] {
+             load_lsl({});
+             return std::string("its library is there");
+         });
+     },
      "what the stream has; its maker's program or overt calibrates"},
     {"hid", true,
      [](const TrackerParts& parts) -> std::unique_ptr<EyeTracker> {

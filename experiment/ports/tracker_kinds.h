@@ -19,6 +19,7 @@ inline constexpr TrackerKindRow tracker_kinds[] = {
     {"simulated", "measures a simulated observer, with noise and a clock of its own"},
     {"replay", "plays back the gaze of a recorded session or of an EyeLink recording (ASC)"},
     {"eyelink", "an SR Research EyeLink 1000 or later, through the vendor's library"},
+    {"tobii", "a Tobii below the screen, through the vendor's library"},
     {"opengaze", "a Gazepoint, through the Open Gaze API of Gazepoint Control"},
     {"pupil", "Pupil Core glasses, through Pupil Capture"},
     {"lsl", "a stream of gaze of the Lab Streaming Layer"},

@@ -34,10 +34,12 @@ template <class T> std::vector<Key> tracker_keys() {
          at(&TrackerSettings::rate_hz)},
         {{.name = "address",
           .if_left_out = "what is usual for the kind",
-          .explanation = "Where the tracker is. `eyelink`: address of its host, or `dummy` to try the "
-                         "library without one. `opengaze` and `pupil`: host or host:port. `lsl`: name of "
-                         "the stream. `hid`: /dev/hidrawN, or vendor:product. `replay`: a session's folder, "
-                         "or an EyeLink recording (.asc)."},
+          .explanation =
+              "Where the tracker is. `eyelink`: address of its host, or `dummy` to try the "
+              "library without one. `opengaze` and `pupil`: host or host:port. `lsl`: name of "
+              "the stream. `tobii`: its address (tet-tcp://…) or "
+              "serial number. `hid`: /dev/hidrawN, or vendor:product. `replay`: a session's folder, "
+              "or an EyeLink recording (.asc)."},
          at(&TrackerSettings::address)},
         {{.name = "library",
           .if_left_out = "where the system looks",

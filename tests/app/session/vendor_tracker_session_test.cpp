@@ -1,0 +1,94 @@
+/// Whole sessions in real time with an eye tracker through a vendor's library, in whose place stands one made
+/// for the tests.
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "experiment/record/read/session_record.h"
+#include "tests/app/small_experiment.h"
+
+using namespace overt;
+using namespace overt::test;
+using Catch::Contains;
+
+namespace {
+
+/// The stand-in's display area is that of the protocol.
+const std::vector<std::string> tobii = {fmt::format("OVERT_TOBII_LIBRARY={}", OVERT_STAND_IN_TOBII),
+                                        "STAND_IN_TOBII_width_mm=272", "STAND_IN_TOBII_height_mm=96",
+                                        "STAND_IN_TOBII_fault_at=3"};
+
+ProgramRun run_with_tobii(const SmallExperiment& experiment, const std::vector<std::string>& arguments,
+                          std::vector<std::string> environment = tobii) {
+    std::vector<std::string> all{"run",
+                                 experiment.protocol().string(),
+                                 "--observer",
+                                 "P01",
+                                 "--sessions",
+                                 experiment.sessions().string(),
+                                 "--seed",
+                                 "7",
+                                 "--context",
+                                 "osmesa",
+                                 "--tracker",
+                                 "tobii",
+                                 "--trials",
+                                 "2",
+                                 "--simulate-observer",
+                                 "5"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return experiment.overt(all, std::move(environment));
+}
+
+} // namespace
+
+TEST_CASE("a session with a Tobii is calibrated, recorded, verified and exported", "[session][waits]") {
+    const SmallExperiment experiment(
+        fmt::format("{}\n[calibration]\npoints = 3\n",
+                    with(small_protocol, "rate_hz = 1000", "rate_hz = 300\neye = \"both\"")));
+    const ProgramRun run = run_with_tobii(experiment, {});
+    INFO(run.out << run.err);
+    REQUIRE(run.exit_code == 0);
+    CHECK_THAT(run.out + run.err, Contains("the tracker tells of a fault: the camera is hot"));
+
+    const SessionRecord record(experiment.session());
+    CHECK(record.header().tracker.name == "tobii");
+    CHECK(record.header().tracker.sample_rate_hz == 300.0);
+    CHECK_THAT(record.header().tracker.model, Contains("Glass 9000 SER1"));
+    REQUIRE(record.trials().size() == 2);
+    for (const TrialRecord& trial : record.trials()) {
+        const auto samples = record.samples(trial);
+        // 1 s and twice the lead of 0.1 s, at 300 Hz of two eyes.
+        REQUIRE(std::abs(static_cast<double>(samples.size()) - 720.0) < 60.0);
+        std::size_t valid = 0;
+        for (const GazeSample& sample : samples)
+            if (sample.gaze) {
+                ++valid;
+                CHECK(*sample.gaze == (sample.eye == Eye::left ? ScreenPoint{0.25 * 544, 0.75 * 192}
+                                                               : ScreenPoint{272.0, 96.0}));
+            }
+        CHECK(valid * 100 > samples.size() * 90);
+    }
+    CHECK(experiment.overt({"verify", experiment.session().string()}).exit_code == 0);
+    const ProgramRun shown = experiment.overt({"tracker", "show", experiment.session().string()});
+    CHECK_THAT(shown.out, Contains("tracker, 3 points"));
+    const std::filesystem::path out = experiment.folder().path() / "tables";
+    CHECK(
+        experiment.overt({"export", experiment.session().string(), "--format", "tsv", "--out", out.string()})
+            .exit_code == 0);
+}
+
+TEST_CASE("a session with a Tobii whose screen is another, or that is not there, does not begin",
+          "[session]") {
+    const SmallExperiment experiment;
+    const ProgramRun other = run_with_tobii(experiment, {}, {tobii.front()});
+    CHECK(other.exit_code != 0);
+    CHECK_THAT(other.err, Contains("698 x 393 mm") && Contains("272 x 96 mm"));
+    std::vector<std::string> none = tobii;
+    none.emplace_back("STAND_IN_TOBII_devices=0");
+    const ProgramRun absent = run_with_tobii(experiment, {}, none);
+    CHECK(absent.exit_code != 0);
+    CHECK_THAT(absent.err, Contains("No eye tracker of Tobii's is found"));
+    CHECK_FALSE(std::filesystem::exists(experiment.session()));
+}
