@@ -32,7 +32,7 @@ get_filename_component(program "${PROGRAM}" NAME)
 function(add_program_test name label specification)
     list(JOIN ARGN " " share)
     string(APPEND script "add_test([==[${name}]==] [==[${PROGRAM}]==] [==[${specification}]==] \"-#\")\n"
-        "set_tests_properties([==[${name}]==] PROPERTIES LABELS ${label} TIMEOUT 600 ${share} "
+        "set_tests_properties([==[${name}]==] PROPERTIES LABELS ${label} TIMEOUT ${TIMEOUT} ${share} "
         "SKIP_REGULAR_EXPRESSION [==[overt test skipped: ]==] "
         "WORKING_DIRECTORY [==[${FOLDER}]==] ENVIRONMENT [==[${ENVIRONMENT}]==])\n")
     set(script "${script}" PARENT_SCOPE)

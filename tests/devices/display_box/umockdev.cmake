@@ -13,4 +13,4 @@ add_test(NAME "devices behind the system's own interfaces (umockdev)"
     COMMAND ${OVERT_UMOCKDEV_WRAPPER} $<TARGET_FILE:umockdev_tests>)
 # The wrapper's library comes before a sanitizer's, and glib keeps what it has allocated.
 set_tests_properties("devices behind the system's own interfaces (umockdev)" PROPERTIES LABELS unit TIMEOUT 600
-    ENVIRONMENT "ASAN_OPTIONS=verify_asan_link_order=0:detect_leaks=0")
+    ENVIRONMENT "${overt_test_environment};ASAN_OPTIONS=verify_asan_link_order=0:detect_leaks=0")
