@@ -22,7 +22,7 @@ template <class Number> Number at(std::span<const std::byte> item, std::size_t o
 bool is_value(float number) noexcept { return std::isfinite(number) && number != no_value; }
 
 std::optional<float> value_at(std::span<const std::byte> item, std::size_t offset) noexcept {
-    const float number = at<float>(item, offset);
+    const auto number = at<float>(item, offset);
     return is_value(number) ? std::optional<float>(number) : std::nullopt;
 }
 
@@ -40,7 +40,7 @@ GazeSample eye_of(std::span<const std::byte> item, TrackerTime time, std::size_t
     GazeSample sample;
     sample.sampled_at = time;
     sample.eye = eye == 0 ? Eye::left : Eye::right;
-    const float pupil = at<float>(item, 40 + 4 * eye);
+    const auto pupil = at<float>(item, 40 + 4 * eye);
     // Where the pupil is not seen, a place is only what was left in the record.
     if (is_value(pupil) && pupil > 0.0f) {
         sample.gaze = place_at(item, 48 + 4 * eye, 56 + 4 * eye);

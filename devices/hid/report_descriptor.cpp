@@ -356,7 +356,7 @@ std::optional<double> hid_physical(const HidField& field, std::int64_t value) no
     const bool has_range = field.logical_maximum > field.logical_minimum;
     if (has_range && (value < field.logical_minimum || value > field.logical_maximum))
         return std::nullopt;
-    double physical = static_cast<double>(value);
+    auto physical = static_cast<double>(value);
     if (has_range && (field.physical_minimum != 0 || field.physical_maximum != 0)) {
         const double share = (physical - static_cast<double>(field.logical_minimum)) /
                              static_cast<double>(field.logical_maximum - field.logical_minimum);

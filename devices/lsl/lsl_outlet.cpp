@@ -1,6 +1,7 @@
 #include "devices/lsl/lsl_outlet.h"
 
 #include <array>
+#include <charconv>
 #include <cstring>
 #include <limits>
 
@@ -66,7 +67,7 @@ LslMarkerOutlet::LslMarkerOutlet(std::shared_ptr<const LslLibrary> library, cons
 bool LslMarkerOutlet::send(const Marker& marker) noexcept {
     std::array<char, longest_marker + 1> text{};
     if (marker.text.empty())
-        *fmt::format_to_n(text.data(), longest_marker, "{}", marker.code).out = '\0';
+        std::to_chars(text.data(), text.data() + longest_marker, marker.code);
     else
         std::memcpy(text.data(), marker.text.data(), std::min(marker.text.size(), longest_marker));
     const char* values[] = {text.data()};
@@ -132,7 +133,7 @@ LslGazeRelay::LslGazeRelay(std::unique_ptr<TrackerDriver> tracker, std::shared_p
 LslGazeRelay::~LslGazeRelay() = default;
 
 TrackerDescription LslGazeRelay::connect(const TrackerWish& wish) {
-    const TrackerDescription description = tracker_->connect(wish);
+    TrackerDescription description = tracker_->connect(wish);
     // Made anew: its rate and its tracker may be others.
     outlet_.reset();
     const LslOwned<LslStreamInfo> info =

@@ -37,13 +37,13 @@ bool send_all(int socket, std::string_view text) {
 
 } // namespace
 
-OperatorClient::OperatorClient(const std::filesystem::path& file) {
-    const SocketAddress address(file);
+OperatorClient::OperatorClient(const std::filesystem::path& socket) {
+    const SocketAddress address(socket);
     socket_ = connect_to(address);
     if (socket_ < 0)
         throw InputError(fmt::format("{}: no session serves this socket: begin it with overt run … "
                                      "--operator-socket, and name its folder here",
-                                     file.string()));
+                                     socket.string()));
     heard_ = std::chrono::steady_clock::now();
     try {
         const auto latest = heard_ + longest_greeting;
@@ -51,7 +51,7 @@ OperatorClient::OperatorClient(const std::filesystem::path& file) {
         while (!has_facts_ && !is_gone_ && std::chrono::steady_clock::now() < latest)
             read(std::chrono::milliseconds(50));
         if (!has_facts_)
-            throw DeviceError(fmt::format("{}: the session does not answer", file.string()));
+            throw DeviceError(fmt::format("{}: the session does not answer", socket.string()));
     } catch (...) {
         ::close(socket_);
         throw;

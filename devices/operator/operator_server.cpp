@@ -308,7 +308,7 @@ void OperatorServer::understand(View& view, std::string_view line) {
                         fmt::format("{}: was not taken: too many commands wait", words_of(*read.command))});
 }
 
-void OperatorServer::cut_off(View& view, const std::string& why) {
+void OperatorServer::cut_off(View& view, const std::string& why) const {
     view.is_gone = true;
     if (options_.tell)
         options_.tell(

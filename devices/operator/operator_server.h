@@ -78,7 +78,7 @@ class OperatorServer {
     void accept_view();
     void receive(View& view);
     void understand(View& view, std::string_view line);
-    void cut_off(View& view, const std::string& why);
+    void cut_off(View& view, const std::string& why) const;
     void tell_state(bool even_if_old);
     void send_waiting(View& view);
 

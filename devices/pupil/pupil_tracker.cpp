@@ -220,7 +220,7 @@ void PupilTracker::send(const TrackerMark& mark) noexcept {
 std::vector<std::string> PupilTracker::finish(const std::string&, const EyeTracker::FileProgress&) {
     std::vector<std::string> said;
     if (link_ && is_recording_ && !link_->ask("r", clock_.now() + settings_.patience))
-        said.push_back("Pupil Capture did not answer when its recording was to end: end it in its window");
+        said.emplace_back("Pupil Capture did not answer when its recording was to end: end it in its window");
     is_recording_ = false;
     if (samples_ && has_started_ && !has_surface_)
         said.push_back(

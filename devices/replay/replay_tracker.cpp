@@ -21,24 +21,6 @@ constexpr std::string_view onset_mark = "SYNCTIME";
 constexpr std::string_view sculpture_mark = "!V TRIAL_VAR sculpture ";
 constexpr std::string_view material_mark = "!V TRIAL_VAR material ";
 
-/// The same item at another time; and when it is due.
-TrackerTime put_forward(TrackerItem& item, TrackerClock::duration by) noexcept {
-    struct Forward {
-        TrackerClock::duration by;
-        TrackerTime operator()(GazeSample& sample) const { return sample.sampled_at += by; }
-        TrackerTime operator()(SampleDetail& detail) const { return detail.sampled_at += by; }
-        TrackerTime operator()(TrackerEvent& event) const {
-            event.start += by;
-            return event.end += by;
-        }
-        TrackerTime operator()(TrackerInput& input) const { return input.at += by; }
-        TrackerTime operator()(TrackerButton& button) const { return button.at += by; }
-        TrackerTime operator()(TrackerGap& gap) const { return gap.after += by; }
-        TrackerTime operator()(ClockPair& pair) const { return pair.other += by; }
-    };
-    return std::visit(Forward{by}, item);
-}
-
 std::string listed(const std::set<int>& trials) {
     std::string text;
     for (const int trial : trials)

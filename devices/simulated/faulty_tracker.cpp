@@ -20,26 +20,6 @@ double seconds_between(TrackerTime from, TrackerTime to) {
     return 1e-6 * static_cast<double>((to - from).count());
 }
 
-void put_forward(TrackerItem& item, TrackerClock::duration by) noexcept {
-    std::visit(
-        [by](auto& told) {
-            using Told = std::remove_cvref_t<decltype(told)>;
-            if constexpr (std::is_same_v<Told, GazeSample> || std::is_same_v<Told, SampleDetail>)
-                told.sampled_at += by;
-            else if constexpr (std::is_same_v<Told, TrackerInput> || std::is_same_v<Told, TrackerButton>)
-                told.at += by;
-            else if constexpr (std::is_same_v<Told, TrackerGap>)
-                told.after += by;
-            else if constexpr (std::is_same_v<Told, ClockPair>)
-                told.other += by;
-            else {
-                told.start += by;
-                told.end += by;
-            }
-        },
-        item);
-}
-
 std::string sentence_on(const TrackerFault& fault) {
     switch (fault.kind) {
     case FaultKind::clock_jump:
@@ -178,7 +158,7 @@ std::size_t FaultyTracker::poll(std::span<TrackerItem> into) noexcept {
             if (end_ == 0) {
                 if (recording_ || lost_ == 0)
                     break;
-                ahead_.push_back(TrackerGap{lost_by_, last_, lost_});
+                ahead_.emplace_back(TrackerGap{lost_by_, last_, lost_});
                 lost_ = 0;
                 continue;
             }
@@ -275,7 +255,7 @@ bool FaultyTracker::pass_sample(GazeSample& sample) noexcept {
         ahead_.push_back(sample);
     ahead_.push_back(sample);
     if (lost_ > 0)
-        ahead_.push_back(TrackerGap{lost_by_, last_, lost_});
+        ahead_.emplace_back(TrackerGap{lost_by_, last_, lost_});
     lost_ = 0;
     last_ = sample.sampled_at;
     return true;

@@ -82,7 +82,8 @@ SetupOutcome SimulatedEyeTracker::set_up(SetupStage&) {
     ValidationResult result;
     double sum = 0.0;
     for (int i = 0; i < validation_targets; ++i) {
-        const ScreenPoint target{screen_px.x * (0.1 + 0.4 * (i % 3)), screen_px.y * (0.1 + 0.4 * (i / 3))};
+        const int column = i % 3, row = i / 3;
+        const ScreenPoint target{screen_px.x * (0.1 + 0.4 * column), screen_px.y * (0.1 + 0.4 * row)};
         const double right = random.normal(), down = random.normal();
         const double error = settings_.accuracy_deg * std::hypot(right, down);
         const glm::dvec2 away_px = settings_.accuracy_deg * glm::dvec2(right, down) * px_per_deg_;

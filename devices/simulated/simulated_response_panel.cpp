@@ -16,7 +16,7 @@ constexpr int most_own_decisions = 5;
 } // namespace
 
 SimulatedResponsePanel::SimulatedResponsePanel(const Clock& clock, const SimulatedObserver& observer,
-                                               std::vector<ScriptedOperatorKey> script)
+                                               const std::vector<ScriptedOperatorKey>& script)
     : clock_(&clock), observer_(&observer) {
     for (const ScriptedOperatorKey& key : script)
         operators_.push_back({key, {}, false});

@@ -20,7 +20,7 @@ class SimulatedResponsePanel final : public ResponsePanel {
   public:
     /// Clock and observer must outlive this.
     SimulatedResponsePanel(const Clock& clock, const SimulatedObserver& observer,
-                           std::vector<ScriptedOperatorKey> script = {});
+                           const std::vector<ScriptedOperatorKey>& script = {});
 
     void await_key(SessionTime since) override;
     void await_response(const Trial& trial, SessionTime since) override;
@@ -46,10 +46,10 @@ class SimulatedResponsePanel final : public ResponsePanel {
     std::vector<Operator> operators_;
     int texts_read_ = 0;
     std::optional<SessionTime> next_press_;
-    ResponsePress pressed_with_;            ///< what next_press_ is
-    std::optional<SessionTime> resumes_at_; ///< the operator's pause
+    ResponsePress pressed_with_;               ///< what next_press_ is
+    std::optional<SessionTime> resumes_at_;    ///< the operator's pause
     std::optional<char32_t> operators_answer_; ///< to the question that a scripted key leads to
-    int own_decisions_ = 0; ///< of this phase, to questions that no scripted key led to
+    int own_decisions_ = 0;                    ///< of this phase, to questions that no scripted key led to
     std::string answer_;
 };
 

@@ -121,10 +121,10 @@ FoundChip find_chip(const Usb& usb, const std::string& address) {
     std::string there;
     for (FoundChip& one : find_chips(usb)) {
         there += (there.empty() ? "" : ", ") + describe(one.chip);
-        if (one.chip.product_id == product && (serial.empty() || one.chip.serial_number == serial))
+        // One that may not be opened does not tell its serial number: it may be the one.
+        if (one.chip.product_id == product &&
+            (serial.empty() || one.chip.serial_number == serial || one.error == LIBUSB_ERROR_ACCESS))
             fitting.push_back(std::move(one));
-        else if (one.chip.product_id == product && one.error == LIBUSB_ERROR_ACCESS)
-            fitting.push_back(std::move(one)); // it may be the one
     }
     if (fitting.empty())
         throw DeviceError(fmt::format("No USB serial chip {} is plugged in. Chips of FTDI that are: {}.",

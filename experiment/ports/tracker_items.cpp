@@ -89,6 +89,24 @@ std::optional<TrackerItem> gap_of(const GazeEvent& note) {
 
 std::string_view name_of(TrackerGap::Reason reason) noexcept { return gap_reasons[static_cast<int>(reason)]; }
 
+// NOLINTNEXTLINE(bugprone-exception-escape): an item always holds one of its kinds
+TrackerTime put_forward(TrackerItem& item, TrackerClock::duration by) noexcept {
+    struct Forward {
+        TrackerClock::duration by;
+        TrackerTime operator()(GazeSample& sample) const { return sample.sampled_at += by; }
+        TrackerTime operator()(SampleDetail& detail) const { return detail.sampled_at += by; }
+        TrackerTime operator()(TrackerEvent& event) const {
+            event.start += by;
+            return event.end += by;
+        }
+        TrackerTime operator()(TrackerInput& input) const { return input.at += by; }
+        TrackerTime operator()(TrackerButton& button) const { return button.at += by; }
+        TrackerTime operator()(TrackerGap& gap) const { return gap.after += by; }
+        TrackerTime operator()(ClockPair& pair) const { return pair.other += by; }
+    };
+    return std::visit(Forward{by}, item);
+}
+
 std::optional<GazeEvent> gaze_event_of(const TrackerItem& item) { return std::visit(Words{}, item); }
 
 std::optional<TrackerItem> tracker_item_of(const GazeEvent& event) {

@@ -60,6 +60,9 @@ std::string_view name_of(TrackerGap::Reason reason) noexcept;
 using TrackerItem =
     std::variant<GazeSample, SampleDetail, TrackerEvent, TrackerInput, TrackerButton, TrackerGap, ClockPair>;
 
+/// Moves all its times by so much, and gives when it was known: the end of an event, the item before a gap.
+TrackerTime put_forward(TrackerItem& item, TrackerClock::duration by) noexcept;
+
 /// An item other than a sample or a sample's detail as it stands among the record's gaze events: inputs and
 /// buttons with their values in words, gaps as notes. Nothing for samples, details and clock readings.
 /// Allocates.
