@@ -86,9 +86,12 @@ int run_play(const PlayOptions& options) {
     OpenDisplay display(request);
     StimulusLibrary library(display.context(), protocol, sculptures, cache_folder());
     ProgressBar bar;
-    library.prepare_frames(stimulus, [&](std::string_view what, int done, int total, double share) {
+    const Progress progress = [&](std::string_view what, int done, int total, double share) {
         bar.update(what, done, total, share);
-    });
+    };
+    library.prepare_frames(stimulus, progress,
+                           in_window ? std::nullopt
+                                     : std::optional(AnimationFrameIndex{options.frame.value_or(0)}));
     bar.finish();
     if (in_window) {
         play_in_window(display, library, stimulus, protocol, options.repeat_s);

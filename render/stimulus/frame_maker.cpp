@@ -7,8 +7,16 @@
 
 namespace overt {
 
+std::vector<PoseIndex> FrameMaker::missing_frames(const Condition& condition, const FrameQuality& quality,
+                                                  std::optional<PoseIndex> only) const {
+    std::vector<PoseIndex> missing = cache_->missing_frames(condition, quality);
+    if (only)
+        std::erase_if(missing, [&](PoseIndex pose) { return pose != *only; });
+    return missing;
+}
+
 void FrameMaker::make_frames(std::span<const Condition> conditions, const FrameQuality& quality,
-                             const Progress& progress) {
+                             const Progress& progress, std::optional<PoseIndex> only) {
     double all = 0.0, done = 0.0;
     int count = 0, frames = 0;
     const auto cost_of = [&](const Condition& condition) {
@@ -18,7 +26,7 @@ void FrameMaker::make_frames(std::span<const Condition> conditions, const FrameQ
     };
     for (const Condition& condition : conditions) {
         remove_abandoned_files(cache_->frame_file_of(condition, quality, {0}).parent_path());
-        const auto missing = static_cast<int>(cache_->missing_frames(condition, quality).size());
+        const auto missing = static_cast<int>(missing_frames(condition, quality, only).size());
         all += missing * cost_of(condition);
         count += missing;
     }
@@ -28,7 +36,7 @@ void FrameMaker::make_frames(std::span<const Condition> conditions, const FrameQ
     // The tracer's threads hear from a progress that throws only that they are to stop.
     std::exception_ptr stopped;
     for (const Condition& condition : conditions) {
-        for (const PoseIndex pose : cache_->missing_frames(condition, quality)) {
+        for (const PoseIndex pose : missing_frames(condition, quality, only)) {
             const double cost = cost_of(condition);
             const auto tell = [&](double share_of_frame) {
                 try {

@@ -16,10 +16,10 @@ class FrameMaker {
     FrameMaker(const GlContext& context, const StimulusCache& cache, MapMaker& maps)
         : context_(&context), cache_(&cache), maps_(&maps), tracer_(cache.protocol(), cache.sculptures()) {}
 
-    /// Makes the frames of these stimuli that the cache lacks and puts them there. Throws InputError,
-    /// GraphicsError, RecordError.
+    /// Makes the frames of these stimuli that the cache lacks, of all poses or of one, and puts them there.
+    /// Throws InputError, GraphicsError, RecordError.
     void make_frames(std::span<const Condition> conditions, const FrameQuality& quality,
-                     const Progress& progress);
+                     const Progress& progress, std::optional<PoseIndex> only = {});
 
     /// Traces one frame, drawing its map before if the cache lacks it; the cache does not get it. Not
     /// complete if `progress` stopped it.
@@ -27,6 +27,8 @@ class FrameMaker {
                         const BakeProgress& progress);
 
   private:
+    std::vector<PoseIndex> missing_frames(const Condition& condition, const FrameQuality& quality,
+                                          std::optional<PoseIndex> only) const;
     void draw_live_frame(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
                          std::future<void>& writing);
 

@@ -49,7 +49,8 @@ void StimulusLibrary::prepare_frames(const Progress& progress, BakeQuality least
     take_frames(quality);
 }
 
-void StimulusLibrary::prepare_frames(const Condition& condition, const Progress& progress) {
+void StimulusLibrary::prepare_frames(const Condition& condition, const Progress& progress,
+                                     std::optional<AnimationFrameIndex> only) {
     if (const FrameSequenceSettings* sequence = cache_.sequence_of(condition)) {
         check_frame_sizes(*sequence, protocol_->animation.frame_count,
                           {protocol_->view.width_px, protocol_->view.height_px});
@@ -63,7 +64,8 @@ void StimulusLibrary::prepare_frames(const Condition& condition, const Progress&
         return;
     }
     qualities_[index_of(condition)] = quality_of(least, protocol_->bake);
-    frames_.make_frames(one, qualities_[index_of(condition)], progress);
+    frames_.make_frames(one, qualities_[index_of(condition)], progress,
+                        only ? std::optional(cache_.poses().pose_of(*only)) : std::nullopt);
 }
 
 const FrameQuality& StimulusLibrary::quality_of_frames(const Condition& condition) const {

@@ -26,8 +26,10 @@ class StimulusLibrary final : public FrameSource {
     /// InputError, GraphicsError, RecordError.
     void prepare_frames(const Progress& progress, BakeQuality least);
 
-    /// For a look at one stimulus: the best there is of it, or else a preview. Throws likewise.
-    void prepare_frames(const Condition& condition, const Progress& progress);
+    /// For a look at one stimulus, or at one of its animation frames: the best there is of the whole
+    /// stimulus, or else a preview of what is looked at. Throws likewise.
+    void prepare_frames(const Condition& condition, const Progress& progress,
+                        std::optional<AnimationFrameIndex> only = {});
 
     /// Has page() give frames of this quality of all stimuli that are not ready-made. They have to be there.
     void take_frames(const FrameQuality& quality) { qualities_.assign(qualities_.size(), quality); }

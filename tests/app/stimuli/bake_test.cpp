@@ -261,6 +261,22 @@ TEST_CASE("a session that asks for more than is there is refused, with what to d
               .exit_code == 0);
 }
 
+TEST_CASE("a look at one frame renders one preview, a look at another one more", "[session]") {
+    const SmallExperiment experiment(traced_protocol());
+    const auto look = [&](const std::string& frame) {
+        return experiment.overt({"play", experiment.protocol().string(), "--stimulus", "bust/matt", "--frame",
+                                 frame, "--picture", (experiment.folder().path() / "p.png").string()});
+    };
+    // Frames 0 and 6 of a period share a pose.
+    int rendered = 0;
+    for (const auto& [frame, more] : {std::pair{"1", 1}, {"0", 1}, {"6", 0}, {"4", 1}}) {
+        const ProgramRun run = look(frame);
+        INFO("frame " << frame << '\n' << run.err);
+        CHECK(run.exit_code == 0);
+        CHECK(whole_files_below(experiment.cache() / "frames") == (rendered += more));
+    }
+}
+
 TEST_CASE("a person is not shown previews unless somebody says so", "[session]") {
     const auto screen = VirtualScreen::start(800, 600, 24);
     std::string text = with(traced_protocol(), "refresh_hz = 120", "refresh_hz = 60");
