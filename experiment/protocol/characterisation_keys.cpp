@@ -6,87 +6,55 @@ namespace {
 
 std::vector<Key> display() {
     using D = DisplayKeys;
-    return {{{.name = "name", .explanation = "Which display it is."}, &D::name},
-            {{.name = "date", .explanation = "When it was measured, as a text."}, &D::date},
-            {{.name = "instrument", .explanation = "What it was measured with."}, &D::instrument},
-            {{.name = "note", .explanation = "What else is to be known."}, &D::note}};
+    return {{"name", &D::name, "Which display it is."},
+            {"date", &D::date, "When it was measured, as a text."},
+            {"instrument", &D::instrument, "What it was measured with."},
+            {"note", &D::note, "What else is to be known."}};
 }
 
 std::vector<Key> screen() {
     using S = MeasuredScreen;
-    return {{{.name = "width_px", .unit = "px", .low = 16, .high = 16384, .explanation = "Pixels in a row."},
-             &S::width_px},
-            {{.name = "height_px", .unit = "px", .low = 16, .high = 16384, .explanation = "Rows."},
-             &S::height_px},
-            {{.name = "refresh_hz",
-              .unit = "Hz",
-              .low = 1,
-              .high = 1000,
-              .explanation = "Refresh rate; light may depend on it."},
-             &S::refresh_hz},
-            {{.name = "width_mm",
-              .unit = "mm",
-              .low = 10,
-              .high = 20000,
-              .explanation = "Width of the lit area."},
-             &S::width_mm},
-            {{.name = "height_mm",
-              .unit = "mm",
-              .low = 10,
-              .high = 20000,
-              .explanation = "Height of the lit area."},
-             &S::height_mm},
-            {{.name = "viewing_distance_mm",
-              .unit = "mm",
-              .low = 50,
-              .high = 50000,
-              .explanation = "From where it was measured."},
-             &S::viewing_distance_mm}};
+    return {{"width_px", &S::width_px, range(16, 16384, "px"), "Pixels in a row."},
+            {"height_px", &S::height_px, range(16, 16384, "px"), "Rows."},
+            {"refresh_hz", &S::refresh_hz, range(1, 1000, "Hz"), "Refresh rate; light may depend on it."},
+            {"width_mm", &S::width_mm, range(10, 20000, "mm"), "Width of the lit area."},
+            {"height_mm", &S::height_mm, range(10, 20000, "mm"), "Height of the lit area."},
+            {"viewing_distance_mm", &S::viewing_distance_mm, range(50, 50000, "mm"),
+             "From where it was measured."}};
 }
 
 std::vector<Key> light() {
     using L = LightKeys;
-    const auto xyz = [](std::string_view name, std::string_view explanation) {
-        return KeyRule{.name = name, .unit = "cd/m2", .low = 0, .high = 1e5, .explanation = explanation};
-    };
-    return {{xyz("black", "XYZ at signal 0."), &L::black},
-            {xyz("red", "XYZ of red alone at full signal, black included."), &L::red},
-            {xyz("green", "The same of green."), &L::green},
-            {xyz("blue", "The same of blue."), &L::blue},
-            {xyz("white", "The same of all three together, to be compared with their sum."), &L::white},
-            {{.name = "spectra", .explanation = "Table of the channels' radiance, instead of XYZ."},
-             &L::spectra}};
+    constexpr KeyLimits xyz = range(0, 1e5, "cd/m2");
+    return {{"black", &L::black, xyz, "XYZ at signal 0."},
+            {"red", &L::red, xyz, "XYZ of red alone at full signal, black included."},
+            {"green", &L::green, xyz, "The same of green."},
+            {"blue", &L::blue, xyz, "The same of blue."},
+            {"white", &L::white, xyz, "The same of all three together, to be compared with their sum."},
+            {"spectra", &L::spectra, "Table of the channels' radiance, instead of XYZ."}};
 }
 
 std::vector<Key> gamma() {
     using G = GammaKeys;
-    return {
-        {{.name = "table", .explanation = "Table of light at signals of 0 … 1."}, &G::table},
-        {{.name = "signal", .low = 0, .high = 1, .explanation = "Signals, instead of a table."}, &G::signal},
-        {{.name = "red", .low = 0, .explanation = "Light of red at these signals."}, &G::red},
-        {{.name = "green", .low = 0, .explanation = "The same of green."}, &G::green},
-        {{.name = "blue", .low = 0, .explanation = "The same of blue."}, &G::blue},
-        {{.name = "exponent",
-          .low = 0.1,
-          .high = 10,
-          .explanation = "Of a power function, for all channels or for each."},
-         &G::exponent},
-        {{.name = "offset", .low = -0.9, .high = 0.9, .explanation = "Its offset, likewise."}, &G::offset},
-        {{.name = "interpolation_exponent",
-          .low = 0.1,
-          .high = 10,
-          .explanation = "Between points light^(1 / this) is interpolated; left out, the exponent of the "
-                         "power that the points lie nearest to."},
-         &G::interpolation_exponent}};
+    return {{"table", &G::table, "Table of light at signals of 0 … 1."},
+            {"signal", &G::signal, range(0, 1), "Signals, instead of a table."},
+            {"red", &G::red, at_least(0), "Light of red at these signals."},
+            {"green", &G::green, at_least(0), "The same of green."},
+            {"blue", &G::blue, at_least(0), "The same of blue."},
+            {"exponent", &G::exponent, range(0.1, 10), "Of a power function, for all channels or for each."},
+            {"offset", &G::offset, range(-0.9, 0.9), "Its offset, likewise."},
+            {"interpolation_exponent", &G::interpolation_exponent, range(0.1, 10),
+             "Between points light^(1 / this) is interpolated; left out, the exponent of the power that the "
+             "points lie nearest to."}};
 }
 
 } // namespace
 
 const KeyTable& table() {
-    static const KeyTable all({{.name = "display", .keys = display(), .home = &FileKeys::display},
-                               {.name = "screen", .keys = screen(), .home = &FileKeys::screen},
-                               {.name = "light", .keys = light(), .home = &FileKeys::light},
-                               {.name = "gamma", .keys = gamma(), .home = &FileKeys::gamma}});
+    static const KeyTable all({{"display", &FileKeys::display, display()},
+                               {"screen", &FileKeys::screen, screen()},
+                               {"light", &FileKeys::light, light()},
+                               {"gamma", &FileKeys::gamma, gamma()}});
     return all;
 }
 
