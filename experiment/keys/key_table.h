@@ -123,6 +123,8 @@ struct Section {
 
     bool is_list() const { return home.is_list(); }
     std::string heading() const; ///< "[name]" or "[[name]]"
+    /// The key of its own, and not of a table within it, that is called so; or null.
+    const Key* find_key(std::string_view key) const;
 };
 
 /// All sections of a kind of file, in the order of its documentation.
