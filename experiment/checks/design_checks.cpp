@@ -9,6 +9,7 @@
 #include "experiment/design/latin_square.h"
 #include "experiment/design/observer_groups.h"
 #include "experiment/design/schedule.h"
+#include "experiment/protocol/entry_ids.h"
 #include "experiment/protocol/protocol_keys.h"
 
 namespace overt {
@@ -19,35 +20,11 @@ template <class Entry>
 void check_names(ProtocolExamination& examination, const std::string& path,
                  const std::vector<std::string>& names, const std::vector<Entry>& entries,
                  std::string_view noun) {
-    std::vector<std::string_view> known;
-    for (const Entry& entry : entries)
-        known.push_back(entry.id);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (std::find(known.begin(), known.end(), names[i]) == known.end()) {
-            examination.error({path}, fmt::format("there is no {} \"{}\"", noun, names[i]),
-                              suggest_name(names[i], known));
-        } else if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
-                   names.begin() + static_cast<std::ptrdiff_t>(i)) {
-            examination.error({path}, fmt::format("{} \"{}\" is listed twice", noun, names[i]),
+    const auto known = ids_of<std::string_view>(entries);
+    for (auto name = names.begin(); name != names.end(); ++name)
+        if (is_known(examination, path, noun, *name, known) && std::find(names.begin(), name, *name) != name)
+            examination.error({path}, fmt::format("{} \"{}\" is listed twice", noun, *name),
                               "to show more often, there is \"repetitions\"");
-        }
-    }
-}
-
-template <class Entry>
-void check_entry_ids(ProtocolExamination& examination, std::string_view section,
-                     const std::vector<Entry>& entries) {
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-        const auto first = std::find_if(entries.begin(), entries.end(),
-                                        [&](const Entry& earlier) { return earlier.id == entries[i].id; });
-        const auto earlier = static_cast<std::size_t>(first - entries.begin());
-        const std::string path = fmt::format("{}[{}].id", section, i);
-        if (earlier < i && !entries[i].id.empty())
-            examination.error(
-                {path}, fmt::format("id \"{}\" is taken already", entries[i].id),
-                fmt::format("by the [[{}]] in {}", section,
-                            examination.line_of(fmt::format("{}[{}].id", section, earlier), path)));
-    }
 }
 
 void check_weights(ProtocolExamination& examination, const BlockSettings& block, int index) {
@@ -156,12 +133,13 @@ void check_fill(ProtocolExamination& examination, const AlikeObservers& observer
                   : fmt::format("{} observers{} would", rows, observers.of_group));
 }
 
-bool rotates_materials(const Protocol& protocol, int block, const BlockScope& scope) {
-    return std::any_of(scope.tasks.begin(), scope.tasks.end(), [&](int task) {
-        return block_at(protocol, block)
-                   .stimuli.value_or(protocol.tasks[static_cast<std::size_t>(task)].stimuli) ==
-               TaskCoverage::once_per_sculpture;
-    });
+/// Rows after which the materials of a block have gone round; 1 where they do not.
+int rows_of_materials(const Protocol& protocol, int block, const BlockScope& scope) {
+    const bool do_rotate =
+        std::ranges::any_of(scope.tasks, [&](int task) { return rotates_materials(protocol, block, task); });
+    return do_rotate
+               ? rows_of_square(protocol.schedule.material_rotation, static_cast<int>(scope.materials.size()))
+               : 1;
 }
 
 void check_squares(ProtocolExamination& examination) {
@@ -180,9 +158,7 @@ void check_squares(ProtocolExamination& examination) {
                     examination, observers, fmt::format("the square of levels of block \"{}\"", block.id),
                     rows_of_square(square_of(block.levels),
                                    static_cast<int>(levels_in(protocol, plan.scope, block.by).size())));
-            if (rotates_materials(protocol, plan.block, plan.scope))
-                rotation = std::max(rotation, rows_of_square(schedule.material_rotation,
-                                                             static_cast<int>(plan.scope.materials.size())));
+            rotation = std::max(rotation, rows_of_materials(protocol, plan.block, plan.scope));
         }
         if (!protocol.groups.empty())
             check_fill(examination, observers, "the rotation of materials", rotation);
@@ -196,12 +172,8 @@ void check_rotation(ProtocolExamination& examination) {
         return;
     const int observers = protocol.schedule.observers;
     int rotation = 1;
-    for (int index = 0; index < block_count(protocol); ++index) {
-        const BlockScope scope = scope_of(protocol, index);
-        if (rotates_materials(protocol, index, scope))
-            rotation = std::max(rotation, rows_of_square(protocol.schedule.material_rotation,
-                                                         static_cast<int>(scope.materials.size())));
-    }
+    for (int index = 0; index < block_count(protocol); ++index)
+        rotation = std::max(rotation, rows_of_materials(protocol, index, scope_of(protocol, index)));
     if (observers % rotation != 0) {
         const int below = observers / rotation * rotation;
         examination.warning(
@@ -218,7 +190,7 @@ void check_rotation(ProtocolExamination& examination) {
 
 void check_blocks(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
-    check_entry_ids(examination, "block", protocol.blocks);
+    check_ids_differ(examination, "block", ids_of<std::string_view>(protocol.blocks));
     for (int index = 0; index < static_cast<int>(protocol.blocks.size()); ++index)
         check_block(examination, index);
     for (const Task& task : protocol.tasks) {
@@ -263,7 +235,7 @@ void check_practice_of_groups(ProtocolExamination& examination) {
 void check_groups(ProtocolExamination& examination) {
     check_practice_of_groups(examination);
     const Protocol& protocol = examination.protocol;
-    check_entry_ids(examination, "group", protocol.groups);
+    check_ids_differ(examination, "group", ids_of<std::string_view>(protocol.groups));
     for (std::size_t i = 0; i < protocol.groups.size(); ++i) {
         const GroupSettings& group = protocol.groups[i];
         const auto path = [&](std::string_view key) { return fmt::format("group[{}].{}", i, key); };

@@ -1,8 +1,7 @@
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "experiment/checks/protocol_checks.h"
+#include "experiment/protocol/entry_ids.h"
 
 namespace overt {
 
@@ -11,11 +10,7 @@ namespace {
 template <class Entry>
 void check_id(ProtocolExamination& examination, const std::string& path, const std::string& id,
               const std::vector<Entry>& entries, std::string_view noun) {
-    std::vector<std::string_view> known;
-    for (const Entry& entry : entries)
-        known.push_back(entry.id);
-    if (std::find(known.begin(), known.end(), id) == known.end())
-        examination.error({path}, fmt::format("there is no {} \"{}\"", noun, id), suggest_name(id, known));
+    is_known(examination, path, noun, id, ids_of<std::string_view>(entries));
 }
 
 } // namespace

@@ -7,6 +7,27 @@
 
 namespace overt {
 
+void check_ids_differ(ProtocolExamination& examination, std::string_view list,
+                      const std::vector<std::string_view>& ids) {
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        const auto earlier = static_cast<std::size_t>(std::ranges::find(ids, ids[i]) - ids.begin());
+        const std::string path = fmt::format("{}[{}].id", list, i);
+        if (earlier < i && !ids[i].empty())
+            examination.error(
+                {path}, fmt::format("id \"{}\" is taken already", ids[i]),
+                fmt::format("by the [[{}]] in {}", list,
+                            examination.line_of(fmt::format("{}[{}].id", list, earlier), path)));
+    }
+}
+
+bool is_known(ProtocolExamination& examination, const std::string& path, std::string_view noun,
+              std::string_view id, const std::vector<std::string_view>& known) {
+    if (std::ranges::find(known, id) != known.end())
+        return true;
+    examination.error({path}, fmt::format("there is no {} \"{}\"", noun, id), suggest_name(id, known));
+    return false;
+}
+
 void check_image_fits(ProtocolExamination& examination) {
     const DisplaySettings& display = examination.protocol.display;
     const ViewSettings& view = examination.protocol.view;

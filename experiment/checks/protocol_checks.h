@@ -44,4 +44,13 @@ void check_bake(ProtocolExamination& examination);
 /// Whether meshes, probe and frames are there. Looks at the file system.
 void check_files(ProtocolExamination& examination);
 
+// What several of them look for.
+
+/// Reports each entry of a list whose id an earlier one has already. Empty ids are reported elsewhere.
+void check_ids_differ(ProtocolExamination& examination, std::string_view list,
+                      const std::vector<std::string_view>& ids);
+/// Whether an id is known; if not, reports that "there is no NOUN "ID"".
+bool is_known(ProtocolExamination& examination, const std::string& path, std::string_view noun,
+              std::string_view id, const std::vector<std::string_view>& known);
+
 } // namespace overt

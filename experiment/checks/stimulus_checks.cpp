@@ -27,16 +27,7 @@ void check_list(ProtocolExamination& examination, std::string_view list, const s
         examination.error({entry_path(list, most_entries)},
                           fmt::format("more than {} entries of [[{}]]", most_entries, list));
     }
-    std::map<std::string_view, std::size_t> seen;
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-        const std::string path = entry_path(list, i, "id");
-        const auto [first, is_new] = seen.try_emplace(entries[i].id, i);
-        if (is_new || entries[i].id.empty())
-            continue;
-        examination.error({path}, fmt::format("id \"{}\" is taken already", entries[i].id),
-                          fmt::format("by the [[{}]] in {}", list,
-                                      examination.line_of(entry_path(list, first->second, "id"), path)));
-    }
+    check_ids_differ(examination, list, ids_of<std::string_view>(entries));
 }
 
 bool is_covered_by_frames(const Protocol& protocol, std::size_t sculpture) {
@@ -198,17 +189,12 @@ void check_frames(ProtocolExamination& examination) {
     const auto sculptures = ids_of<std::string_view>(protocol.sculptures),
                materials = ids_of<std::string_view>(protocol.materials);
     std::map<std::pair<std::string, std::string>, std::size_t> seen;
-    const auto check_reference = [&](std::size_t i, std::string_view key, const std::string& id,
-                                     const std::vector<std::string_view>& known) {
-        if (std::find(known.begin(), known.end(), id) == known.end()) {
-            examination.error({entry_path("frames", i, key)},
-                              fmt::format("there is no [[{}]] \"{}\"", key, id), suggest_name(id, known));
-        }
-    };
     for (std::size_t i = 0; i < protocol.frames.size(); ++i) {
         const FrameSequenceSettings& sequence = protocol.frames[i];
-        check_reference(i, "sculpture", sequence.sculpture, sculptures);
-        check_reference(i, "material", sequence.material, materials);
+        is_known(examination, entry_path("frames", i, "sculpture"), "[[sculpture]]", sequence.sculpture,
+                 sculptures);
+        is_known(examination, entry_path("frames", i, "material"), "[[material]]", sequence.material,
+                 materials);
         const auto [first, is_new] = seen.try_emplace({sequence.sculpture, sequence.material}, i);
         if (!is_new) {
             examination.error(

@@ -18,10 +18,4 @@ struct SampledSpectrum {
     double at(double wavelength_nm) const;
 };
 
-/// Equally spaced samples.
-SampledSpectrum sampled(double first_nm, double step_nm, std::vector<double> values);
-
-/// The product, at the wavelengths of both where both are defined: light that a surface sends back.
-SampledSpectrum product(const SampledSpectrum& a, const SampledSpectrum& b);
-
 } // namespace overt

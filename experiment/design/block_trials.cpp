@@ -35,7 +35,10 @@ std::vector<int> chosen(const std::vector<Entry>& entries, const std::vector<std
     return indices;
 }
 
-/// Materials over the observers of a rotation, cell by cell.
+/// The material of a cell, c = task * S + sculpture with the task's place among the rotated ones: column (c +
+/// floor(c / L)) mod M of the row, with L the least common multiple of S and M. So the M rows of a square
+/// fill all M materials of a cell once; each row has all materials equally often, to one; and a sculpture
+/// changes its material from task to task.
 int rotated(const Protocol& protocol, int row, int cell, const BlockScope& scope) {
     const int sculptures = count_of(scope.sculptures), materials = count_of(scope.materials);
     const int round = std::lcm(sculptures, materials);
@@ -193,9 +196,7 @@ std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number
     for (const int block :
          order_of_blocks(protocol, blocks, rotations.row_of(Kind::blocks, -1, place.row), seed)) {
         BlockPlan plan{block, {}, {}, rotations.row_of(Kind::levels, block, place.row)};
-        plan.scope = std::find_if(scopes.begin(), scopes.end(), [&](const BlockScopeOf& one) {
-                         return one.block == block;
-                     })->scope;
+        plan.scope = std::ranges::find(scopes, block, &BlockScopeOf::block)->scope;
         plan.trials =
             trials_in(protocol, block, plan.scope, rotations.row_of(Kind::materials, -1, place.row));
         if (!plan.trials.empty())

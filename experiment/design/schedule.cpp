@@ -1,7 +1,6 @@
 #include "experiment/design/schedule.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -57,15 +56,6 @@ Schedule ScheduleMaker::make(const Observer& observer, std::uint64_t seed) {
     }
     OVERT_EXPECTS(!schedule.trials.empty());
     return schedule;
-}
-
-int rotated_material(int observer_number, int rotating_task, int sculpture, int sculpture_count,
-                     int material_count) {
-    OVERT_EXPECTS(observer_number >= 1 && rotating_task >= 0 && sculpture >= 0);
-    OVERT_EXPECTS(sculpture < sculpture_count && material_count >= 1);
-    const int cell = rotating_task * sculpture_count + sculpture;
-    const int round = std::lcm(sculpture_count, material_count);
-    return (observer_number - 1 + cell + cell / round) % material_count;
 }
 
 std::vector<Trial> trials_of(const Protocol& protocol, int number) {

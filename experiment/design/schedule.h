@@ -14,15 +14,6 @@
 
 namespace overt {
 
-/// The material in which an observer sees a sculpture under the `rotating_task`-th of the tasks that are
-/// asked once per sculpture (from 0), in a cyclic rotation: (number - 1 + c + floor(c / L)) mod M with the
-/// cell c = task * S + sculpture and L the least common multiple of S and M. So every M observers in sequence
-/// fill all M materials of a cell once; each observer sees all materials equally often, to one; and a
-/// sculpture changes its material from task to task. `observer_number` from 1. Other rotations take the same
-/// columns of another square.
-int rotated_material(int observer_number, int rotating_task, int sculpture, int sculpture_count,
-                     int material_count);
-
 /// All trials of an observer, block by block as listed, each as often as it comes; of a block with draws,
 /// those that are drawn from, once. Throws InputError as group_place does.
 std::vector<Trial> trials_of(const Protocol& protocol, int observer_number);

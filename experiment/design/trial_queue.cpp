@@ -13,19 +13,12 @@ namespace {
 
 /// Index of the entry with this id.
 template <class Entry> int index_of(const std::vector<Entry>& entries, const std::string& id) {
-    const auto found =
-        std::find_if(entries.begin(), entries.end(), [&](const Entry& entry) { return entry.id == id; });
+    const auto found = std::ranges::find(entries, id, &Entry::id);
     OVERT_EXPECTS(found != entries.end());
     return static_cast<int>(found - entries.begin());
 }
 
 } // namespace
-
-std::string_view name_of(TrialFailure failure) {
-    constexpr std::string_view names[] = {"none",     "missed refreshes", "gaze lost",
-                                          "rejected", "repeated",         "skipped"};
-    return names[static_cast<int>(failure)];
-}
 
 TrialQueue::TrialQueue(const Protocol& protocol, const Schedule& schedule)
     : protocol_(protocol), schedule_(schedule) {
@@ -160,9 +153,7 @@ void TrialQueue::go_through(std::span<const RecordedStep> steps) {
 
 void TrialQueue::leave_out_to_practice() {
     look_ahead();
-    const auto practice = std::find_if(before_.begin(), before_.end(), [](const SessionStep& step) {
-        return step.kind == SessionStep::Kind::practice;
-    });
+    const auto practice = std::ranges::find(before_, SessionStep::Kind::practice, &SessionStep::kind);
     if (practice == before_.end())
         throw RecordError("the record tells of practice where its protocol has none: it cannot be gone on "
                           "with");

@@ -38,7 +38,10 @@ struct AttemptResult {
 };
 
 enum class TrialFailure : std::uint8_t { none, missed_refreshes, gaze_lost, rejected, repeated, skipped };
-std::string_view name_of(TrialFailure failure);
+template <>
+inline constexpr auto names_of<TrialFailure> = enum_names<TrialFailure>("none", "missed refreshes",
+                                                                        "gaze lost", "rejected", "repeated",
+                                                                        "skipped");
 
 /// What is made of an attempt.
 struct AttemptVerdict {
@@ -83,8 +86,6 @@ class TrialQueue {
 
     /// The stimulus that will be shown next if nothing fails.
     std::optional<Condition> expected() const;
-
-    int trials_left() const { return static_cast<int>(waiting_.size()); } ///< attempts planned, at least
 
   private:
     struct Attempt {

@@ -30,6 +30,11 @@ std::string Section::heading() const {
     return fmt::format(fmt::runtime(is_list() ? "[[{}]]" : "[{}]"), name);
 }
 
+const Key* Section::find_key(std::string_view key) const {
+    const auto found = std::ranges::find(keys, key, [](const Key& row) { return row.rule.name; });
+    return found == keys.end() ? nullptr : &*found;
+}
+
 KeyTable::KeyTable(std::vector<Section> all, std::string_view key_above_sections)
     : sections_(std::move(all)), key_above_(key_above_sections) {
     OVERT_EXPECTS(!sections_.empty());
@@ -40,8 +45,7 @@ KeyTable::KeyTable(std::vector<Section> all, std::string_view key_above_sections
 }
 
 const Section& KeyTable::section(std::string_view name) const {
-    const auto found = std::find_if(sections_.begin(), sections_.end(),
-                                    [&](const Section& section) { return section.name == name; });
+    const auto found = std::ranges::find(sections_, name, &Section::name);
     OVERT_EXPECTS(found != sections_.end());
     return *found;
 }

@@ -48,15 +48,23 @@ class MemberPlace {
     const void *struct_, *member_;
 };
 
-/// A row of the table.
+/// A member that Struct inherits, as one of its own: a key is one of its section's struct.
+template <class Struct, class Base, class Value> constexpr Value Struct::*member_of(Value Base::*inherited) {
+    return inherited;
+}
+
+/// A row of the table: name, member, what may be written if not all that the type can be, meaning.
 struct Key {
-    /// The rule of an enumeration that has names takes these for its choices.
+    /// An enumeration that has names takes these for its choices.
     template <class Struct, class Value>
-    Key(const KeyRule& its_rule, Value Struct::*member)
-        : rule(its_rule), type(&value_type(TypeTag<Value>())), place(member) {
+    Key(std::string_view name, Value Struct::*member, const KeyLimits& limits, std::string_view explanation)
+        : rule{limits, name, explanation}, type(&value_type(TypeTag<Value>())), place(member) {
         if (rule.choices.empty())
             rule.choices = type->names;
     }
+    template <class Struct, class Value>
+    Key(std::string_view name, Value Struct::*member, std::string_view explanation)
+        : Key(name, member, KeyLimits{}, explanation) {}
 
     /// The member of an object of the key's struct, if it is a Value; else null.
     template <class Value> const Value* get_if(const void* object) const {
@@ -108,13 +116,15 @@ class SectionHome {
 /// A [section], the entries of a [[list]], or a table within one of them (`head = { … }` of a sculpture).
 struct Section {
     std::string_view name;
-    std::string_view explanation = {};
+    SectionHome home; ///< of a table within a section: none
     std::vector<Key> keys;
+    std::string_view explanation = {};
     std::vector<Section> tables = {};
-    SectionHome home = {};
 
     bool is_list() const { return home.is_list(); }
     std::string heading() const; ///< "[name]" or "[[name]]"
+    /// The key of its own, and not of a table within it, that is called so; or null.
+    const Key* find_key(std::string_view key) const;
 };
 
 /// All sections of a kind of file, in the order of its documentation.

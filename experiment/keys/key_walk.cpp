@@ -3,22 +3,57 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-
-#include "experiment/keys/key_hints.h"
+#include <fmt/ranges.h>
 
 namespace overt {
+
+namespace {
+
+/// The headings of all sections that have a key of this name, but for one.
+std::vector<std::string> homes_of(const KeyTable& table, std::string_view key, std::string_view but = {}) {
+    std::vector<std::string> homes;
+    for (const Section& section : table) {
+        if (section.find_key(key) && section.name != but)
+            homes.push_back(section.heading());
+    }
+    return homes;
+}
+
+/// Of a key before the first heading: the headings below which there is one of its name.
+std::string hint_for_stray_key(const KeyTable& table, std::string_view key) {
+    constexpr std::size_t most_homes = 4;
+    const std::vector<std::string> homes = homes_of(table, key);
+    if (homes.empty() || homes.size() > most_homes)
+        return "write it below the heading of its section";
+    return fmt::format("write it below the heading {}", fmt::join(homes, " or "));
+}
+
+/// Of a key that the section, or the table within one, has not: the nearest that it has, or else where this
+/// very key is at home.
+std::string hint_for_unknown_key(const KeyTable& table, std::string_view key, const Section& section) {
+    if (!key.empty() && key == table.key_above_sections())
+        return fmt::format("\"{}\" stands before the first section", key);
+    std::vector<std::string_view> names;
+    for (const Key& row : section.keys)
+        names.push_back(row.rule.name);
+    for (const Section& inner : section.tables)
+        names.push_back(inner.name);
+    const std::vector<std::string> homes = homes_of(table, key, section.name);
+    return homes.empty() || nearest_name(key, names)
+               ? suggest_name(key, names)
+               : fmt::format("\"{}\" belongs to {}", key, homes.front());
+}
+
+} // namespace
 
 void KeyWalk::read_root(const TomlFile& toml, void* root) {
     is_whole_ = toml.is_whole;
     for (const TomlEntry& entry : toml.root) {
-        if (std::none_of(table_.begin(), table_.end(),
-                         [&](const Section& section) { return section.name == entry.key; }))
+        if (std::ranges::find(table_, entry.key, &Section::name) == table_.end())
             report_unknown_section(entry);
     }
     for (const Section& section : table_) {
-        const auto entry = std::find_if(toml.root.begin(), toml.root.end(), [&](const TomlEntry& candidate) {
-            return candidate.key == section.name;
-        });
+        const auto entry = std::ranges::find(toml.root, section.name, &TomlEntry::key);
         const TomlValue* value = entry == toml.root.end() ? nullptr : &entry->value;
         if (!section.is_list())
             read_one(section, value, root);
@@ -72,13 +107,10 @@ void KeyWalk::read_entries(const Section& section, const TomlValue& value, void*
 
 void KeyWalk::read_keys(const Section& section, const TomlTable& table, const std::string& path, void* out) {
     for (const TomlEntry& entry : table) {
-        const auto key = std::find_if(section.keys.begin(), section.keys.end(),
-                                      [&](const Key& row) { return row.rule.name == entry.key; });
-        const auto inner =
-            std::find_if(section.tables.begin(), section.tables.end(),
-                         [&](const Section& candidate) { return candidate.name == entry.key; });
+        const Key* const key = section.find_key(entry.key);
+        const auto inner = std::ranges::find(section.tables, entry.key, &Section::name);
         const std::string entry_path = path + "." + entry.key;
-        if (key != section.keys.end())
+        if (key)
             read_key(*key, entry.value, entry_path, out);
         else if (inner != section.tables.end())
             read_inner(*inner, entry, entry_path, out);

@@ -1,8 +1,9 @@
 /// The types that the value of a key can have: one object for each, with all that is done with such a value.
-/// A type of its own needs a read_value() (value_reader.h) and a row in value_type.cpp.
+/// A type of its own needs a read_value() and a row in value_type.cpp.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,10 +15,18 @@
 
 #include "experiment/base/enum_names.h"
 #include "experiment/keys/key_rule.h"
-#include "experiment/keys/value_reader.h"
+#include "experiment/keys/toml_tree.h"
 #include "experiment/units.h"
 
 namespace overt {
+
+/// What is wrong with a value, and where in it.
+struct ValueFault {
+    Place place;
+    std::string message;
+    std::string hint = {};
+};
+using ValueResult = std::optional<ValueFault>; ///< nothing: the value was taken
 
 /// `value` and `out` point to an object of the type.
 struct ValueType {
@@ -43,10 +52,14 @@ const ValueType& value_type(TypeTag<std::optional<int>>);
 const ValueType& value_type(TypeTag<std::optional<std::uint64_t>>);
 const ValueType& value_type(TypeTag<std::optional<glm::dvec3>>);
 const ValueType& value_type(TypeTag<std::array<double, 3>>);
-const ValueType& value_type(TypeTag<std::vector<double>>);
+const ValueType& value_type(TypeTag<std::vector<double>>); ///< one number is a list of one
+/// One text is a list of one. The rule holds for each.
 const ValueType& value_type(TypeTag<std::vector<std::string>>);
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 4>>>);
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 6>>>);
+
+/// A text that is one of the rule's choices: which.
+ValueResult read_choice(const TomlValue& written, const KeyRule& rule, std::size_t& index);
 
 /// Of an enumeration, whose values are chosen by the names of the rule.
 ValueType type_of_choices(ValueResult (*read)(const TomlValue&, const KeyRule&, void*),
@@ -62,8 +75,8 @@ template <class Enum> std::span<const std::string_view> names_if_any() {
 }
 
 template <class Enum>
-requires std::is_enum_v<Enum> ValueResult read_value(const TomlValue& written, const KeyRule& rule,
-                                                     Enum& out) {
+requires std::is_enum_v<Enum> ValueResult read_enum(const TomlValue& written, const KeyRule& rule,
+                                                    Enum& out) {
     std::size_t index = 0;
     ValueResult fault = read_choice(written, rule, index);
     if (!fault)
@@ -76,7 +89,7 @@ requires std::is_enum_v<Enum>
 const ValueType& value_type(TypeTag<Enum>) {
     static const ValueType type = type_of_choices(
         [](const TomlValue& written, const KeyRule& rule, void* out) {
-            return read_value(written, rule, *static_cast<Enum*>(out));
+            return read_enum(written, rule, *static_cast<Enum*>(out));
         },
         [](const KeyRule& rule, const void* value) {
             return written_choice(rule, static_cast<std::size_t>(*static_cast<const Enum*>(value)));
@@ -90,7 +103,7 @@ requires std::is_enum_v<Enum>
 const ValueType& value_type(TypeTag<std::optional<Enum>>) {
     static const ValueType type = type_of_choices(
         [](const TomlValue& written, const KeyRule& rule, void* out) {
-            return read_value(written, rule, static_cast<std::optional<Enum>*>(out)->emplace());
+            return read_enum(written, rule, static_cast<std::optional<Enum>*>(out)->emplace());
         },
         nullptr, names_if_any<Enum>());
     return type;

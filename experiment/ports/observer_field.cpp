@@ -61,8 +61,7 @@ std::vector<RecordedObserverField> filled_in(std::span<const ObserverFieldSettin
 }
 
 void complete_field(ObserverFieldSettings& field, bool has_kind) {
-    const auto standard = std::find_if(std::begin(standard_fields), std::end(standard_fields),
-                                       [&](const StandardField& known) { return known.id == field.id; });
+    const auto standard = std::ranges::find(standard_fields, field.id, &StandardField::id);
     if (standard != std::end(standard_fields) && !has_kind) {
         const bool has_choices = !field.choices.empty();
         field.kind = has_choices ? FieldKind::choice : standard->kind;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "experiment/base/enum_names.h"
 #include "experiment/ports/session_phase.h"
 #include "experiment/ports/setup_stage.h"
 #include "experiment/session_time.h"
@@ -48,7 +49,11 @@ struct ResponsePress {
 constexpr bool is_operators(ResponsePress::Key key) { return key >= ResponsePress::Key::pause; }
 
 /// An operator's key as [operator] and the record call it; empty for the observer's.
-std::string_view name_of(ResponsePress::Key key) noexcept;
+template <>
+inline constexpr auto
+    names_of<ResponsePress::Key> = enum_names<ResponsePress::Key>("", "", "", "", "", "", "", "", "", "",
+                                                                  "pause", "recalibrate", "drift check",
+                                                                  "repeat", "reject", "skip", "abort");
 
 class SessionLog;
 

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 #include <vector>
+
+#include "experiment/base/enum_names.h"
 
 namespace overt {
 
@@ -13,10 +14,8 @@ enum class ResumePolicy : std::uint8_t {
     skip,         ///< it is skipped
     restart_block ///< its block begins again with its first trial
 };
-constexpr std::string_view name_of(ResumePolicy policy) {
-    constexpr std::string_view names[] = {"redo", "skip", "restart-block"};
-    return names[static_cast<int>(policy)];
-}
+template <>
+inline constexpr auto names_of<ResumePolicy> = enum_names<ResumePolicy>("redo", "skip", "restart-block");
 
 /// What became of an attempt at a trial.
 enum class AttemptFate : std::uint8_t {

@@ -1,6 +1,5 @@
 #include "experiment/ports/session_phase.h"
 
-#include <array>
 #include <initializer_list>
 
 namespace overt {
@@ -8,10 +7,6 @@ namespace overt {
 namespace {
 
 using enum SessionPhase;
-
-constexpr std::array<std::string_view, session_phase_count> names{
-    "set-up",   "calibration",     "block",    "trial", "task screen", "drift check",
-    "stimulus", "response screen", "feedback", "rest",  "pause",       "end"};
 
 bool is_one_of(SessionPhase phase, std::initializer_list<SessionPhase> phases) {
     for (const SessionPhase one : phases)
@@ -28,8 +23,6 @@ bool can_be_interrupted(SessionPhase phase) {
 }
 
 } // namespace
-
-std::string_view name_of(SessionPhase phase) { return names[static_cast<std::size_t>(phase)]; }
 
 bool may_follow(SessionPhase from, SessionPhase to) {
     // Whatever the plan has next when a trial or a text is over.

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "experiment/base/enum_names.h"
+
 namespace overt {
 
 enum class SessionPhase : std::uint8_t {
@@ -20,10 +22,13 @@ enum class SessionPhase : std::uint8_t {
     pause,    ///< one that the operator makes
     end
 };
-inline constexpr int session_phase_count = 12;
-
-/// As the record and the command line have it: "task screen".
-std::string_view name_of(SessionPhase phase);
+/// As the record and the command line have them.
+template <>
+inline constexpr auto names_of<SessionPhase> = enum_names<SessionPhase>("set-up", "calibration", "block",
+                                                                        "trial", "task screen", "drift check",
+                                                                        "stimulus", "response screen",
+                                                                        "feedback", "rest", "pause", "end");
+inline constexpr int session_phase_count = static_cast<int>(names_of<SessionPhase>.size());
 
 /// Whether a session may go from one phase to the other. Pauses and calibrations between trials or on their
 /// screens lead back to where they came from.

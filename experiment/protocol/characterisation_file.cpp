@@ -8,13 +8,76 @@
 
 #include "experiment/base/number_table.h"
 #include "experiment/keys/key_walk.h"
-#include "experiment/protocol/characterisation_keys.h"
 
 namespace overt {
 
-using namespace characterisation_keys;
-
 namespace {
+
+/// What stands in a file.
+struct CharacterisationKeys {
+    struct Display {
+        std::string name, date, instrument, note;
+    } display;
+    MeasuredScreen screen;
+    /// As measured, the black of the display included.
+    struct Light {
+        std::optional<glm::dvec3> black, red, green, blue, white;
+        std::filesystem::path spectra;
+    } light;
+    struct Gamma {
+        std::filesystem::path table;
+        std::vector<double> signal, red, green, blue;
+        std::vector<double> exponent, offset, interpolation_exponent; ///< none, one, or one for each channel
+    } gamma;
+};
+using LightKeys = CharacterisationKeys::Light;
+using GammaKeys = CharacterisationKeys::Gamma;
+
+const KeyTable& characterisation_table() {
+    using F = CharacterisationKeys;
+    using D = F::Display;
+    using S = MeasuredScreen;
+    using L = LightKeys;
+    using G = GammaKeys;
+    constexpr KeyLimits xyz = range(0, 1e5, "cd/m2");
+    static const KeyTable table(
+        {{"display",
+          &F::display,
+          {{"name", &D::name, "Which display it is."},
+           {"date", &D::date, "When it was measured, as a text."},
+           {"instrument", &D::instrument, "What it was measured with."},
+           {"note", &D::note, "What else is to be known."}}},
+         {"screen",
+          &F::screen,
+          {{"width_px", &S::width_px, range(16, 16384, "px"), "Pixels in a row."},
+           {"height_px", &S::height_px, range(16, 16384, "px"), "Rows."},
+           {"refresh_hz", &S::refresh_hz, range(1, 1000, "Hz"), "Refresh rate; light may depend on it."},
+           {"width_mm", &S::width_mm, range(10, 20000, "mm"), "Width of the lit area."},
+           {"height_mm", &S::height_mm, range(10, 20000, "mm"), "Height of the lit area."},
+           {"viewing_distance_mm", &S::viewing_distance_mm, range(50, 50000, "mm"),
+            "From where it was measured."}}},
+         {"light",
+          &F::light,
+          {{"black", &L::black, xyz, "XYZ at signal 0."},
+           {"red", &L::red, xyz, "XYZ of red alone at full signal, black included."},
+           {"green", &L::green, xyz, "The same of green."},
+           {"blue", &L::blue, xyz, "The same of blue."},
+           {"white", &L::white, xyz, "The same of all three together, to be compared with their sum."},
+           {"spectra", &L::spectra, "Table of the channels' radiance, instead of XYZ."}}},
+         {"gamma",
+          &F::gamma,
+          {{"table", &G::table, "Table of light at signals of 0 … 1."},
+           {"signal", &G::signal, range(0, 1), "Signals, instead of a table."},
+           {"red", &G::red, at_least(0), "Light of red at these signals."},
+           {"green", &G::green, at_least(0), "The same of green."},
+           {"blue", &G::blue, at_least(0), "The same of blue."},
+           {"exponent", &G::exponent, range(0.1, 10), "Of a power function, for all channels or for each."},
+           {"offset", &G::offset, range(-0.9, 0.9), "Its offset, likewise."},
+           {"interpolation_exponent", &G::interpolation_exponent, range(0.1, 10),
+            "Between points light^(1 / this) is interpolated; left out, the exponent of the power that the "
+            "points lie nearest to."}}}});
+    return table;
+}
 
 /// A file while it is read.
 struct Reading {
@@ -36,8 +99,7 @@ struct Reading {
 
   private:
     static const TomlValue* find(const TomlTable& table, std::string_view key) {
-        const auto found = std::find_if(table.begin(), table.end(),
-                                        [&](const TomlEntry& entry) { return entry.key == key; });
+        const auto found = std::ranges::find(table, key, &TomlEntry::key);
         return found == table.end() ? nullptr : &found->value;
     }
 };
@@ -55,9 +117,9 @@ class CharacterisationReader {
         : reading_(reading), folder_(std::move(folder)), out_(out) {}
 
     void read() {
-        FileKeys keys;
+        CharacterisationKeys keys;
         KeyPaths faulty;
-        KeyWalk(table(), reading_.file, reading_.places, faulty, reading_.diagnostics)
+        KeyWalk(characterisation_table(), reading_.file, reading_.places, faulty, reading_.diagnostics)
             .read(reading_.toml, keys);
         out_.display = keys.display.name;
         out_.date = keys.display.date;

@@ -31,7 +31,6 @@ enum class TrialFactor : std::uint8_t { task, sculpture, material, stimulus };
 template <>
 inline constexpr auto names_of<TrialFactor> = enum_names<TrialFactor>("task", "sculpture", "material",
                                                                       "stimulus");
-inline constexpr int trial_factor_count = 4;
 
 /// How the trials of a block come.
 enum class OrderMethod : std::uint8_t {

@@ -56,118 +56,65 @@ struct FileKeys {
 std::vector<Key> display_keys() {
     using D = DisplayKeys;
     static constexpr std::string_view time_stamps[] = {"counted", "bare"};
-    return {{{.name = "drift_ppm",
-              .unit = "ppm",
-              .low = -2000,
-              .high = 2000,
-              .explanation = "By how much the display's clock goes faster than nominal."},
-             &D::drift_ppm},
-            {{.name = "jitter_sd_ms",
-              .unit = "ms",
-              .low = 0,
-              .high = 100,
-              .explanation = "Scatter of every time stamp: normal, cut at three standard deviations."},
-             &D::jitter_sd_ms},
-            {{.name = "time_stamps",
-              .choices = time_stamps,
-              .explanation = "With a count of refreshes, or bare times as of a buffer swap's return."},
-             &D::time_stamps}};
+    return {{"drift_ppm", &D::drift_ppm, range(-2000, 2000, "ppm"),
+             "By how much the display's clock goes faster than nominal."},
+            {"jitter_sd_ms", &D::jitter_sd_ms, range(0, 100, "ms"),
+             "Scatter of every time stamp: normal, cut at three standard deviations."},
+            {"time_stamps", &D::time_stamps, one_of(time_stamps),
+             "With a count of refreshes, or bare times as of a buffer swap's return."}};
 }
 
 std::vector<Key> chance_keys() {
     using C = ChanceKeys;
-    const auto share = [](std::string_view name, double C::*member, std::string_view explanation) {
-        return Key{{.name = name, .low = 0, .high = 1, .explanation = explanation}, member};
-    };
-    const auto time = [](std::string_view name, double C::*member, std::string_view explanation) {
-        return Key{{.name = name, .unit = "ms", .low = 0, .high = 60000, .explanation = explanation}, member};
-    };
-    return {{{.name = "seed", .low = 0, .explanation = "Of all that comes by chance."}, &C::seed},
-            share("late_share", &C::late_share, "Probability at each refresh that drawing takes longer."),
-            time("late_min_ms", &C::late_min_ms, "The least."),
-            time("late_max_ms", &C::late_max_ms, "The most."),
-            share("skip_share", &C::skip_share, "Probability that the display takes the picture later."),
-            {{.name = "skip_max_refreshes",
-              .low = 1,
-              .high = 10000,
-              .explanation = "By 1 to this many refreshes."},
-             static_cast<int C::*>(&C::skip_max_refreshes)},
-            share("stall_share", &C::stall_share, "Probability that the machine stands still."),
-            time("stall_min_ms", &C::stall_min_ms, "The least."),
-            time("stall_max_ms", &C::stall_max_ms, "The most.")};
+    constexpr KeyLimits share = range(0, 1), time = range(0, 60000, "ms");
+    return {
+        {"seed", &C::seed, at_least(0), "Of all that comes by chance."},
+        {"late_share", member_of<C>(&C::late_share), share,
+         "Probability at each refresh that drawing takes longer."},
+        {"late_min_ms", member_of<C>(&C::late_min_ms), time, "The least."},
+        {"late_max_ms", member_of<C>(&C::late_max_ms), time, "The most."},
+        {"skip_share", member_of<C>(&C::skip_share), share,
+         "Probability that the display takes the picture later."},
+        {"skip_max_refreshes", member_of<C>(&C::skip_max_refreshes), range(1, 10000),
+         "By 1 to this many refreshes."},
+        {"stall_share", member_of<C>(&C::stall_share), share, "Probability that the machine stands still."},
+        {"stall_min_ms", member_of<C>(&C::stall_min_ms), time, "The least."},
+        {"stall_max_ms", member_of<C>(&C::stall_max_ms), time, "The most."}};
 }
 
 std::vector<Key> fault_keys() {
     using F = FaultKeys;
-    return {
-        {{.name = "kind",
-          .is_required = true,
-          .explanation = "one of \"late\", \"skip\", \"stall\", \"stamp\""},
-         &F::kind},
-        {{.name = "trial", .low = 1, .high = 1000000, .explanation = "Which trial, from 1; left out: each."},
-         &F::trial},
-        {{.name = "refresh",
-          .low = 0,
-          .high = 10000000,
-          .is_required = true,
-          .explanation = "the refresh since the onset at which it strikes, from 0"},
-         &F::refresh},
-        {{.name = "ms",
-          .unit = "ms",
-          .low = -60000,
-          .high = 60000,
-          .explanation = "How much of late, stall or stamp."},
-         &F::ms},
-        {{.name = "refreshes", .low = 1, .high = 10000, .explanation = "How many of skip."}, &F::refreshes}};
+    return {{"kind", &F::kind, required(), "one of \"late\", \"skip\", \"stall\", \"stamp\""},
+            {"trial", &F::trial, range(1, 1000000), "Which trial, from 1; left out: each."},
+            {"refresh", &F::refresh, range(0, 10000000).required(),
+             "the refresh since the onset at which it strikes, from 0"},
+            {"ms", &F::ms, range(-60000, 60000, "ms"), "How much of late, stall or stamp."},
+            {"refreshes", &F::refreshes, range(1, 10000), "How many of skip."}};
 }
 
 std::vector<Key> tracker_fault_keys() {
     using F = TrackerFaultKeys;
-    return {
-        {{.name = "kind",
-          .is_required = true,
-          .explanation = "one of \"stall\", \"gap\", \"garbage\", \"doubled\", \"no-eye\", \"clock-jump\", "
-                         "\"slow-start\", \"unplug\", \"repeat\", \"skip\", \"abort\", \"calibration\""},
-         &F::kind},
-        {{.name = "trial", .low = 1, .high = 1000000, .explanation = "Which trial, from 1; left out: each."},
-         &F::trial},
-        {{.name = "attempt", .low = 1, .high = 1000, .explanation = "At the trial, from 1."}, &F::attempt},
-        {{.name = "at_s",
-          .unit = "s",
-          .low = 0,
-          .high = 100000,
-          .explanation = "Since the recording's first sample."},
-         &F::at_s},
-        {{.name = "s", .unit = "s", .low = 0, .high = 100000, .explanation = "How long it lasts."}, &F::s},
-        {{.name = "ms",
-          .unit = "ms",
-          .low = -1e9,
-          .high = 1e9,
-          .explanation = "By how much the tracker's clock is put forward."},
-         &F::ms},
-        {{.name = "refusals",
-          .low = 0,
-          .high = 1000,
-          .explanation = "So many attempts to connect again are refused."},
-         &F::refusals},
-        {{.name = "number", .low = 1, .high = 1000, .explanation = "Which calibration, from 1."},
-         &F::number}};
+    return {{"kind", &F::kind, required(),
+             "one of \"stall\", \"gap\", \"garbage\", \"doubled\", \"no-eye\", \"clock-jump\", "
+             "\"slow-start\", \"unplug\", \"repeat\", \"skip\", \"abort\", \"calibration\""},
+            {"trial", &F::trial, range(1, 1000000), "Which trial, from 1; left out: each."},
+            {"attempt", &F::attempt, range(1, 1000), "At the trial, from 1."},
+            {"at_s", &F::at_s, range(0, 100000, "s"), "Since the recording's first sample."},
+            {"s", &F::s, range(0, 100000, "s"), "How long it lasts."},
+            {"ms", &F::ms, range(-1e9, 1e9, "ms"), "By how much the tracker's clock is put forward."},
+            {"refusals", &F::refusals, range(0, 1000), "So many attempts to connect again are refused."},
+            {"number", &F::number, range(1, 1000), "Which calibration, from 1."}};
 }
 
 const KeyTable& fault_table() {
-    static const KeyTable table(
-        {{.name = "display", .keys = display_keys(), .home = &FileKeys::display},
-         {.name = "chance", .keys = chance_keys(), .home = &FileKeys::chance},
-         {.name = "fault", .keys = fault_keys(), .home = &FileKeys::faults},
-         {.name = "tracker",
-          .keys = {{{.name = "granted_rate_hz",
-                     .unit = "Hz",
-                     .low = 1,
-                     .high = 10000,
-                     .explanation = "The rate that the eye tracker grants, whatever was wished."},
-                    &TrackerKeys::granted_rate_hz}},
-          .home = &FileKeys::tracker},
-         {.name = "tracker-fault", .keys = tracker_fault_keys(), .home = &FileKeys::tracker_faults}});
+    static const KeyTable table({{"display", &FileKeys::display, display_keys()},
+                                 {"chance", &FileKeys::chance, chance_keys()},
+                                 {"fault", &FileKeys::faults, fault_keys()},
+                                 {"tracker",
+                                  &FileKeys::tracker,
+                                  {{"granted_rate_hz", &TrackerKeys::granted_rate_hz, range(1, 10000, "Hz"),
+                                    "The rate that the eye tracker grants, whatever was wished."}}},
+                                 {"tracker-fault", &FileKeys::tracker_faults, tracker_fault_keys()}});
     return table;
 }
 

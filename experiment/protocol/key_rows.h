@@ -6,56 +6,25 @@
 namespace overt::key_rows {
 
 // What the experiment runs on (rig_keys.cpp).
-Section display();
-Section tracker();
-Section further_tracker();
-Section calibration();
-Section events();
-Section screens();
-
+std::vector<Key> display(), tracker(), further_tracker(), calibration(), events(), screens();
 // What is shown (stimulus_keys.cpp).
-Section view();
-Section light();
-Section animation();
-Section sculpture();
-Section material();
-
+std::vector<Key> view(), light(), animation(), sculpture(), head(), material();
 // How it becomes pictures (frame_keys.cpp).
-Section bake();
-Section frames();
-
+std::vector<Key> bake(), frames();
 // What is asked, and in which order (design_keys.cpp).
-Section protocol();
-Section schedule();
-Section task();
-
+std::vector<Key> protocol(), schedule(), task();
 // The order of trials and of observers (order_keys.cpp).
-Section block();
-Section group();
-
+std::vector<Key> block(), group();
 // How a session goes besides its trials (practice_keys.cpp).
-Section practice();
-Section breaks();
-Section repeat();
-
+std::vector<Key> practice(), breaks(), repeat();
 // Where simulated observers look (simulation_keys.cpp).
-Section simulated_observers();
-Section simulated_effect();
-
+std::vector<Key> simulated_observers(), simulated_effect();
 // What surrounds the trials (sitting_keys.cpp).
-Section consent();
-Section instructions();
-Section observer_fields();
-Section operators();
-Section answers();
-
+std::vector<Key> consent(), instructions(), observer_fields(), operators(), answers();
 // What else takes part: boxes with buttons, outputs of markers (device_keys.cpp).
-Section button_box();
-Section marker_output();
-
+std::vector<Key> button_box(), marker_output();
 // What is said on the screen besides, and of the dataset (word_keys.cpp).
-Section words();
-Section dataset();
+std::vector<Key> words(), dataset();
 
 /// The names of a table's rows, in their order.
 template <const auto& table>

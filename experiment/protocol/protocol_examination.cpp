@@ -33,8 +33,7 @@ std::string ProtocolExamination::line_of(std::string_view path, std::string_view
     const Place there = protocol.places.of(path);
     if (there.file == protocol.places.of(seen_from).file)
         return fmt::format("line {}", there.line);
-    const auto included = std::find_if(protocol.included.begin(), protocol.included.end(),
-                                       [&](const IncludedText& known) { return known.number == there.file; });
+    const auto included = std::ranges::find(protocol.included, there.file, &IncludedText::number);
     return fmt::format("line {} of {}", there.line,
                        included == protocol.included.end() ? protocol.file.filename().string()
                                                            : included->name);

@@ -12,39 +12,122 @@
 namespace overt {
 
 const KeyTable& protocol_keys() {
-    static const KeyTable table({key_rows::protocol(),
-                                 key_rows::display(),
-                                 key_rows::tracker(),
-                                 key_rows::further_tracker(),
-                                 key_rows::calibration(),
-                                 key_rows::events(),
-                                 key_rows::view(),
-                                 key_rows::light(),
-                                 key_rows::bake(),
-                                 key_rows::animation(),
-                                 key_rows::schedule(),
-                                 key_rows::screens(),
-                                 key_rows::consent(),
-                                 key_rows::instructions(),
-                                 key_rows::observer_fields(),
-                                 key_rows::operators(),
-                                 key_rows::button_box(),
-                                 key_rows::marker_output(),
-                                 key_rows::answers(),
-                                 key_rows::task(),
-                                 key_rows::block(),
-                                 key_rows::group(),
-                                 key_rows::practice(),
-                                 key_rows::breaks(),
-                                 key_rows::repeat(),
-                                 key_rows::simulated_observers(),
-                                 key_rows::simulated_effect(),
-                                 key_rows::sculpture(),
-                                 key_rows::material(),
-                                 key_rows::frames(),
-                                 key_rows::words(),
-                                 key_rows::dataset()},
-                                "include");
+    using namespace key_rows;
+    static const KeyTable table(
+        {
+            {"protocol", SectionHome::root<Protocol>(), protocol(), "What the experiment is called."},
+            {"display", &Protocol::display, display(),
+             "The screen in front of the observer. The defaults are those of a Cambridge Research Systems "
+             "Display++ at 1.75 m."},
+            {"tracker", &Protocol::tracker, tracker(),
+             "The eye tracker, and how a simulated one differs from a perfect one."},
+            {"further_tracker", &Protocol::further_trackers, further_tracker(),
+             "Eye trackers that record at the same time as that of `[tracker]`, such as two that are to be "
+             "compared. Each is calibrated as `[calibration]` says, after the session's own, and has a "
+             "record of its own, which every command reads as a session; see [trackers.md](trackers.md). "
+             "Drift checks, and whether a trial counts, are a matter of `[tracker]` alone. The keys are "
+             "those of `[tracker]`."},
+            {"calibration", &Protocol::calibration, calibration(),
+             "How the eye tracker is calibrated and what of its validation is accepted; see "
+             "[trackers.md](trackers.md)."},
+            {"events", &Protocol::events, events(),
+             "Fixations, saccades and blinks in the record, and by which thresholds the program tells them "
+             "apart; see [events.md](events.md)."},
+            {"view", &Protocol::view, view(),
+             "The image and its camera, the same for all stimuli. +z is up; a sculpture turns about the "
+             "vertical through the middle of its bounding box."},
+            {"light", &Protocol::light, light(), "What surrounds the sculptures and is reflected in them."},
+            {"bake", &Protocol::bake, bake(),
+             "How stimuli are rendered that are not given as `[[frames]]`. `overt bake` does it, and keeps "
+             "each frame; see [bake.md](bake.md)."},
+            {"animation", &Protocol::animation, animation(),
+             "How the sculptures turn: to and fro about the vertical, as a sine."},
+            {"schedule", &Protocol::schedule, schedule(),
+             "How many observers there will be, and what the order of their trials has to keep to. The "
+             "limits hold within each block."},
+            {"screens", &Protocol::screens, screens(),
+             "What is shown between the animations, and for how long. In every text of a protocol that is "
+             "shown, a first line that begins with `# ` is its title, and `<b>`, `<i>`, `<u>`, `<big>` and "
+             "`<small>` emphasise what stands until `</b>` and so on; `&lt;` is a < where it would begin "
+             "such a mark."},
+            {"consent", &Protocol::consent, consent(),
+             "A text that the observer has to agree to before anything else. Who declines ends the session: "
+             "that is all that is recorded then. The record keeps who agreed, when, and the SHA-256 of the "
+             "text."},
+            {"instructions", &Protocol::instructions, instructions(),
+             "What the observer reads after the welcome, page by page: backspace or the left arrow go back, "
+             "any other key that writes, enter or the right arrow go on."},
+            {"observer_field", &Protocol::observer_fields, observer_fields(),
+             "Something to be known of the observer. The form is filled in with `--observer-field ID=VALUE`, "
+             "or before the session in its window or in the terminal. Standard fields have all but their id "
+             "by default: `age` (in years), `sex` (female, male, other), `vision` (normal, corrected to "
+             "normal, impaired), `handedness` (left, right, ambidextrous)."},
+            {"operator", &Protocol::operators, operators(),
+             "Keys with which the operator leads a session. All but pausing ask first, and all are in the "
+             "record. What is pressed during an animation is acted on after its last refresh; `abort` alone "
+             "ends it. Whether a trial that was broken off and yet not skipped comes again is as for one "
+             "that is rejected."},
+            {"button_box", &Protocol::button_boxes, button_box(),
+             "Response boxes, in sessions in real time; see [devices.md](devices.md). All presses are in the "
+             "record with their uncertainty, and the time of an answer is that of the press. What one "
+             "person's box says never counts as the other's."},
+            {"marker_output", &Protocol::marker_outputs, marker_output(),
+             "Where other devices are told of a session's events as they happen, in sessions in real time; "
+             "see [devices.md](devices.md). When each marker was sent is in the record."},
+            {"answers", &Protocol::answers, answers(),
+             "Spoken answers: a WAV file for each trial that counts, from the end of the animation to the "
+             "key that ends the answer, with the sample at the response screen's onset, the onset of the "
+             "voice, clipping and silence in the record."},
+            {"task", &Protocol::tasks, task(),
+             "A question that observers are asked about what they see. At least one."},
+            {"block", &Protocol::blocks, block(),
+             "A part of the session with an order of its own. Without any block, all trials are one, in "
+             "random order. The limits of `[schedule]` hold in each block that does not set them itself, but "
+             "for two cases, in which they would contradict what the block says: a sequential order has only "
+             "limits of its own, and one blocked by a factor has none from there on this factor (by "
+             "stimulus: none on stimulus, sculpture and material)."},
+            {"group", &Protocol::groups, group(),
+             "A group of observers, for what differs between observers. Observers are assigned by their "
+             "number: in turn, first to the first group, a group that is full being passed over. Squares and "
+             "rotations go round within each group. Without any group, all observers see the same."},
+            {"practice", &Protocol::practice, practice(),
+             "A trial before the trials that count, to learn the task by. They come in the order of the "
+             "file. Of a practice trial the session notes that it was, and what was answered; no flips, no "
+             "samples."},
+            {"breaks", &Protocol::breaks, breaks(),
+             "Rests between trials; never before the first or after the last."},
+            {"repeat", &Protocol::repeat, repeat(),
+             "What becomes of a trial that failed: it comes again now, or at the end of its block, or never. "
+             "An attempt that is repeated stays in the record as aborted, beside the one that counts. Limits "
+             "on the order do not look at repeated trials."},
+            {"simulated_observers", &Protocol::simulated_observers, simulated_observers(),
+             "How simulated observers differ from one another, as people do."},
+            {"simulated_effect", &Protocol::simulated_effects, simulated_effect(),
+             "What the gaze of simulated observers depends on besides the task: effects of known size for a "
+             "study to find. Each holds in the trials with its task, sculpture and material; several can "
+             "hold in one trial."},
+            {"sculpture",
+             &Protocol::sculptures,
+             sculpture(),
+             "A thing to look at: one of the sculptures that overt makes itself (`shipped`), or one of yours "
+             "(`mesh`, or ready-made maps, `lut`). At least one.",
+             {{"head",
+               {},
+               head(),
+               "Which part of a mesh is the head: inside any of the spheres, and in front of all of the "
+               "planes. Coordinates are those of the mesh file; with `lut`, those of the maps."}}},
+            {"material", &Protocol::materials, material(),
+             "What every sculpture is made of in turn. At least one."},
+            {"frames", &Protocol::frames, frames(),
+             "A ready-made animation of one sculpture in one material, shown instead of rendering it."},
+            {"words", &Protocol::words, words(),
+             "What the program itself says on the screen, to be written in the language of the lab. The keys "
+             "it names are those of `[operator]`."},
+            {"dataset", &Protocol::dataset, dataset(),
+             "What `overt export --format bids` writes into the description of a dataset. It stands in the "
+             "record of each session; the first session that a dataset is made of describes it."},
+        },
+        "include");
     return table;
 }
 

@@ -30,8 +30,7 @@ void stamp(TomlTable& table, int file) {
 }
 
 TomlEntry* find(TomlTable& table, const std::string& key) {
-    const auto found =
-        std::find_if(table.begin(), table.end(), [&](const TomlEntry& entry) { return entry.key == key; });
+    const auto found = std::ranges::find(table, key, &TomlEntry::key);
     return found == table.end() ? nullptr : &*found;
 }
 
@@ -50,8 +49,7 @@ class Joiner {
         stamp(own.root, number);
         open_.push_back(file.lexically_normal());
         TomlTable below;
-        const auto include = std::find_if(own.root.begin(), own.root.end(),
-                                          [](const TomlEntry& entry) { return entry.key == "include"; });
+        const auto include = std::ranges::find(own.root, "include", &TomlEntry::key);
         if (include != own.root.end()) {
             const TomlValue value = std::move(include->value);
             own.root.erase(include);
@@ -113,8 +111,7 @@ class Joiner {
                 fmt::format("a file cannot include itself: {}{}", way, wanted.filename().string()));
             return false;
         }
-        if (std::any_of(included.begin(), included.end(),
-                        [&](const IncludedText& known) { return known.file == wanted; }))
+        if (std::ranges::find(included, wanted, &IncludedText::file) != included.end())
             return true;
         std::string why_not;
         std::optional<std::string> text = reader_(wanted, why_not);
@@ -131,8 +128,7 @@ class Joiner {
     }
 
     std::string name_of(int file) const {
-        const auto found = std::find_if(included.begin(), included.end(),
-                                        [&](const IncludedText& known) { return known.number == file; });
+        const auto found = std::ranges::find(included, file, &IncludedText::number);
         return found == included.end() ? "another included file" : found->name;
     }
 

@@ -22,543 +22,238 @@ std::string_view tracker_explanation() {
 
 /// What each tracker of a session has, as members of `T`: TrackerSettings, or what is made from it.
 template <class T> std::vector<Key> tracker_keys() {
-    const auto at = []<class Value>(Value TrackerSettings::*member) -> Value T::* { return member; };
     return {
-        {{.name = "kind", .choices = tracker_names, .explanation = tracker_explanation()},
-         at(&TrackerSettings::kind)},
-        {{.name = "rate_hz",
-          .unit = "Hz",
-          .low = 10,
-          .high = 10000,
-          .explanation = "Gaze samples per second."},
-         at(&TrackerSettings::rate_hz)},
-        {{.name = "address",
-          .if_left_out = "what is usual for the kind",
-          .explanation =
-              "Where the tracker is. `eyelink`: address of its host, or `dummy` to try the "
-              "library without one. `opengaze` and `pupil`: host or host:port. `lsl`: name of "
-              "the stream. `tobii`: its address (tet-tcp://…) or "
-              "serial number. `hid`: /dev/hidrawN, or vendor:product. `replay`: a session's folder, "
-              "or an EyeLink recording (.asc)."},
-         at(&TrackerSettings::address)},
-        {{.name = "library",
-          .if_left_out = "where the system looks",
-          .explanation = "The library of the tracker's maker, a file, for kinds that need one."},
-         at(&TrackerSettings::library)},
-        {{.name = "outlet",
-          .explanation = "Whether samples are also sent on as a stream \"overt gaze\" of the Lab "
-                         "Streaming Layer, of trackers that measure in real time."},
-         at(&TrackerSettings::outlet)},
-        {{.name = "point",
-          .explanation = "Of `opengaze`, which point of gaze is taken. `eyes`: each eye's own. "
-                         "`best`: the mean of both, or that of the one that is found."},
-         at(&TrackerSettings::point)},
-        {{.name = "surface", .explanation = "Of `pupil`, the surface in Pupil Capture that is the screen."},
-         at(&TrackerSettings::surface)},
-        {{.name = "least_confidence",
-          .low = 0,
-          .high = 1,
-          .explanation = "Of `pupil`, and of streams that tell confidence: gaze of less is lost."},
-         at(&TrackerSettings::least_confidence)},
-        {{.name = "channels",
-          .if_left_out = "what the stream tells",
-          .explanation =
-              "Of `lsl`, what the stream's channels mean: eye (or none), meaning, and the channel's "
-              "label or its number from 1, such as `[\"left x 1\", \"left y 2\", \"right pupil "
-              "PupilRight\"]`. Meanings are x, y, confidence, pupil, eye-x, eye-y, eye-z."},
-         at(&TrackerSettings::channels)},
-        {{.name = "unit", .explanation = "Of `lsl`, the unit of gaze: pixels, or shares of the screen."},
-         at(&TrackerSettings::unit)},
-        {{.name = "y_is_up",
-          .explanation = "Of `lsl`, whether y grows upward from the lower edge of the screen."},
-         at(&TrackerSettings::y_is_up)},
-        {{.name = "eye",
-          .choices = eyes,
-          .explanation = "The eye that is tracked. Of both, the right one is analysed."},
-         at(&TrackerSettings::eye)},
-        {{.name = "simulated_noise_deg",
-          .unit = "deg",
-          .low = 0,
-          .high = 10,
-          .explanation = "Standard deviation of each simulated sample."},
-         at(&TrackerSettings::simulated_noise_deg)},
-        {{.name = "simulated_accuracy_deg",
-          .unit = "deg",
-          .low = 0,
-          .high = 10,
-          .explanation = "Standard deviation of the constant error of a simulated trial."},
-         at(&TrackerSettings::simulated_accuracy_deg)},
-        {{.name = "simulated_clock_drift_ppm",
-          .unit = "ppm",
-          .low = -10000,
-          .high = 10000,
-          .explanation = "How much faster the simulated tracker's clock runs than the session's."},
-         at(&TrackerSettings::simulated_clock_drift_ppm)},
+        {"kind", member_of<T>(&T::kind), one_of(tracker_names), tracker_explanation()},
+        {"rate_hz", member_of<T>(&T::rate_hz), range(10, 10000, "Hz"), "Gaze samples per second."},
+        {"address", member_of<T>(&T::address), left_out("what is usual for the kind"),
+         "Where the tracker is. `eyelink`: address of its host, or `dummy` to try the library without one. "
+         "`opengaze` and `pupil`: host or host:port. `lsl`: name of the stream. `tobii`: its address "
+         "(tet-tcp://…) or serial number. `hid`: /dev/hidrawN, or vendor:product. `replay`: a session's "
+         "folder, or an EyeLink recording (.asc)."},
+        {"library", member_of<T>(&T::library), left_out("where the system looks"),
+         "The library of the tracker's maker, a file, for kinds that need one."},
+        {"outlet", member_of<T>(&T::outlet),
+         "Whether samples are also sent on as a stream \"overt gaze\" of the Lab Streaming Layer, of "
+         "trackers that measure in real time."},
+        {"point", member_of<T>(&T::point),
+         "Of `opengaze`, which point of gaze is taken. `eyes`: each eye's own. `best`: the mean of both, or "
+         "that of the one that is found."},
+        {"surface", member_of<T>(&T::surface),
+         "Of `pupil`, the surface in Pupil Capture that is the screen."},
+        {"least_confidence", member_of<T>(&T::least_confidence), range(0, 1),
+         "Of `pupil`, and of streams that tell confidence: gaze of less is lost."},
+        {"channels", member_of<T>(&T::channels), left_out("what the stream tells"),
+         "Of `lsl`, what the stream's channels mean: eye (or none), meaning, and the channel's label or its "
+         "number from 1, such as `[\"left x 1\", \"left y 2\", \"right pupil PupilRight\"]`. Meanings are x, "
+         "y, confidence, pupil, eye-x, eye-y, eye-z."},
+        {"unit", member_of<T>(&T::unit), "Of `lsl`, the unit of gaze: pixels, or shares of the screen."},
+        {"y_is_up", member_of<T>(&T::y_is_up),
+         "Of `lsl`, whether y grows upward from the lower edge of the screen."},
+        {"eye", member_of<T>(&T::eye), one_of(eyes),
+         "The eye that is tracked. Of both, the right one is analysed."},
+        {"simulated_noise_deg", member_of<T>(&T::simulated_noise_deg), range(0, 10, "deg"),
+         "Standard deviation of each simulated sample."},
+        {"simulated_accuracy_deg", member_of<T>(&T::simulated_accuracy_deg), range(0, 10, "deg"),
+         "Standard deviation of the constant error of a simulated trial."},
+        {"simulated_clock_drift_ppm", member_of<T>(&T::simulated_clock_drift_ppm),
+         range(-10000, 10000, "ppm"),
+         "How much faster the simulated tracker's clock runs than the session's."},
     };
 }
 
 } // namespace
 
-Section display() {
+std::vector<Key> display() {
     using D = DisplaySettings;
     return {
-        .name = "display",
-        .explanation = "The screen in front of the observer. The defaults are those of a Cambridge Research "
-                       "Systems Display++ at 1.75 m.",
-        .keys =
-            {
-                {{.name = "width_px",
-                  .unit = "px",
-                  .low = 16,
-                  .high = 16384,
-                  .explanation = "Pixels in a row of the screen."},
-                 &D::width_px},
-                {{.name = "height_px",
-                  .unit = "px",
-                  .low = 16,
-                  .high = 16384,
-                  .explanation = "Rows of the screen."},
-                 &D::height_px},
-                {{.name = "refresh_hz",
-                  .unit = "Hz",
-                  .low = 1,
-                  .high = 1000,
-                  .explanation =
-                      "Refresh rate; to within 0.2 % a whole multiple of `animation.frame_rate_hz`, so that "
-                      "every frame is lit equally long: at 59.94 Hz a frame of 30 Hz is held for "
-                      "two refreshes, which is 29.97 frames a second, and 8 s last 8.008 s."},
-                 &D::refresh_hz},
-                {{.name = "width_mm",
-                  .unit = "mm",
-                  .low = 10,
-                  .high = 20000,
-                  .explanation = "Width of the lit area, by which visual angles are reckoned."},
-                 &D::width_mm},
-                {{.name = "height_mm",
-                  .unit = "mm",
-                  .low = 10,
-                  .high = 20000,
-                  .explanation = "Height of the lit area."},
-                 &D::height_mm},
-                {{.name = "viewing_distance_mm",
-                  .unit = "mm",
-                  .low = 50,
-                  .high = 50000,
-                  .explanation = "From the observer's eye to the middle of the screen."},
-                 &D::viewing_distance_mm},
-                {{.name = "output",
-                  .choices = names_in<output_modes>,
-                  .explanation =
-                      "How light is packed into the video signal: 8 or 10 bits per channel for any "
-                      "display, the 16-bit modes of a Display++, or those of VPixx devices. "
-                      "`color++` and `vpixx-c48` join pixels in pairs; see "
-                      "[output.md](output.md)."},
-                 &D::output},
-                {{.name = "dither",
-                  .explanation = "How the native modes spread what lies between two of their levels over "
-                                 "neighbouring pixels and refreshes."},
-                 &D::dither},
-                {{.name = "pair_filter",
-                  .explanation = "How pixels become the one colour of a pair, in linear light: the mean of "
-                                 "the two, or a Lanczos filter over twelve."},
-                 &D::pair_filter},
-                {{.name = "monitor",
-                  .explanation =
-                      "Which of several monitors the observer sees: the name of its output, such as `DP-1`, "
-                      "or "
-                      "the one in its EDID, such as `Display++`, or its number; `overt doctor` lists all "
-                      "three. "
-                      "Without it, the only one of this size, or of this size and rate. A session is refused "
-                      "where that leaves none or several. `--monitor` goes before it."},
-                 &D::monitor},
-                {{.name = "box",
-                  .explanation =
-                      "The Display++ or Bits# that shows `mono++`, `color++` and `bits++`: `auto` looks for "
-                      "it on the USB serial ports, a path such as `/dev/ttyACM0` names its port, and with "
-                      "`none` its mode is not switched and it is not asked anything. Sessions on a real "
-                      "screen in "
-                      "real time need it; see [display_plus_plus.md](display_plus_plus.md)."},
-                 &D::box},
-                {{.name = "onset_trigger",
-                  .low = 0,
-                  .high = 16777215,
-                  .explanation =
-                      "Digital outputs that the first refresh of a presentation raises, as a sum of "
-                      "1, 2, 4 …; 0 for none. A Display++ has ten (up to 1023) and raises them for "
-                      "5 ms; a VPixx device in its Pixel Mode has 24 and raises them for the "
-                      "refresh; see [output.md](output.md)."},
-                 &D::onset_trigger},
-                {{.name = "timing",
-                  .explanation =
-                      "With `proven`, a session in a window in real time is refused where no real vertical "
-                      "blank tells when its pictures are lit. With `unproven` it runs, and its record, its "
-                      "exports and reports say that times and missed refreshes are unproven. Of no effect in "
-                      "virtual time and without a window; see [vblank_sources.md](vblank_sources.md)."},
-                 &D::timing},
-                {{.name = "photodiode",
-                  .explanation =
-                      "A square in this corner that changes between white and black with each frame "
-                      "of the animation, white first, for a photodiode; black otherwise. It stands "
-                      "below the rows that carry messages."},
-                 &D::photodiode},
-                {{.name = "photodiode_px",
-                  .unit = "px",
-                  .low = 2,
-                  .high = 1000,
-                  .explanation = "Side of that square."},
-                 &D::photodiode_px},
-                {{.name = "tags_px",
-                  .unit = "px",
-                  .low = 0,
-                  .high = 1000,
-                  .explanation = "Side of the AprilTags (tag36h11, 0 to 5) that stand in the corners of the "
-                                 "screen, and in the middle of its left and right edge where there is room, "
-                                 "for eye trackers with a scene camera; a multiple of 10, or of 20 where the "
-                                 "output joins pixels in pairs. 0 for none. See [trackers.md](trackers.md)."},
-                 &D::tags_px},
-                {{.name = "tags_light",
-                  .low = 0.02,
-                  .high = 1,
-                  .explanation = "Light of their white modules, as a share of the display's white; the black "
-                                 "ones have none."},
-                 &D::tags_light},
-                {{.name = "gamma",
-                  .low = 0.1,
-                  .high = 5,
-                  .explanation = "Exponent from signal to light: 1 for a display that linearises itself, "
-                                 "about 2.2 for an ordinary monitor."},
-                 &D::gamma},
-                {{.name = "linearised_by",
-                  .explanation =
-                      "What makes light proportional to the signal. `display`: the panel itself. `box`: the "
-                      "display box, by `box_gamma_table`. `none`: nothing, and overt corrects for `gamma`. "
-                      "Sessions on a real screen in real time need one of these, or a `characterisation`; "
-                      "the first two leave `gamma` at 1."},
-                 &D::linearised_by},
-                {{.name = "box_gamma_table",
-                  .explanation = "The table that the display box is told to use, a file on its disk. "
-                                 "`13bitLinearLUT.txt` leaves values as they are."},
-                 &D::box_gamma_table},
-                {{.name = "video_check_days",
-                  .unit = "days",
-                  .low = 0,
-                  .high = 3650,
-                  .explanation =
-                      "So old may the last `overt display verify --hardware` be before a session that goes "
-                      "through a display box: it proves, for one box, graphics card, driver, output and "
-                      "mode, that the bytes arrive as they are drawn. 0: none is asked for, and the record "
-                      "says so."},
-                 &D::video_check_days},
-                {{.name = "characterisation",
-                  .if_left_out = "none",
-                  .explanation = "File with what was measured of the display, instead of `gamma`: primaries, "
-                                 "black, and the curve of each channel; see "
-                                 "[characterisation.md](characterisation.md)."},
-                 &D::characterisation_file},
-                {{.name = "latency_ms",
-                  .unit = "ms",
-                  .low = 0,
-                  .high = 1000,
-                  .explanation = "From the vertical blank to the light of the first row."},
-                 &D::latency_ms},
-                {{.name = "background",
-                  .low = 0,
-                  .high = 1,
-                  .explanation = "Linear grey around the stimulus, 1 being the display's white."},
-                 &D::background},
-                {{.name = "frame_store_mb",
-                  .unit = "MB",
-                  .low = 1,
-                  .high = 1000000,
-                  .explanation =
-                      "What the frames of the shown stimulus and of the next may take on the graphics "
-                      "card. If both do not fit, the next is loaded before its trial instead of "
-                      "during the answer before."},
-                 &D::frame_store_mb},
-                {{.name = "background_cd_m2",
-                  .unit = "cd/m2",
-                  .low = 0,
-                  .high = 1e5,
-                  .if_left_out = "by `background`",
-                  .explanation = "The same as a luminance; needs a `characterisation`."},
-                 &D::background_cd_m2},
-            },
-        .home = &Protocol::display};
+        {"width_px", &D::width_px, range(16, 16384, "px"), "Pixels in a row of the screen."},
+        {"height_px", &D::height_px, range(16, 16384, "px"), "Rows of the screen."},
+        {"refresh_hz", &D::refresh_hz, range(1, 1000, "Hz"),
+         "Refresh rate; to within 0.2 % a whole multiple of `animation.frame_rate_hz`, so that every frame "
+         "is lit equally long: at 59.94 Hz a frame of 30 Hz is held for two refreshes, which is 29.97 frames "
+         "a second, and 8 s last 8.008 s."},
+        {"width_mm", &D::width_mm, range(10, 20000, "mm"),
+         "Width of the lit area, by which visual angles are reckoned."},
+        {"height_mm", &D::height_mm, range(10, 20000, "mm"), "Height of the lit area."},
+        {"viewing_distance_mm", &D::viewing_distance_mm, range(50, 50000, "mm"),
+         "From the observer's eye to the middle of the screen."},
+        {"output", &D::output, one_of(names_in<output_modes>),
+         "How light is packed into the video signal: 8 or 10 bits per channel for any display, the 16-bit "
+         "modes of a Display++, or those of VPixx devices. `color++` and `vpixx-c48` join pixels in pairs; "
+         "see [output.md](output.md)."},
+        {"dither", &D::dither,
+         "How the native modes spread what lies between two of their levels over neighbouring pixels and "
+         "refreshes."},
+        {"pair_filter", &D::pair_filter,
+         "How pixels become the one colour of a pair, in linear light: the mean of the two, or a Lanczos "
+         "filter over twelve."},
+        {"monitor", &D::monitor,
+         "Which of several monitors the observer sees: the name of its output, such as `DP-1`, or the one in "
+         "its EDID, such as `Display++`, or its number; `overt doctor` lists all three. Without it, the only "
+         "one of this size, or of this size and rate. A session is refused where that leaves none or "
+         "several. `--monitor` goes before it."},
+        {"box", &D::box,
+         "The Display++ or Bits# that shows `mono++`, `color++` and `bits++`: `auto` looks for it on the USB "
+         "serial ports, a path such as `/dev/ttyACM0` names its port, and with `none` its mode is not "
+         "switched and it is not asked anything. Sessions on a real screen in real time need it; see "
+         "[display_plus_plus.md](display_plus_plus.md)."},
+        {"onset_trigger", &D::onset_trigger, range(0, 16777215),
+         "Digital outputs that the first refresh of a presentation raises, as a sum of 1, 2, 4 …; 0 for "
+         "none. A Display++ has ten (up to 1023) and raises them for 5 ms; a VPixx device in its Pixel Mode "
+         "has 24 and raises them for the refresh; see [output.md](output.md)."},
+        {"timing", &D::timing,
+         "With `proven`, a session in a window in real time is refused where no real vertical blank tells "
+         "when its pictures are lit. With `unproven` it runs, and its record, its exports and reports say "
+         "that times and missed refreshes are unproven. Of no effect in virtual time and without a window; "
+         "see [vblank_sources.md](vblank_sources.md)."},
+        {"photodiode", &D::photodiode,
+         "A square in this corner that changes between white and black with each frame of the animation, "
+         "white first, for a photodiode; black otherwise. It stands below the rows that carry messages."},
+        {"photodiode_px", &D::photodiode_px, range(2, 1000, "px"), "Side of that square."},
+        {"tags_px", &D::tags_px, range(0, 1000, "px"),
+         "Side of the AprilTags (tag36h11, 0 to 5) that stand in the corners of the screen, and in the "
+         "middle of its left and right edge where there is room, for eye trackers with a scene camera; a "
+         "multiple of 10, or of 20 where the output joins pixels in pairs. 0 for none. See "
+         "[trackers.md](trackers.md)."},
+        {"tags_light", &D::tags_light, range(0.02, 1),
+         "Light of their white modules, as a share of the display's white; the black ones have none."},
+        {"gamma", &D::gamma, range(0.1, 5),
+         "Exponent from signal to light: 1 for a display that linearises itself, about 2.2 for an ordinary "
+         "monitor."},
+        {"linearised_by", &D::linearised_by,
+         "What makes light proportional to the signal. `display`: the panel itself. `box`: the display box, "
+         "by `box_gamma_table`. `none`: nothing, and overt corrects for `gamma`. Sessions on a real screen "
+         "in real time need one of these, or a `characterisation`; the first two leave `gamma` at 1."},
+        {"box_gamma_table", &D::box_gamma_table,
+         "The table that the display box is told to use, a file on its disk. `13bitLinearLUT.txt` leaves "
+         "values as they are."},
+        {"video_check_days", &D::video_check_days, range(0, 3650, "days"),
+         "So old may the last `overt display verify --hardware` be before a session that goes through a "
+         "display box: it proves, for one box, graphics card, driver, output and mode, that the bytes arrive "
+         "as they are drawn. 0: none is asked for, and the record says so."},
+        {"characterisation", &D::characterisation_file, left_out("none"),
+         "File with what was measured of the display, instead of `gamma`: primaries, black, and the curve of "
+         "each channel; see [characterisation.md](characterisation.md)."},
+        {"latency_ms", &D::latency_ms, range(0, 1000, "ms"),
+         "From the vertical blank to the light of the first row."},
+        {"background", &D::background, range(0, 1),
+         "Linear grey around the stimulus, 1 being the display's white."},
+        {"frame_store_mb", &D::frame_store_mb, range(1, 1000000, "MB"),
+         "What the frames of the shown stimulus and of the next may take on the graphics card. If both do "
+         "not fit, the next is loaded before its trial instead of during the answer before."},
+        {"background_cd_m2", &D::background_cd_m2, range(0, 1e5, "cd/m2").left_out("by `background`"),
+         "The same as a luminance; needs a `characterisation`."},
+    };
 }
 
-Section tracker() {
+std::vector<Key> tracker() {
     using T = TrackerSettings;
     std::vector<Key> keys = tracker_keys<T>();
     const std::vector<Key> drift{
-        {{.name = "drift_limit_deg",
-          .unit = "deg",
-          .low = 0.01,
-          .high = 45,
-          .explanation =
-              "A drift check that finds a larger error, or no eye, has failed. The record says so."},
-         &T::drift_limit_deg},
-        {{.name = "on_drift",
-          .explanation = "What becomes of a trial whose drift check failed. `note`: it is presented "
-                         "all the same. "
-                         "`retry`: the target is shown again. `recalibrate`: the tracker is "
-                         "calibrated, and the trial "
-                         "begun anew. `reject`: it is not presented, and comes again as `[repeat] "
-                         "rejected` says."},
-         &T::on_drift},
-        {{.name = "drift_checks",
-          .low = 1,
-          .high = 20,
-          .explanation =
-              "Of a trial, with `retry` and `recalibrate`. If the last fails, too, it is presented "
-              "all the same."},
-         &T::drift_checks},
+        {"drift_limit_deg", &T::drift_limit_deg, range(0.01, 45, "deg"),
+         "A drift check that finds a larger error, or no eye, has failed. The record says so."},
+        {"on_drift", &T::on_drift,
+         "What becomes of a trial whose drift check failed. `note`: it is presented all the same. `retry`: "
+         "the target is shown again. `recalibrate`: the tracker is calibrated, and the trial begun anew. "
+         "`reject`: it is not presented, and comes again as `[repeat] rejected` says."},
+        {"drift_checks", &T::drift_checks, range(1, 20),
+         "Of a trial, with `retry` and `recalibrate`. If the last fails, too, it is presented all the same."},
     };
     keys.insert(keys.end(), drift.begin(), drift.end());
-    return {.name = "tracker",
-            .explanation = "The eye tracker, and how a simulated one differs from a perfect one.",
-            .keys = std::move(keys),
-            .home = &Protocol::tracker};
+    return keys;
 }
 
-Section further_tracker() {
+std::vector<Key> further_tracker() {
     using F = FurtherTrackerSettings;
     std::vector<Key> keys = tracker_keys<F>();
-    keys.insert(keys.begin(), {{.name = "id",
-                                .is_required = true,
-                                .is_identifier = true,
-                                .explanation = "By which its record is named: `trackers/ID` in the session's "
-                                               "folder."},
-                               &F::id});
-    return {
-        .name = "further_tracker",
-        .explanation =
-            "Eye trackers that record at the same time as that of `[tracker]`, such as two that are to be "
-            "compared. Each is calibrated as `[calibration]` says, after the session's own, and has a "
-            "record of its own, which every command reads as a session; see [trackers.md](trackers.md). "
-            "Drift checks, and whether a trial counts, are a matter of `[tracker]` alone. The keys are "
-            "those of `[tracker]`.",
-        .keys = std::move(keys),
-        .home = &Protocol::further_trackers};
+    keys.insert(keys.begin(), {"id", &F::id, identifier().required(),
+                               "By which its record is named: `trackers/ID` in the session's folder."});
+    return keys;
 }
 
-Section calibration() {
+std::vector<Key> calibration() {
     using C = CalibrationKeys;
-    // What the calibration itself needs are members of its base.
-    const auto number = [](double CalibrationSettings::*member) -> double C::* { return member; };
-    const auto count = [](int CalibrationSettings::*member) -> int C::* { return member; };
     return {
-        .name = "calibration",
-        .explanation = "How the eye tracker is calibrated and what of its validation is accepted; see "
-                       "[trackers.md](trackers.md).",
-        .keys =
-            {
-                {{.name = "by",
-                  .explanation =
-                      "Who calibrates. `auto`: the tracker where it can, else the program. `tracker`: "
-                      "the tracker. `overt`: the program, on top of what the tracker measures."},
-                 &C::by},
-                {{.name = "points", .explanation = "Targets of a calibration by the program: 3, 5, 9 or 13."},
-                 count(&C::points)},
-                {{.name = "validation_points",
-                  .explanation = "Targets of its validation, at other places: 3, 5, 9 or 13."},
-                 count(&C::validation_points)},
-                {{.name = "model",
-                  .explanation =
-                      "What is fitted to the targets. `polynomial`: of first order up to 5 targets, "
-                      "of second order from 9 on. `homography`: a plane seen from elsewhere."},
-                 static_cast<CalibrationModel C::*>(&C::model)},
-                {{.name = "accept",
-                  .explanation = "By what a target counts as looked at. `fixation`: gaze rested. `key`: the "
-                                 "operator pressed the space bar while it did."},
-                 static_cast<TargetAcceptance C::*>(&C::accept)},
-                {{.name = "area",
-                  .low = 0.1,
-                  .high = 1,
-                  .explanation = "Share of the screen's width and height that the targets span."},
-                 number(&C::area)},
-                {{.name = "target_deg",
-                  .unit = "deg",
-                  .low = 0.05,
-                  .high = 5,
-                  .explanation = "Diameter of a target's disc."},
-                 number(&C::target_deg)},
-                {{.name = "fixation_s",
-                  .unit = "s",
-                  .low = 0.05,
-                  .high = 5,
-                  .explanation = "For so long gaze must rest on a target."},
-                 number(&C::fixation_s)},
-                {{.name = "fixation_reach_deg",
-                  .unit = "deg",
-                  .low = 0.05,
-                  .high = 10,
-                  .explanation =
-                      "So far its samples may lie from their median while it rests, but for one in fifty."},
-                 number(&C::fixation_reach_deg)},
-                {{.name = "patience_s",
-                  .unit = "s",
-                  .low = 1,
-                  .high = 120,
-                  .explanation = "So long a target is shown at most; one that was missed comes again once."},
-                 number(&C::patience_s)},
-                {{.name = "mean_limit_deg",
-                  .unit = "deg",
-                  .low = 0.01,
-                  .high = 45,
-                  .explanation =
-                      "A validation with a larger mean error is shown to the operator, who decides "
-                      "whether to go on; the record says so."},
-                 &C::mean_limit_deg},
-                {{.name = "max_limit_deg",
-                  .unit = "deg",
-                  .low = 0.01,
-                  .high = 45,
-                  .explanation = "The same of the largest error of a target."},
-                 &C::max_limit_deg},
-                {{.name = "beeps",
-                  .explanation =
-                      "Sounds while the tracker is set up: a target appeared, it went well, it did "
-                      "not. Without a sound device there are none, and it is said."},
-                 &C::beeps},
-            },
-        .home = &Protocol::calibration};
+        {"by", &C::by,
+         "Who calibrates. `auto`: the tracker where it can, else the program. `tracker`: the tracker. "
+         "`overt`: the program, on top of what the tracker measures."},
+        {"points", member_of<C>(&C::points), "Targets of a calibration by the program: 3, 5, 9 or 13."},
+        {"validation_points", member_of<C>(&C::validation_points),
+         "Targets of its validation, at other places: 3, 5, 9 or 13."},
+        {"model", member_of<C>(&C::model),
+         "What is fitted to the targets. `polynomial`: of first order up to 5 targets, of second order from "
+         "9 on. `homography`: a plane seen from elsewhere."},
+        {"accept", member_of<C>(&C::accept),
+         "By what a target counts as looked at. `fixation`: gaze rested. `key`: the operator pressed the "
+         "space bar while it did."},
+        {"area", member_of<C>(&C::area), range(0.1, 1),
+         "Share of the screen's width and height that the targets span."},
+        {"target_deg", member_of<C>(&C::target_deg), range(0.05, 5, "deg"), "Diameter of a target's disc."},
+        {"fixation_s", member_of<C>(&C::fixation_s), range(0.05, 5, "s"),
+         "For so long gaze must rest on a target."},
+        {"fixation_reach_deg", member_of<C>(&C::fixation_reach_deg), range(0.05, 10, "deg"),
+         "So far its samples may lie from their median while it rests, but for one in fifty."},
+        {"patience_s", member_of<C>(&C::patience_s), range(1, 120, "s"),
+         "So long a target is shown at most; one that was missed comes again once."},
+        {"mean_limit_deg", &C::mean_limit_deg, range(0.01, 45, "deg"),
+         "A validation with a larger mean error is shown to the operator, who decides whether to go on; the "
+         "record says so."},
+        {"max_limit_deg", &C::max_limit_deg, range(0.01, 45, "deg"),
+         "The same of the largest error of a target."},
+        {"beeps", &C::beeps,
+         "Sounds while the tracker is set up: a target appeared, it went well, it did not. Without a sound "
+         "device there are none, and it is said."},
+    };
 }
 
-Section events() {
+std::vector<Key> events() {
     using E = EventDetectionSettings;
-    // The thresholds are members of its base.
-    const auto of = [](double EventSettings::*threshold) -> double E::* { return threshold; };
     return {
-        .name = "events",
-        .explanation =
-            "Fixations, saccades and blinks in the record, and by which thresholds the program tells them "
-            "apart; see [events.md](events.md).",
-        .keys =
-            {
-                {{.name = "method",
-                  .explanation =
-                      "Who says what the eye did. `tracker`: the eye tracker where it does, else the "
-                      "program. `overt`: the program. `none`: neither while the session runs; exports "
-                      "then find them with the default thresholds, and say so."},
-                 &E::method},
-                {{.name = "velocity_deg_s",
-                  .unit = "deg/s",
-                  .low = 1,
-                  .high = 1000,
-                  .explanation = "An eye that is faster makes a saccade."},
-                 of(&E::velocity_deg_s)},
-                {{.name = "acceleration_deg_s2",
-                  .unit = "deg/s2",
-                  .low = 0,
-                  .high = 1e6,
-                  .explanation =
-                      "Or one whose velocity changes faster; 0: velocity alone decides, which ends "
-                      "saccades where people who label raw gaze end them."},
-                 of(&E::acceleration_deg_s2)},
-                {{.name = "motion_deg",
-                  .unit = "deg",
-                  .low = 0,
-                  .high = 10,
-                  .explanation = "What moves the eye less far is no saccade."},
-                 of(&E::motion_deg)},
-                {{.name = "pursuit_deg_s",
-                  .unit = "deg/s",
-                  .low = 0,
-                  .high = 1000,
-                  .explanation =
-                      "By so much at most `velocity_deg_s` is raised while the eye moves anyway: by its "
-                      "mean speed of the last 40 ms. 0: it stays as it is."},
-                 of(&E::pursuit_deg_s)},
-                {{.name = "onset_verify_ms",
-                  .unit = "ms",
-                  .low = 0,
-                  .high = 1000,
-                  .explanation = "For so long the eye has to be fast for a saccade."},
-                 of(&E::onset_verify_ms)},
-                {{.name = "offset_verify_ms",
-                  .unit = "ms",
-                  .low = 0,
-                  .high = 1000,
-                  .explanation = "For so long it has to be slow for the saccade's end."},
-                 of(&E::offset_verify_ms)},
-                {{.name = "blink_verify_ms",
-                  .unit = "ms",
-                  .low = 0,
-                  .high = 1000,
-                  .explanation = "For so long the pupil has to be there for the end of a blink."},
-                 of(&E::blink_verify_ms)},
-            },
-        .home = &Protocol::events};
+        {"method", &E::method,
+         "Who says what the eye did. `tracker`: the eye tracker where it does, else the program. `overt`: "
+         "the program. `none`: neither while the session runs; exports then find them with the default "
+         "thresholds, and say so."},
+        {"velocity_deg_s", member_of<E>(&E::velocity_deg_s), range(1, 1000, "deg/s"),
+         "An eye that is faster makes a saccade."},
+        {"acceleration_deg_s2", member_of<E>(&E::acceleration_deg_s2), range(0, 1e6, "deg/s2"),
+         "Or one whose velocity changes faster; 0: velocity alone decides, which ends saccades where people "
+         "who label raw gaze end them."},
+        {"motion_deg", member_of<E>(&E::motion_deg), range(0, 10, "deg"),
+         "What moves the eye less far is no saccade."},
+        {"pursuit_deg_s", member_of<E>(&E::pursuit_deg_s), range(0, 1000, "deg/s"),
+         "By so much at most `velocity_deg_s` is raised while the eye moves anyway: by its mean speed of the "
+         "last 40 ms. 0: it stays as it is."},
+        {"onset_verify_ms", member_of<E>(&E::onset_verify_ms), range(0, 1000, "ms"),
+         "For so long the eye has to be fast for a saccade."},
+        {"offset_verify_ms", member_of<E>(&E::offset_verify_ms), range(0, 1000, "ms"),
+         "For so long it has to be slow for the saccade's end."},
+        {"blink_verify_ms", member_of<E>(&E::blink_verify_ms), range(0, 1000, "ms"),
+         "For so long the pupil has to be there for the end of a blink."},
+    };
 }
 
-Section screens() {
+std::vector<Key> screens() {
     using S = ScreenSettings;
     return {
-        .name = "screens",
-        .explanation = "What is shown between the animations, and for how long. In every text of a protocol "
-                       "that is shown, a first line that begins with `# ` is its title, and `<b>`, `<i>`, "
-                       "`<u>`, `<big>` and `<small>` emphasise what stands until `</b>` and so on; `&lt;` "
-                       "is a < where it would begin such a mark.",
-        .keys =
-            {
-                {{.name = "task_min_s",
-                  .unit = "s",
-                  .low = 0,
-                  .high = 600,
-                  .explanation = "The question stays at least this long before a key goes on."},
-                 &S::task_min_s},
-                {{.name = "drift_target_s",
-                  .unit = "s",
-                  .low = 0,
-                  .high = 60,
-                  .explanation = "How long the target of the drift check is shown."},
-                 &S::drift_target_s},
-                {{.name = "recording_lead_s",
-                  .unit = "s",
-                  .low = 0,
-                  .high = 10,
-                  .explanation =
-                      "Gaze is recorded from this long before the animation until this long after."},
-                 &S::recording_lead_s},
-                {{.name = "response_min_s",
-                  .unit = "s",
-                  .low = 0,
-                  .high = 600,
-                  .explanation = "The response screen stays at least this long before a key goes on."},
-                 &S::response_min_s},
-                {{.name = "response_max_s",
-                  .unit = "s",
-                  .low = 0.1,
-                  .high = 3600,
-                  .explanation = "After this long the session goes on without an answer."},
-                 &S::response_max_s},
-                {{.name = "text_height_deg",
-                  .unit = "deg",
-                  .low = 0.05,
-                  .high = 10,
-                  .explanation = "Height of a line of text."},
-                 &S::text_height_deg},
-                {{.name = "text_grey",
-                  .low = 0,
-                  .high = 1,
-                  .explanation = "Linear grey of the text, 1 being the display's white."},
-                 &S::text_grey},
-                {{.name = "text_cd_m2",
-                  .unit = "cd/m2",
-                  .low = 0,
-                  .high = 1e5,
-                  .if_left_out = "by `text_grey`",
-                  .explanation = "The same as a luminance; needs a `characterisation` of the display."},
-                 &S::text_cd_m2},
-                {{.name = "response_text", .explanation = "Shown while the observer answers aloud."},
-                 &S::response_text},
-                {{.name = "repeat_question",
-                  .explanation = "Whether the trial's question stands above it once more."},
-                 &S::repeat_question},
-                {{.name = "welcome_text", .explanation = "Shown before the first trial."}, &S::welcome_text},
-                {{.name = "farewell_text", .explanation = "Shown after the last trial."}, &S::farewell_text},
-            },
-        .home = &Protocol::screens};
+        {"task_min_s", &S::task_min_s, range(0, 600, "s"),
+         "The question stays at least this long before a key goes on."},
+        {"drift_target_s", &S::drift_target_s, range(0, 60, "s"),
+         "How long the target of the drift check is shown."},
+        {"recording_lead_s", &S::recording_lead_s, range(0, 10, "s"),
+         "Gaze is recorded from this long before the animation until this long after."},
+        {"response_min_s", &S::response_min_s, range(0, 600, "s"),
+         "The response screen stays at least this long before a key goes on."},
+        {"response_max_s", &S::response_max_s, range(0.1, 3600, "s"),
+         "After this long the session goes on without an answer."},
+        {"text_height_deg", &S::text_height_deg, range(0.05, 10, "deg"), "Height of a line of text."},
+        {"text_grey", &S::text_grey, range(0, 1), "Linear grey of the text, 1 being the display's white."},
+        {"text_cd_m2", &S::text_cd_m2, range(0, 1e5, "cd/m2").left_out("by `text_grey`"),
+         "The same as a luminance; needs a `characterisation` of the display."},
+        {"response_text", &S::response_text, "Shown while the observer answers aloud."},
+        {"repeat_question", &S::repeat_question, "Whether the trial's question stands above it once more."},
+        {"welcome_text", &S::welcome_text, "Shown before the first trial."},
+        {"farewell_text", &S::farewell_text, "Shown after the last trial."},
+    };
 }
 
 } // namespace overt::key_rows

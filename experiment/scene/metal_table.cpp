@@ -47,8 +47,7 @@ class MetalFile {
     void read_header() {
         const std::vector<TableCell>& names = lines_.cells();
         const auto column = [&](std::string_view name) -> std::optional<std::size_t> {
-            const auto found = std::find_if(names.begin(), names.end(),
-                                            [&](const TableCell& cell) { return cell.text == name; });
+            const auto found = std::ranges::find(names, name, &TableCell::text);
             return found == names.end() ? std::nullopt
                                         : std::optional(static_cast<std::size_t>(found - names.begin()));
         };

@@ -157,8 +157,7 @@ std::size_t size_of(PlyType type) {
 bool is_integer(PlyType type) { return type != PlyType::float32 && type != PlyType::float64; }
 
 const PlyElement* PlyHeader::find(std::string_view element_name) const {
-    const auto found = std::find_if(elements.begin(), elements.end(),
-                                    [&](const PlyElement& element) { return element.name == element_name; });
+    const auto found = std::ranges::find(elements, element_name, &PlyElement::name);
     return found == elements.end() ? nullptr : &*found;
 }
 

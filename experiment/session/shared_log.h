@@ -17,14 +17,10 @@ class SharedLog final : public SessionLog {
     void add(SessionLog& further) { further_.push_back(&further); }
 
     void flip(const FlipRecord& flip) noexcept override {
-        first_.flip(flip);
-        for (SessionLog* log : further_)
-            log->flip(flip);
+        in_each([&](SessionLog& log) { log.flip(flip); });
     }
     void missed(const MissedRefresh& refresh) noexcept override {
-        first_.missed(refresh);
-        for (SessionLog* log : further_)
-            log->missed(refresh);
+        in_each([&](SessionLog& log) { log.missed(refresh); });
     }
     void sample(int trial, const GazeSample& sample) noexcept override { first_.sample(trial, sample); }
     void tracker_item(int trial, const TrackerItem& item) noexcept override {

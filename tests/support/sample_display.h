@@ -7,6 +7,14 @@
 
 namespace overt::test {
 
+/// A spectrum of equally spaced samples.
+inline SampledSpectrum sampled(double first_nm, double step_nm, std::vector<double> values) {
+    SampledSpectrum spectrum{{}, std::move(values)};
+    for (std::size_t i = 0; i < spectrum.values.size(); ++i)
+        spectrum.wavelengths_nm.push_back(first_nm + step_nm * static_cast<double>(i));
+    return spectrum;
+}
+
 /// A curve of `points` equally spaced signals of a power function with a shoulder.
 inline ChannelCurve shouldered_curve(int points, double exponent, double shoulder) {
     std::vector<double> signals, lights;

@@ -43,6 +43,14 @@ Protocol design(int sculptures, int materials, int every_tasks, int once_tasks) 
     return protocol;
 }
 
+/// The materials that an observer has under tasks that are asked once per sculpture: by task and sculpture.
+std::map<std::pair<int, int>, int> rotated_materials(const Protocol& protocol, int observer) {
+    std::map<std::pair<int, int>, int> materials;
+    for (const Trial& trial : trials_of(protocol, observer))
+        materials[{trial.task, trial.condition.sculpture}] = trial.condition.material;
+    return materials;
+}
+
 /// A name for an order of trials.
 std::vector<int> key_of(const Schedule& schedule) {
     std::vector<int> key;
@@ -100,16 +108,17 @@ TEST_CASE("twelve observers fill every cell of the rotated tasks four times", "[
 
 TEST_CASE("any run of M observers fills each cell of a rotated task once, for any numbers of things",
           "[unit]") {
+    constexpr int tasks = 7;
     for (int sculptures = 1; sculptures <= 6; ++sculptures) {
         for (int materials = 1; materials <= 6; ++materials) {
-            for (int task = 0; task < 7; ++task) {
-                for (int sculpture = 0; sculpture < sculptures; ++sculpture) {
-                    std::set<int> seen;
-                    for (int observer = 5; observer < 5 + materials; ++observer)
-                        seen.insert(rotated_material(observer, task, sculpture, sculptures, materials));
-                    REQUIRE(static_cast<int>(seen.size()) == materials);
-                }
-            }
+            std::map<std::pair<int, int>, std::set<int>> seen;
+            for (int observer = 5; observer < 5 + materials; ++observer)
+                for (const auto& [cell, material] :
+                     rotated_materials(design(sculptures, materials, 0, tasks), observer))
+                    seen[cell].insert(material);
+            REQUIRE(static_cast<int>(seen.size()) == tasks * sculptures);
+            for (const auto& [cell, of_cell] : seen)
+                REQUIRE(static_cast<int>(of_cell.size()) == materials);
         }
     }
 }
@@ -119,11 +128,9 @@ TEST_CASE("each observer sees all materials equally often, to one, under the rot
         for (int materials = 1; materials <= 6; ++materials) {
             for (int tasks = 1; tasks <= 7; ++tasks) {
                 std::vector<int> count(static_cast<std::size_t>(materials));
-                for (int task = 0; task < tasks; ++task) {
-                    for (int sculpture = 0; sculpture < sculptures; ++sculpture)
-                        ++count[static_cast<std::size_t>(
-                            rotated_material(3, task, sculpture, sculptures, materials))];
-                }
+                for (const auto& [cell, material] :
+                     rotated_materials(design(sculptures, materials, 0, tasks), 3))
+                    ++count[static_cast<std::size_t>(material)];
                 const auto [least, most] = std::minmax_element(count.begin(), count.end());
                 REQUIRE(*most - *least <= 1);
             }
@@ -133,10 +140,10 @@ TEST_CASE("each observer sees all materials equally often, to one, under the rot
 
 TEST_CASE("a sculpture changes its material from one rotated task to the next", "[unit]") {
     for (int observer = 1; observer <= 12; ++observer) {
+        const auto materials = rotated_materials(design(3, 3, 0, 4), observer);
         for (int task = 0; task + 1 < 4; ++task) {
             for (int sculpture = 0; sculpture < 3; ++sculpture)
-                CHECK(rotated_material(observer, task, sculpture, 3, 3) !=
-                      rotated_material(observer, task + 1, sculpture, 3, 3));
+                CHECK(materials.at({task, sculpture}) != materials.at({task + 1, sculpture}));
         }
     }
 }

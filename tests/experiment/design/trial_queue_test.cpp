@@ -38,7 +38,7 @@ std::vector<SessionStep> steps_of(const Protocol& protocol, const Schedule& sche
         if (step->kind == SessionStep::Kind::trial)
             queue.tell(how(*step));
     }
-    CHECK(queue.trials_left() == 0);
+    CHECK(queue.is_done());
     return steps;
 }
 

@@ -42,30 +42,25 @@ struct House {
 constexpr std::string_view sizes[] = {"small", "large"};
 
 Section house() {
-    return {.name = "house",
-            .keys = {{{.name = "doors", .low = 1, .high = 9, .explanation = "Ways in."}, &House::doors}},
-            .home = SectionHome::root<House>()};
+    return {"house", SectionHome::root<House>(), {{"doors", &House::doors, range(1, 9), "Ways in."}}};
 }
 
 Section room() {
-    return {.name = "room",
-            .keys = {{{.name = "height_m", .unit = "m", .low = 1, .explanation = "To the ceiling."},
-                      &Room::height_m},
-                     {{.name = "colour", .explanation = "Of the walls."}, &Room::colour},
-                     {{.name = "mood", .explanation = "Of who lives there."}, &Room::mood},
-                     {{.name = "before", .if_left_out = "unknown", .explanation = "Once."}, &Room::before},
-                     {{.name = "size", .choices = sizes, .explanation = "As it feels."}, &Room::size}},
-            .home = &House::room};
+    return {"room",
+            &House::room,
+            {{"height_m", &Room::height_m, {.low = 1, .unit = "m"}, "To the ceiling."},
+             {"colour", &Room::colour, "Of the walls."},
+             {"mood", &Room::mood, "Of who lives there."},
+             {"before", &Room::before, left_out("unknown"), "Once."},
+             {"size", &Room::size, one_of(sizes), "As it feels."}}};
 }
 
 Section chair() {
-    return {.name = "chair",
-            .keys = {{{.name = "id", .is_required = true, .explanation = "Its name."}, &Chair::id},
-                     {{.name = "legs", .explanation = "Their number."}, &Chair::legs}},
-            .tables = {{.name = "where",
-                        .keys = {{{.name = "point", .if_left_out = "anywhere", .explanation = "x, y, z."},
-                                  &Chair::place}}}},
-            .home = &House::chairs};
+    return {"chair",
+            &House::chairs,
+            {{"id", &Chair::id, required(), "Its name."}, {"legs", &Chair::legs, "Their number."}},
+            {},
+            {{"where", {}, {{"point", &Chair::place, left_out("anywhere"), "x, y, z."}}}}};
 }
 
 struct ReadHouse {

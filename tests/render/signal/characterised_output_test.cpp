@@ -164,7 +164,7 @@ TEST_CASE("gold under equal energy goes from its spectrum to the codes that were
     }();
     const SampledSpectrum equal_energy = sampled(380.0, 400.0, {1.0, 1.0});
     const double full = tristimulus_of(equal_energy, ColourSpace::cie1931_xyz).y;
-    SampledSpectrum light = product(reflectance, equal_energy);
+    SampledSpectrum light = reflectance; // under a radiance of 1 at all wavelengths
     for (double& radiance : light.values)
         radiance *= 60.0 / full;
     const DisplayCharacterisation measured = sample_display();
