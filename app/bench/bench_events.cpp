@@ -83,8 +83,8 @@ struct Targets {
 
 void add_figures(BenchFigures& figures, const std::string& name, const Agreement& agreement,
                  const Targets& targets) {
-    const auto add = [&](std::string what, double value, std::string unit, std::optional<double> target,
-                         bool is_least) {
+    const auto add = [&](std::string what, double value, const std::string& unit,
+                         std::optional<double> target, bool is_least) {
         what = name + ": " + what;
         figures.push_back(!target    ? plain(what, value, unit)
                           : is_least ? at_least(what, value, unit, *target)

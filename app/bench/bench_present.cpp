@@ -126,9 +126,7 @@ void measure_packing(const RandomPages& pages, const ScreenGeometry& geometry, B
             if (!packing.encoder)
                 packing.encoder.emplace(packing.display);
             const ScreenPatch patch = packing.encoder->patch_of(geometry.image_origin_px, geometry.image_px);
-            bytes.resize(bytes_per_pixel(packing.encoder->format()) *
-                         static_cast<std::size_t>(patch.size_px.x) *
-                         static_cast<std::size_t>(patch.size_px.y));
+            bytes.resize(bytes_in(patch.size_px, packing.encoder->format()));
             const double begin = thread_s();
             packing.encoder->encode(picture, geometry.image_origin_px, bytes);
             packing.times_s.push_back(thread_s() - begin);

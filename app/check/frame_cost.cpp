@@ -49,13 +49,12 @@ class CopyingDisplay final : public DisplaySurface {
         : context_(&context),
           display_(context, clock, display.refresh_hz, row_of(display.output).framebuffer_bits),
           window_(context, screen_px,
-                  display_.bits_per_channel() == 10 ? PixelFormat::rgb10_a2 : PixelFormat::rgba8),
-          target_(context, {&window_}, false) {}
+                  display_.bits_per_channel() == 10 ? PixelFormat::rgb10_a2 : PixelFormat::rgba8) {}
     DisplayTiming timing() const override { return display_.timing(); }
     FlipReport present(const Framebuffer& canvas) noexcept override {
         context_->gl().Finish(); // what was drawn before is not the copy's
         copies_ms_[next_++ % copies_ms_.size()] = milliseconds_of([&] {
-            copy_for_window(context_->gl(), canvas, target_.name());
+            copy_for_window(context_->gl(), canvas, window_.name());
             context_->gl().Finish();
         });
         return display_.present(canvas);
@@ -75,8 +74,7 @@ class CopyingDisplay final : public DisplaySurface {
   private:
     const GlContext* context_;
     VirtualDisplay display_;
-    Texture2D window_;
-    Framebuffer target_;
+    Framebuffer window_;
     std::array<double, flips> copies_ms_{};
     std::size_t next_ = 0;
 };

@@ -9,7 +9,7 @@ std::filesystem::path cache_folder() {
         const char* value = std::getenv(name);
         return value ? value : "";
     };
-    if (const auto own = variable("OVERT_CACHE"); !own.empty())
+    if (auto own = variable("OVERT_CACHE"); !own.empty())
         return own;
     if (const auto xdg = variable("XDG_CACHE_HOME"); !xdg.empty())
         return xdg / "overt";

@@ -11,8 +11,6 @@
 
 #include "experiment/base/error.h"
 
-extern char** environ;
-
 namespace overt {
 
 namespace {

@@ -9,7 +9,7 @@ std::filesystem::path state_folder() {
         const char* value = std::getenv(name);
         return value ? value : "";
     };
-    if (const auto own = variable("OVERT_STATE"); !own.empty())
+    if (auto own = variable("OVERT_STATE"); !own.empty())
         return own;
     if (const auto xdg = variable("XDG_STATE_HOME"); !xdg.empty())
         return xdg / "overt";

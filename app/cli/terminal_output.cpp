@@ -3,7 +3,6 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
-#include <cstdint>
 #include <cstdio>
 
 #include <fcntl.h>
@@ -15,10 +14,10 @@ namespace {
 
 std::atomic<bool> is_output_lost = false, is_only_told = false;
 
-/// The write function of a stream on the file descriptor that `cookie` is: all is taken, and what does not
-/// arrive is remembered if it was standard output.
+/// The write function of a stream on the file descriptor that `cookie` points to: all is taken, and what does
+/// not arrive is remembered if it was standard output.
 ssize_t write_or_forget(void* cookie, const char* bytes, std::size_t count) {
-    const int descriptor = static_cast<int>(reinterpret_cast<std::intptr_t>(cookie));
+    const int descriptor = *static_cast<const int*>(cookie);
     for (std::size_t written = 0; written < count;) {
         const ssize_t now = ::write(descriptor, bytes + written, count - written);
         if (now > 0) {
@@ -32,7 +31,8 @@ ssize_t write_or_forget(void* cookie, const char* bytes, std::size_t count) {
     return static_cast<ssize_t>(count);
 }
 
-std::FILE* stream_on(int descriptor, int buffering) {
+/// The descriptor must outlive the stream.
+std::FILE* stream_on(int& descriptor, int buffering) {
     if (::fcntl(descriptor, F_GETFD) == -1 && errno == EBADF) {
         const int nowhere = ::open("/dev/null", O_WRONLY); // the lowest free number, which may be another
         if (nowhere != descriptor) {
@@ -42,8 +42,7 @@ std::FILE* stream_on(int descriptor, int buffering) {
     }
     cookie_io_functions_t functions{};
     functions.write = write_or_forget;
-    std::FILE* const stream =
-        ::fopencookie(reinterpret_cast<void*>(static_cast<std::intptr_t>(descriptor)), "w", functions);
+    std::FILE* const stream = ::fopencookie(&descriptor, "w", functions);
     if (stream)
         std::setvbuf(stream, nullptr, buffering, BUFSIZ);
     return stream;
@@ -54,9 +53,10 @@ std::FILE* stream_on(int descriptor, int buffering) {
 void keep_output_from_failing() {
     std::signal(SIGPIPE, SIG_IGN);
     // What is said comes line by line, also through a pipe, and in order with the progress on standard error.
-    if (std::FILE* const output = stream_on(STDOUT_FILENO, _IOLBF))
+    static int output_descriptor = STDOUT_FILENO, error_descriptor = STDERR_FILENO;
+    if (std::FILE* const output = stream_on(output_descriptor, _IOLBF))
         stdout = output;
-    if (std::FILE* const errors = stream_on(STDERR_FILENO, _IONBF))
+    if (std::FILE* const errors = stream_on(error_descriptor, _IONBF))
         stderr = errors;
 }
 

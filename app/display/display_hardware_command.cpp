@@ -74,9 +74,8 @@ std::vector<std::byte> picture_of(const std::vector<DrawnLine>& lines, glm::ivec
 /// Shows a still picture and returns when it has stood for a while: how soon the box has a new picture's
 /// lines ready is not known.
 void show_still(const OpenDisplay& display, const std::vector<std::byte>& bytes, glm::ivec2 size_px) {
-    Texture2D picture(display.context(), size_px, PixelFormat::rgba8);
-    picture.upload(bytes);
-    const Framebuffer canvas(display.context(), {&picture}, false);
+    Framebuffer canvas(display.context(), size_px, PixelFormat::rgba8);
+    canvas.texture().upload(bytes);
     display.context().gl().Disable(GL_DITHER);
     for (int buffer = 0; buffer < 3; ++buffer)
         display.surface().present(canvas);
@@ -110,7 +109,7 @@ int run_display_hardware_check(const DisplayHardwareOptions& options) {
                          .title = "overt display verify",
                          .monitor = std::to_string(monitor.number)});
     display.start();
-    const std::vector<DrawnLine> lines = lines_for(monitor.size_px);
+    std::vector<DrawnLine> lines = lines_for(monitor.size_px);
 
     DisplaySettings whole_screen;
     whole_screen.width_px = monitor.size_px.x;

@@ -9,12 +9,12 @@
 
 namespace overt {
 
-/// Writes Markdown to `options.report`: machine and program, all findings, what is missing with what mends
+/// Writes Markdown to `given.report`: machine and program, all findings, what is missing with what mends
 /// it, and, where they are asked for, the screen's refreshes and its light, each with a figure (SVG and PDF)
 /// beside the page. Gives 1 if something would refuse a session or a sensor missed a change. Throws
 /// InputError for a file that is there already, before anything is measured; RecordError if it cannot be
 /// written.
-int write_doctor_report(const DoctorOptions& options,
+int write_doctor_report(const DoctorOptions& given,
                         const std::function<std::vector<DoctorFinding>()>& examine);
 
 } // namespace overt

@@ -39,7 +39,7 @@ std::string conditions(const CommandWord& word) {
     if (!word.standard.empty())
         parts.push_back(fmt::format("default: {}", word.standard));
     if (word.is_required && word.names.front().starts_with('-'))
-        parts.push_back("required");
+        parts.emplace_back("required");
     return parts.empty() ? "" : fmt::format(" ({})", fmt::join(parts, "; "));
 }
 

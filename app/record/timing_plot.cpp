@@ -43,10 +43,12 @@ class Drawing : public PlotCanvas {
     void frame(double top, double bottom) { outline(left, top, right - left, bottom - top, ink); }
     void x_axis(const Scale& x, double step, double top, double bottom, const std::string& name) {
         const int decimals = step < 1.0 ? static_cast<int>(std::ceil(-std::log10(step) - 1e-9)) : 0;
-        for (double at = std::ceil(x.low / step - 1e-9) * step; at <= x.high + 1e-9 * step; at += step) {
+        double at = std::ceil(x.low / step - 1e-9) * step;
+        while (at <= x.high + 1e-9 * step) {
             line(x(at), top, x(at), bottom, grid);
             const double exact = std::abs(at) < 1e-6 * step ? 0.0 : at; // no negative zero
             text(x(at), bottom + 16.0, fmt::format("{:.{}f}", exact, decimals));
+            at += step;
         }
         text(0.5 * (left + right), bottom + 34.0, name);
     }

@@ -24,13 +24,13 @@ QuietOutput::~QuietOutput() {
         ::close(descriptor);
 }
 
-void QuietOutput::enter() {
+void QuietOutput::enter() const {
     std::fflush(nullptr);
     ::dup2(file_, STDOUT_FILENO);
     ::dup2(file_, STDERR_FILENO);
 }
 
-void QuietOutput::leave() {
+void QuietOutput::leave() const {
     std::fflush(nullptr);
     ::dup2(out_, STDOUT_FILENO);
     ::dup2(err_, STDERR_FILENO);

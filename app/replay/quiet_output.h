@@ -22,8 +22,8 @@ class QuietOutput {
     }
 
   private:
-    void enter();
-    void leave();
+    void enter() const;
+    void leave() const;
     int file_ = -1, out_ = -1, err_ = -1;
 };
 

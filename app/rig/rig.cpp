@@ -136,7 +136,8 @@ void Rig::open(SimulatedFaults faults, SessionTime start) {
 void Rig::open_further_trackers() {
     for (std::size_t i = 0; i < protocol_->further_trackers.size(); ++i) {
         const std::string& id = protocol_->further_trackers[i].id;
-        Further& further = further_trackers_.emplace_back(id, protocol_of_further(*protocol_, i), nullptr);
+        Further& further =
+            further_trackers_.emplace_back(Further{id, protocol_of_further(*protocol_, i), nullptr});
         // Simulated trackers err independently of each other.
         RandomStream seeds(request_.seed, "further tracker " + id);
         const std::uint64_t high = seeds.next_bits(), seed = high << 32U | seeds.next_bits();

@@ -63,7 +63,7 @@ class MapFiles {
         std::vector<std::filesystem::path> files;
         for (const auto& [wanted, extension] : {std::pair{exr_, ".exr"}, {png_, ".png"}, {png_, ".json"}}) {
             if (wanted)
-                files.push_back(stem.string() + extension);
+                files.emplace_back(stem.string() + extension);
         }
         return files;
     }
@@ -117,7 +117,7 @@ CoordinateMaps draw_maps(StimulusLibrary& library, const Sculpture& sculpture, i
                 sculpture.id, angles.back().value));
         }
     }
-    return {sculpture.mesh, sculpture.scene, std::move(angles), std::move(maps)};
+    return {sculpture.mesh, sculpture.scene, angles, std::move(maps)};
 }
 
 void print_outcome(const LutOptions& options, const std::vector<std::string>& files,

@@ -31,14 +31,13 @@ glm::ivec2 picture_window_size(const ViewSettings& view) {
 
 PictureWindow::PictureWindow(const OpenDisplay& opened)
     : opened_(&opened), encoder_(ordinary_screen(opened.window()->framebuffer_px())),
-      texture_(opened.context(), opened.window()->framebuffer_px(), encoder_.format()),
-      canvas_(opened.context(), {&texture_}, false) {}
+      canvas_(opened.context(), opened.window()->framebuffer_px(), encoder_.format()) {}
 
 void PictureWindow::show(LinearImage picture, const std::string& line) {
     write_on(picture, line, {picture.size_px.x / 2, picture.size_px.y - 1});
-    bytes_.resize(bytes_per_pixel(encoder_.format()) * picture.pixels.size());
+    bytes_.resize(bytes_in(picture.size_px, encoder_.format()));
     encoder_.encode(picture, {0, 0}, bytes_);
-    texture_.upload(bytes_);
+    canvas_.texture().upload(bytes_);
     opened_->surface().present(canvas_);
 }
 

@@ -30,7 +30,6 @@ class PictureWindow {
   private:
     const OpenDisplay* opened_;
     DisplayEncoder encoder_;
-    Texture2D texture_;
     Framebuffer canvas_;
     std::vector<std::byte> bytes_;
 };

@@ -91,6 +91,7 @@ struct EyelinkFunctions {
     std::int32_t (*receive_data_file)(char* source, char* destination, i16 is_folder) = nullptr;
 
     // Optional.
+    // NOLINTNEXTLINE(readability-identifier-naming): the maker's name
     i16 (*setup_graphic_hook_functions_V2)(EyelinkHooks2* hooks) = nullptr;
     std::int32_t (*receive_data_file_feedback)(char* source, char* destination, i16 is_folder,
                                                void (*progress)(unsigned size, unsigned received)) = nullptr;

@@ -53,7 +53,7 @@ class SessionState {
     std::deque<UsedTracker>& trackers() { return trackers_; }
     UsedTracker& own_tracker() { return trackers_.front(); }
     /// The tracker's record alone; in practice, it keeps events only.
-    SessionLog& log_of(UsedTracker& used) {
+    SessionLog& log_of(UsedTracker& used) const {
         return is_practice_ ? static_cast<SessionLog&>(used.practice) : used.record;
     }
 

@@ -19,6 +19,9 @@ namespace {
 /// leaves.
 constexpr double open_share = 1e-3;
 
+/// Normals of faces that meet at no more than this angle run into one another.
+constexpr double crease_deg = 50.0;
+
 /// Throws InputError if a coat cannot be put around the mesh.
 void check_coatable(const EdgeCounts& edges, double volume) {
     const std::size_t faulty = edges.boundary + edges.non_manifold + edges.conflicting;
@@ -43,7 +46,7 @@ CoatShape coat_shape(const MaterialSettings& material, double half_height) {
 
 } // namespace
 
-BakeScene::BakeScene(const Mesh& mesh, const MaterialSettings& material, double crease_deg)
+BakeScene::BakeScene(const Mesh& mesh, const MaterialSettings& material)
     : material_(material), model_(&model_of(material.kind)), centre_(mesh.bounds().centre()) {
     if (mesh.triangles.empty())
         throw InputError("a mesh without triangles cannot be baked");

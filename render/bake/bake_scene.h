@@ -13,15 +13,12 @@ namespace overt {
 
 struct MaterialModel;
 
-/// Normals of faces that meet at no more than this angle run into one another.
-constexpr double default_crease_deg = 50.0;
-
 /// Built once for a stimulus and used for all its poses, from any number of threads.
 class BakeScene {
   public:
     /// The mesh may go afterwards. Throws InputError for an unknown metal and for what the material does not
     /// allow, GraphicsError if Embree refuses.
-    BakeScene(const Mesh& mesh, const MaterialSettings& material, double crease_deg = default_crease_deg);
+    BakeScene(const Mesh& mesh, const MaterialSettings& material);
     ~BakeScene();
     BakeScene(BakeScene&&) noexcept;
     BakeScene& operator=(BakeScene&&) noexcept;

@@ -6,25 +6,13 @@
 namespace overt {
 
 BakeSettings settings_of(BakeQuality quality, MaterialKind material) {
+    OVERT_EXPECTS(quality != BakeQuality::live);
     BakeSettings settings;
-    switch (quality) {
-    case BakeQuality::live:
-        OVERT_EXPECTS(quality != BakeQuality::live);
-        break;
-    case BakeQuality::preview:
-        settings.samples = 4;
+    settings.samples = quality == BakeQuality::preview ? 4 : quality == BakeQuality::draft ? 16 : 256;
+    if (quality == BakeQuality::standard && !model_of(material).scatters)
+        settings.samples = 64;
+    if (quality == BakeQuality::preview)
         settings.pixel_step = 2;
-        break;
-    case BakeQuality::draft:
-        settings.samples = 16;
-        break;
-    case BakeQuality::standard:
-        settings.samples = model_of(material).scatters ? 256 : 64;
-        break;
-    case BakeQuality::reference:
-        settings.samples = 256;
-        break;
-    }
     return settings;
 }
 

@@ -21,11 +21,11 @@ const Spectrum& white_light() {
     return white;
 }
 
-glm::dvec3 xyz_of(const Spectrum& light) {
+template <class Light> glm::dvec3 xyz_of(const Light& light) {
     glm::dvec3 xyz(0.0);
     for (std::size_t bin = 0; bin < spectral_bins; ++bin) {
         for (int axis = 0; axis < 3; ++axis)
-            xyz[axis] += cie1931_xyz()[static_cast<std::size_t>(axis)][bin] * light[bin];
+            xyz[axis] += cie1931_xyz()[static_cast<std::size_t>(axis)][bin] * static_cast<double>(light[bin]);
     }
     return xyz;
 }
@@ -63,14 +63,7 @@ const glm::dmat3& bands_from_rec709() {
 
 } // namespace
 
-glm::dvec3 xyz_of_light(std::span<const float, spectral_bins> light) {
-    glm::dvec3 xyz(0.0);
-    for (std::size_t bin = 0; bin < spectral_bins; ++bin) {
-        for (int axis = 0; axis < 3; ++axis)
-            xyz[axis] += cie1931_xyz()[static_cast<std::size_t>(axis)][bin] * static_cast<double>(light[bin]);
-    }
-    return xyz;
-}
+glm::dvec3 xyz_of_light(std::span<const float, spectral_bins> light) { return xyz_of(light); }
 
 glm::dvec3 rec709_of_xyz(glm::dvec3 xyz) {
     static const glm::dvec3 white = rec709_from_xyz * xyz_of(white_light());

@@ -28,16 +28,22 @@ void refuse(RTCDevice device) {
     }
 }
 
-RTCRay tree_ray(const PathRay& ray, float limit) {
-    RTCRay cast{};
-    cast.org_x = ray.origin.x;
-    cast.org_y = ray.origin.y;
-    cast.org_z = ray.origin.z;
-    cast.dir_x = ray.direction.x;
-    cast.dir_y = ray.direction.y;
-    cast.dir_z = ray.direction.z;
-    cast.tfar = limit;
-    cast.mask = ~0u;
+RTCRayHit cast_into(RTCScene scene, const PathRay& ray, float limit, bool coherent) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    RTCRayHit cast{};
+    cast.ray.org_x = ray.origin.x;
+    cast.ray.org_y = ray.origin.y;
+    cast.ray.org_z = ray.origin.z;
+    cast.ray.dir_x = ray.direction.x;
+    cast.ray.dir_y = ray.direction.y;
+    cast.ray.dir_z = ray.direction.z;
+    cast.ray.tfar = limit;
+    cast.ray.mask = ~0u;
+    cast.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    cast.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene, &context, &cast);
     return cast;
 }
 
@@ -89,14 +95,7 @@ SurfaceTree::SurfaceTree(SurfaceTree&&) noexcept = default;
 SurfaceTree& SurfaceTree::operator=(SurfaceTree&&) noexcept = default;
 
 SurfaceHit SurfaceTree::first_hit(const PathRay& ray, float limit, bool coherent) const noexcept {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    RTCRayHit cast;
-    cast.ray = tree_ray(ray, limit);
-    cast.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    cast.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(tree_->scene.get(), &context, &cast);
+    const RTCRayHit cast = cast_into(tree_->scene.get(), ray, limit, coherent);
     SurfaceHit hit;
     if (cast.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return hit;
@@ -114,14 +113,8 @@ SurfaceHit SurfaceTree::first_hit(const PathRay& ray, float limit, bool coherent
 }
 
 float SurfaceTree::first_distance(const PathRay& ray, bool coherent) const noexcept {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    RTCRayHit cast;
-    cast.ray = tree_ray(ray, std::numeric_limits<float>::infinity());
-    cast.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    cast.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(tree_->scene.get(), &context, &cast);
+    const RTCRayHit cast =
+        cast_into(tree_->scene.get(), ray, std::numeric_limits<float>::infinity(), coherent);
     return cast.hit.geomID == RTC_INVALID_GEOMETRY_ID ? -1.0f : cast.ray.tfar;
 }
 

@@ -38,7 +38,7 @@ ChartAxes::ChartAxes(FigurePen& pen, glm::dvec2 corner, glm::dvec2 size, AxisRan
         if (!range.is_logarithmic)
             return tick_values(range.low, range.high, wanted);
         std::vector<double> decades;
-        for (double p = std::ceil(std::log10(range.low)); p <= std::log10(range.high); ++p)
+        for (int p = static_cast<int>(std::ceil(std::log10(range.low))); p <= std::log10(range.high); ++p)
             decades.push_back(std::pow(10.0, p));
         return decades;
     };

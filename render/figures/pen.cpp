@@ -114,7 +114,7 @@ std::string drawn(cairo_surface_t* (*make)(cairo_write_func_t, void*, double, do
 // Cairo numbers the surfaces of a program; a figure's name for itself must not depend on those before.
 std::string without_numbers(std::string svg) {
     constexpr std::string_view name = "\"surface";
-    for (std::size_t at = svg.find(name); at != svg.npos; at = svg.find(name, at + 1)) {
+    for (std::size_t at = svg.find(name); at != std::string::npos; at = svg.find(name, at + 1)) {
         const std::size_t begin = at + name.size(), end = svg.find_first_not_of("0123456789", begin);
         svg.erase(begin, end - begin);
     }

@@ -12,8 +12,10 @@ namespace {
 
 void dashed_line(FigurePen& pen, double from, double to, double y) {
     constexpr double dash_mm = 1.2;
-    for (double x = from; x < to; x += 2.0 * dash_mm)
-        pen.line({x, y}, {std::min(x + dash_mm, to), y}, figure_grey, 0.25);
+    while (from < to) {
+        pen.line({from, y}, {std::min(from + dash_mm, to), y}, figure_grey, 0.25);
+        from += 2.0 * dash_mm;
+    }
 }
 
 } // namespace

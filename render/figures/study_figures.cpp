@@ -229,8 +229,9 @@ bool time_course(const StudyResults& results, const std::filesystem::path& folde
             pen.path(points, figure_colour(level), 0.4);
             for (const glm::dvec2& point : points)
                 pen.dot(point, 0.6, figure_colour(level));
-            const double x = 13.0 + 24.0 * static_cast<double>(level % 3),
-                         y = 3.5 + 3.4 * static_cast<double>(level / 3);
+            const std::size_t column = level % 3, line = level / 3;
+            const double x = 13.0 + 24.0 * static_cast<double>(column),
+                         y = 3.5 + 3.4 * static_cast<double>(line);
             pen.box({x, y - 1.9}, {2.2, 2.2}, figure_colour(level));
             pen.text({x + 3.0, y}, levels[level], 6.5);
         }

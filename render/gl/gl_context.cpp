@@ -15,18 +15,6 @@ std::string gl_string(const GladGLContext& gl, GLenum name) {
 
 } // namespace
 
-std::string_view name_of(ContextKind kind) {
-    switch (kind) {
-    case ContextKind::osmesa:
-        return "osmesa";
-    case ContextKind::egl:
-        return "egl";
-    case ContextKind::window:
-        return "window";
-    }
-    return "unknown";
-}
-
 void GlContext::load_functions(GLADloadfunc loader, ContextKind kind, std::string platform) {
     const int version = gladLoadGLContext(&gl_, loader);
     if (version == 0)

@@ -8,10 +8,12 @@
 #include <glad/gl.h>
 #include <glm/glm.hpp>
 
+#include "experiment/base/enum_names.h"
+
 namespace overt {
 
 enum class ContextKind { osmesa, egl, window };
-std::string_view name_of(ContextKind kind);
+template <> inline constexpr auto names_of<ContextKind> = enum_names<ContextKind>("osmesa", "egl", "window");
 
 /// What a context says of itself.
 struct GlDescription {

@@ -1,7 +1,5 @@
 #include "render/gl/gl_objects.h"
 
-#include <vector>
-
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
@@ -33,8 +31,6 @@ GlFormat gl_format(PixelFormat format) noexcept {
         return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16, "RGBA32F", GL_RGBA};
     case PixelFormat::r32ui:
         return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4, "R32UI", GL_RED_INTEGER};
-    case PixelFormat::depth32f:
-        return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4, "DEPTH32F", GL_DEPTH_COMPONENT};
     }
     return {};
 }
@@ -54,11 +50,13 @@ void expect_depth(const GlContext& context, GLenum target, PixelFormat format) {
     }
 }
 
-GlName make_texture(const GlContext& context) {
+/// By OpenGL's functions for the kind of object.
+template <auto generate, auto destroy> GlName make_name(const GlContext& context) {
     GLuint name = 0;
-    context.gl().GenTextures(1, &name);
-    return {context, name, [](const GladGLContext& gl, GLuint texture) { gl.DeleteTextures(1, &texture); }};
+    (context.gl().*generate)(1, &name);
+    return {context, name, [](const GladGLContext& gl, GLuint made) { (gl.*destroy)(1, &made); }};
 }
+constexpr auto make_texture = make_name<&GladGLContext::GenTextures, &GladGLContext::DeleteTextures>;
 
 void use_nearest_texels(const GladGLContext& gl, GLenum target) {
     gl.TexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -68,16 +66,12 @@ void use_nearest_texels(const GladGLContext& gl, GLenum target) {
     gl.TexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
 }
 
-GlName make_framebuffer(const GlContext& context) {
-    GLuint name = 0;
-    context.gl().GenFramebuffers(1, &name);
-    return {context, name,
-            [](const GladGLContext& gl, GLuint framebuffer) { gl.DeleteFramebuffers(1, &framebuffer); }};
-}
-
 } // namespace
 
-std::size_t bytes_per_pixel(PixelFormat format) { return gl_format(format).bytes; }
+std::size_t bytes_in(glm::ivec2 size_px, PixelFormat format) {
+    return gl_format(format).bytes * static_cast<std::size_t>(size_px.x) *
+           static_cast<std::size_t>(size_px.y);
+}
 
 TransferFormat transfer_format(PixelFormat format) noexcept {
     const GlFormat pixel = gl_format(format);
@@ -99,8 +93,7 @@ Texture2D::Texture2D(const GlContext& context, glm::ivec2 size_px, PixelFormat f
 
 void Texture2D::upload(std::span<const std::byte> pixels) {
     const GlFormat pixel = gl_format(format_);
-    OVERT_EXPECTS(pixels.size() ==
-                  pixel.bytes * static_cast<std::size_t>(size_px_.x) * static_cast<std::size_t>(size_px_.y));
+    OVERT_EXPECTS(pixels.size() == bytes_in(size_px_, format_));
     const GladGLContext& gl = name_.context().gl();
     gl.BindTexture(GL_TEXTURE_2D, *name_);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -135,58 +128,38 @@ TextureArray::TextureArray(const GlContext& context, glm::ivec2 size_px, int lay
     expect_depth(context, GL_TEXTURE_2D_ARRAY, format);
 }
 
-void TextureArray::upload(int layer, std::span<const std::byte> pixels) {
-    upload(layer, pixels.data(), pixels.size());
-}
-
 void TextureArray::upload_from_buffer(int layer, std::size_t bytes) {
-    upload(layer, nullptr, bytes);
-    name_.context().gl().BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-}
-
-void TextureArray::upload(int layer, const void* pixels_or_offset, std::size_t bytes) {
     const GlFormat pixel = gl_format(format_);
-    OVERT_EXPECTS(layer >= 0 && layer < layers_ &&
-                  bytes == pixel.bytes * static_cast<std::size_t>(size_px_.x) *
-                               static_cast<std::size_t>(size_px_.y));
+    OVERT_EXPECTS(layer >= 0 && layer < layers_ && bytes == bytes_in(size_px_, format_));
     const GladGLContext& gl = name_.context().gl();
     gl.BindTexture(GL_TEXTURE_2D_ARRAY, *name_);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     gl.TexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, size_px_.x, size_px_.y, 1, pixel.format, pixel.type,
-                     pixels_or_offset);
+                     nullptr);
+    gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
     throw_on_gl_error(name_.context(), "uploading a page");
 }
 
-Framebuffer::Framebuffer(const GlContext& context) : name_(make_framebuffer(context)) {}
+Framebuffer::Framebuffer(const GlContext& context)
+    : name_(make_name<&GladGLContext::GenFramebuffers, &GladGLContext::DeleteFramebuffers>(context)) {}
 
-Framebuffer::Framebuffer(const GlContext& context, std::initializer_list<const Texture2D*> colours,
-                         bool with_depth)
+Framebuffer::Framebuffer(const GlContext& context, glm::ivec2 size_px, PixelFormat format, bool with_depth)
     : Framebuffer(context) {
     const GladGLContext& gl = context.gl();
-    OVERT_EXPECTS(colours.size() > 0);
-    size_px_ = (*colours.begin())->size_px();
+    texture_.emplace(context, size_px, format);
+    size_px_ = size_px;
     gl.BindFramebuffer(GL_FRAMEBUFFER, *name_);
-    std::vector<GLenum> draw_buffers;
-    for (const Texture2D* colour : colours) {
-        const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(draw_buffers.size());
-        gl.FramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, colour->name(), 0);
-        draw_buffers.push_back(attachment);
-    }
-    gl.DrawBuffers(static_cast<GLsizei>(draw_buffers.size()), draw_buffers.data());
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_->name(), 0);
     if (with_depth) {
-        GLuint depth = 0;
-        gl.GenRenderbuffers(1, &depth);
-        depth_ = {context, depth,
-                  [](const GladGLContext& g, GLuint buffer) { g.DeleteRenderbuffers(1, &buffer); }};
-        gl.BindRenderbuffer(GL_RENDERBUFFER, depth);
+        depth_ = make_name<&GladGLContext::GenRenderbuffers, &GladGLContext::DeleteRenderbuffers>(context);
+        gl.BindRenderbuffer(GL_RENDERBUFFER, *depth_);
         gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, size_px_.x, size_px_.y);
-        gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+        gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, *depth_);
     }
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        throw GraphicsError(
-            fmt::format("{} cannot draw into a framebuffer of {} x {} pixels with {} colour buffers{}",
-                        context.description().renderer, size_px_.x, size_px_.y, colours.size(),
-                        with_depth ? " and depth" : ""));
+        throw GraphicsError(fmt::format(
+            "{} cannot draw into a framebuffer of {} x {} pixels with 1 colour buffers{}",
+            context.description().renderer, size_px_.x, size_px_.y, with_depth ? " and depth" : ""));
     }
 }
 
@@ -203,40 +176,34 @@ void Framebuffer::bind() const {
     gl.Viewport(0, 0, size_px_.x, size_px_.y);
 }
 
+void Framebuffer::read(PixelFormat format, std::span<std::byte> into) const {
+    OVERT_EXPECTS(into.size() == bytes_in(size_px_, format));
+    const GlFormat pixel = gl_format(format);
+    const GladGLContext& gl = name_.context().gl();
+    bind();
+    gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl.ReadPixels(0, 0, size_px_.x, size_px_.y, pixel.format, pixel.type, into.data());
+    throw_on_gl_error(name_.context(), fmt::format("reading {} x {} {}", size_px_.x, size_px_.y, pixel.name));
+}
+
 Buffer::Buffer(const GlContext& context, GLenum target, std::span<const std::byte> content, GLenum usage)
     : Buffer(context, target, content.size(), usage) {
     context.gl().BufferSubData(target, 0, static_cast<GLsizeiptr>(content.size()), content.data());
 }
 
-Buffer::Buffer(const GlContext& context, GLenum target, std::size_t bytes, GLenum usage) {
+Buffer::Buffer(const GlContext& context, GLenum target, std::size_t bytes, GLenum usage)
+    : name_(make_name<&GladGLContext::GenBuffers, &GladGLContext::DeleteBuffers>(context)) {
     const GladGLContext& gl = context.gl();
-    GLuint name = 0;
-    gl.GenBuffers(1, &name);
-    name_ = {context, name, [](const GladGLContext& g, GLuint buffer) { g.DeleteBuffers(1, &buffer); }};
-    gl.BindBuffer(target, name);
+    gl.BindBuffer(target, *name_);
     gl.BufferData(target, static_cast<GLsizeiptr>(bytes), nullptr, usage);
     throw_on_gl_error(context, fmt::format("making a buffer of {} bytes", bytes));
 }
 
-VertexArray::VertexArray(const GlContext& context) {
-    GLuint name = 0;
-    context.gl().GenVertexArrays(1, &name);
-    name_ = {context, name, [](const GladGLContext& gl, GLuint array) { gl.DeleteVertexArrays(1, &array); }};
-}
+VertexArray::VertexArray(const GlContext& context)
+    : name_(make_name<&GladGLContext::GenVertexArrays, &GladGLContext::DeleteVertexArrays>(context)) {}
 
 void VertexArray::bind() const { name_.context().gl().BindVertexArray(*name_); }
-
-void read_pixels(const GlContext& context, int index, glm::ivec2 origin_px, glm::ivec2 size_px,
-                 PixelFormat format, std::span<std::byte> into) {
-    const GlFormat pixel = gl_format(format);
-    OVERT_EXPECTS(into.size() ==
-                  pixel.bytes * static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y));
-    const GladGLContext& gl = context.gl();
-    gl.ReadBuffer(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(index));
-    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl.ReadPixels(origin_px.x, origin_px.y, size_px.x, size_px.y, pixel.format, pixel.type, into.data());
-    throw_on_gl_error(context, fmt::format("reading {} x {} {}", size_px.x, size_px.y, pixel.name));
-}
 
 void draw_nearest_only(const GladGLContext& gl) noexcept {
     for (const GLenum state : {GL_BLEND, GL_DITHER, GL_MULTISAMPLE, GL_CULL_FACE, GL_SCISSOR_TEST})

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstddef>
-#include <initializer_list>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -12,7 +12,10 @@
 namespace overt {
 
 /// rgb10_a2: a 32-bit word, red in the lowest ten bits.
-enum class PixelFormat { rgba8, rgb10_a2, rgba16, rgba32f, r32ui, depth32f };
+enum class PixelFormat { rgba8, rgb10_a2, rgba16, rgba32f, r32ui };
+
+/// What pixels of a format take.
+std::size_t bytes_in(glm::ivec2 size_px, PixelFormat format);
 
 /// A name that OpenGL gave and must get back.
 class GlName {
@@ -69,41 +72,42 @@ class TextureArray {
   public:
     TextureArray(const GlContext& context, glm::ivec2 size_px, int layers, PixelFormat format);
 
-    /// One page, row by row, in the format's own component type.
-    void upload(int layer, std::span<const std::byte> pixels);
-    /// The same from the start of the buffer that is bound to GL_PIXEL_UNPACK_BUFFER and holds that many
-    /// bytes; unbinds it.
+    /// One page, row by row, in the format's own component type, from the start of the buffer that is bound
+    /// to GL_PIXEL_UNPACK_BUFFER and holds that many bytes; unbinds it.
     void upload_from_buffer(int layer, std::size_t bytes);
     GLuint name() const { return *name_; }
     glm::ivec2 size_px() const { return size_px_; }
     int layers() const { return layers_; }
 
   private:
-    void upload(int layer, const void* pixels_or_offset, std::size_t bytes);
-
     GlName name_;
     glm::ivec2 size_px_;
     int layers_;
     PixelFormat format_;
 };
 
-/// Where drawing goes. Throws GraphicsError naming format and size if OpenGL cannot draw into what is
-/// attached.
+/// Where drawing goes.
 class Framebuffer {
   public:
-    /// Colour textures in the order of the shader's outputs; with a depth buffer of 32 bits of its own if
-    /// `with_depth`.
-    Framebuffer(const GlContext& context, std::initializer_list<const Texture2D*> colours, bool with_depth);
-    /// Without attachments: attach_layer() comes before use.
+    /// A texture of its own, and a depth buffer of 32 bits if `with_depth`. Throws GraphicsError naming
+    /// format and size if OpenGL cannot draw into it.
+    Framebuffer(const GlContext& context, glm::ivec2 size_px, PixelFormat format, bool with_depth = false);
+    /// Without a texture: attach_layer() comes before use.
     explicit Framebuffer(const GlContext& context);
 
     void attach_layer(const TextureArray& pages, int layer);
     void bind() const; ///< for drawing and reading, with the viewport of its size
+    /// All pixels, bottom row first as OpenGL has it. Binds it.
+    void read(PixelFormat format, std::span<std::byte> into) const;
+    /// Its own.
+    Texture2D& texture() { return *texture_; }
+    const Texture2D& texture() const { return *texture_; }
     GLuint name() const { return *name_; }
     glm::ivec2 size_px() const { return size_px_; }
 
   private:
     GlName name_;
+    std::optional<Texture2D> texture_;
     GlName depth_;
     glm::ivec2 size_px_{0};
 };
@@ -127,13 +131,6 @@ class VertexArray {
   private:
     GlName name_;
 };
-
-/// Reads a rectangle of the framebuffer bound for reading, colour attachment `index`, bottom row first as
-/// OpenGL has it.
-void read_pixels(const GlContext& context, int index, glm::ivec2 origin_px, glm::ivec2 size_px,
-                 PixelFormat format, std::span<std::byte> into);
-
-std::size_t bytes_per_pixel(PixelFormat format);
 
 /// OpenGL's names for how pixels of a format lie in memory.
 struct TransferFormat {

@@ -36,8 +36,7 @@ std::string summary_of(const GlDescription& description) {
     return fmt::format("{} ({}; {})", description.version, description.renderer, description.platform);
 }
 
-std::unique_ptr<GlContext> make_headless_context(std::optional<ContextKind> kind,
-                                                 std::vector<ContextAttempt>* attempts) {
+std::unique_ptr<GlContext> make_headless_context(std::optional<ContextKind> kind) {
     std::vector<ContextAttempt> tried;
     std::unique_ptr<GlContext> context;
     if (kind == ContextKind::egl) {
@@ -55,8 +54,6 @@ std::unique_ptr<GlContext> make_headless_context(std::optional<ContextKind> kind
             context = attempt<OsMesaContext>(ContextKind::osmesa, tried);
         }
     }
-    if (attempts)
-        *attempts = tried;
     if (!context) {
         throw GraphicsError(
             fmt::format("no OpenGL context can be made. Tried:{}\nRemedy: install libosmesa6 and "

@@ -21,8 +21,7 @@ std::string summary_of(const GlDescription& description);
 
 /// Makes a context that needs no window. With a kind, that one or a GraphicsError that says why not and what
 /// was tried; without, EGL where a graphics processor is behind it, else OSMesa.
-std::unique_ptr<GlContext> make_headless_context(std::optional<ContextKind> kind,
-                                                 std::vector<ContextAttempt>* attempts = nullptr);
+std::unique_ptr<GlContext> make_headless_context(std::optional<ContextKind> kind);
 
 /// Tries OSMesa and each device of EGL. Never throws; a context that was made is destroyed again.
 std::vector<ContextAttempt> survey_headless_contexts();

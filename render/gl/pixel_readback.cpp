@@ -6,18 +6,9 @@
 
 namespace overt {
 
-namespace {
-
-std::size_t bytes_of(glm::ivec2 size_px, PixelFormat format) {
-    return bytes_per_pixel(format) * static_cast<std::size_t>(size_px.x) *
-           static_cast<std::size_t>(size_px.y);
-}
-
-} // namespace
-
 PixelReadback::PixelReadback(const GlContext& context, glm::ivec2 size_px, PixelFormat format)
     : context_(&context), size_px_(size_px), format_(format),
-      buffer_(context, GL_PIXEL_PACK_BUFFER, bytes_of(size_px, format), GL_STREAM_READ) {
+      buffer_(context, GL_PIXEL_PACK_BUFFER, bytes_in(size_px, format), GL_STREAM_READ) {
     context.gl().BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
@@ -41,7 +32,7 @@ void PixelReadback::start(const Framebuffer& from) noexcept {
 }
 
 bool PixelReadback::finish(std::span<std::byte> into, bool wait) noexcept {
-    OVERT_EXPECTS(fence_ && into.size() == bytes_of(size_px_, format_));
+    OVERT_EXPECTS(fence_ && into.size() == bytes_in(size_px_, format_));
     const GladGLContext& gl = context_->gl();
     constexpr GLuint64 ten_seconds_ns = 10'000'000'000;
     const GLenum state = gl.ClientWaitSync(fence_, GL_SYNC_FLUSH_COMMANDS_BIT, wait ? ten_seconds_ns : 0);

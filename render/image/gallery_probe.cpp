@@ -205,9 +205,9 @@ LightProbe make_gallery() {
                 return direction_of_place((column + right) / size.x, (row + below) / size.y);
             };
             Colour sum(0.0);
-            for (int i = 0; i < per_side * per_side; ++i)
-                sum += room_light(
-                    direction_at((i % per_side + 0.5) / per_side, (i / per_side + 0.5) / per_side));
+            for (int down = 0; down < per_side; ++down)
+                for (int right = 0; right < per_side; ++right)
+                    sum += room_light(direction_at((right + 0.5) / per_side, (down + 0.5) / per_side));
             sum *= texture(direction_at(0.5, 0.5)) / (per_side * per_side);
             probe.radiance.at(column, row) = glm::vec4(glm::vec3(sum), 1.0f);
             row_light[static_cast<std::size_t>(row)] += 0.2126 * sum.r + 0.7152 * sum.g + 0.0722 * sum.b;

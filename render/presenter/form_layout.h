@@ -18,7 +18,7 @@ class FormLayout {
     glm::ivec2 size_px() const { return size_px_; }
     int unknown_glyphs() const { return unknown_glyphs_; }
 
-    void put_on(InkCanvas& canvas, glm::ivec2 top_left_px) const;
+    void put_on(InkCanvas& canvas, glm::ivec2 corner) const;
 
   private:
     /// A choice and its place in the value's column, from the side where the form begins.

@@ -26,10 +26,7 @@ FrameStore::FrameStore(const GlContext& context, const FrameSource& source, cons
 
 FrameStore::~FrameStore() = default;
 
-std::size_t FrameStore::page_bytes() const {
-    return static_cast<std::size_t>(patch_.size_px.x) * static_cast<std::size_t>(patch_.size_px.y) *
-           bytes_per_pixel(encoder_->format());
-}
+std::size_t FrameStore::page_bytes() const { return bytes_in(patch_.size_px, encoder_->format()); }
 
 int FrameStore::pages_of(const Condition& condition) const {
     const std::vector<int> page_of_frame = source_->page_of_frame(condition);

@@ -16,19 +16,20 @@ namespace {
 /// Long enough for a recorder that samples at 1 kHz.
 constexpr double onset_pulse_ms = 5.0;
 
-/// Copies a rectangle that begins at `from_px` to `to_px`, pixel by pixel.
-void blit(const GladGLContext& gl, const Framebuffer& from, glm::ivec2 from_px, const Framebuffer& to,
-          glm::ivec2 to_px, glm::ivec2 size_px) noexcept {
+/// Copies the first rows and columns, so many, to `to_px`, pixel by pixel.
+void blit(const GladGLContext& gl, const Framebuffer& from, const Framebuffer& to, glm::ivec2 to_px,
+          glm::ivec2 size_px) noexcept {
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, from.name());
     gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, to.name());
-    gl.BlitFramebuffer(from_px.x, from_px.y, from_px.x + size_px.x, from_px.y + size_px.y, to_px.x, to_px.y,
-                       to_px.x + size_px.x, to_px.y + size_px.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    gl.BlitFramebuffer(0, 0, size_px.x, size_px.y, to_px.x, to_px.y, to_px.x + size_px.x, to_px.y + size_px.y,
+                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-std::size_t bytes_in(glm::ivec2 size_px, PixelFormat format) {
-    return static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y) *
-           bytes_per_pixel(format);
+DisplaySettings of_size(DisplaySettings display, glm::ivec2 screen_px) {
+    display.width_px = screen_px.x;
+    display.height_px = screen_px.y;
+    return display;
 }
 
 bool has_colour_table(OutputMode mode) { return row_of(mode).shows == ShownLight::greys_by_table; }
@@ -37,17 +38,11 @@ bool has_colour_table(OutputMode mode) { return row_of(mode).shows == ShownLight
 
 PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, const FrameSource& frames,
                              const ScreenGeometry& geometry, const DisplaySettings& display,
-                             const ScreenSettings& screens)
-    : context_(&context), surface_(&surface), geometry_(geometry), display_(display), screens_(screens),
-      encoder_([&] {
-          DisplaySettings here = display;
-          here.width_px = geometry.screen_px.x;
-          here.height_px = geometry.screen_px.y;
-          return here;
-      }()),
+                             ScreenSettings screens)
+    : context_(&context), surface_(&surface), geometry_(geometry),
+      display_(of_size(display, geometry.screen_px)), screens_(std::move(screens)), encoder_(display_),
       background_(context, geometry.screen_px, encoder_.format()),
-      background_target_(context, {&background_}, false),
-      picture_(context, geometry.screen_px, encoder_.format()), picture_target_(context, {&picture_}, false),
+      picture_(context, geometry.screen_px, encoder_.format()),
       store_(context, frames, encoder_, geometry.image_origin_px, geometry.image_px,
              static_cast<std::size_t>(display.frame_store_mb * 1e6)),
       page_target_(context) {
@@ -62,12 +57,11 @@ PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, 
         for (std::size_t i = 0; i < 4 * static_cast<std::size_t>(geometry.screen_px.x); ++i)
             bytes[i] = black[i % 4];
     }
-    background_.upload(bytes);
+    background_.texture().upload(bytes);
     put_tags();
     if (encoder_.leaves_last_step()) {
         last_step_.emplace(context, display_);
         signal_.emplace(context, geometry.screen_px, last_step_->format());
-        signal_target_.emplace(context, std::initializer_list<const Texture2D*>{&*signal_}, false);
     }
     if (has_colour_table(display.output))
         colour_table_row_ = t_lock::row_of(encoder_.colour_table());
@@ -118,7 +112,7 @@ void PagePresenter::load_frames(const Condition& condition) {
 }
 
 void PagePresenter::clear_picture() noexcept {
-    blit(context_->gl(), background_target_, {0, 0}, picture_target_, {0, 0}, geometry_.screen_px);
+    blit(context_->gl(), background_, picture_, {0, 0}, geometry_.screen_px);
     page_on_canvas_ = -1;
 }
 
@@ -129,44 +123,27 @@ void PagePresenter::put_page(int page) noexcept {
     if (page_on_canvas_ < 0)
         clear_picture();
     page_target_.attach_layer(*loaded_->textures, page);
-    blit(context_->gl(), page_target_, {0, 0}, picture_target_, store_.patch().origin_px,
-         store_.patch().size_px);
+    blit(context_->gl(), page_target_, picture_, store_.patch().origin_px, store_.patch().size_px);
     page_on_canvas_ = page;
 }
 
 void PagePresenter::make_patch() {
-    const std::optional<PatchPlace> place = photodiode_patch_of([this] {
-        DisplaySettings here = display_;
-        here.width_px = geometry_.screen_px.x;
-        here.height_px = geometry_.screen_px.y;
-        return here;
-    }());
+    const std::optional<PatchPlace> place = photodiode_patch_of(display_);
     if (!place)
         return;
     const auto square = [&](float light) {
         LinearImage picture(place->size_px);
         std::ranges::fill(picture.pixels, glm::vec4(light, light, light, 1.0f));
-        const ScreenPatch around = encoder_.patch_of(place->origin_px, place->size_px);
-        std::vector<std::byte> bytes(bytes_in(around.size_px, encoder_.format()));
-        encoder_.encode(picture, place->origin_px, bytes);
-        Texture2D encoded(*context_, around.size_px, encoder_.format());
-        encoded.upload(bytes);
-        return encoded;
+        return encoded(picture, place->origin_px);
     };
     const ScreenPatch around = encoder_.patch_of(place->origin_px, place->size_px);
-    Texture2D black = square(0.0f), white = square(1.0f);
-    Framebuffer black_source(*context_, {&black}, false), white_source(*context_, {&white}, false);
-    patch_.emplace(Patch{{around.origin_px, around.size_px},
-                         std::move(black),
-                         std::move(white),
-                         std::move(black_source),
-                         std::move(white_source)});
+    patch_.emplace(Patch{{around.origin_px, around.size_px}, square(0.0f), square(1.0f)});
 }
 
 void PagePresenter::put_patch(bool white) noexcept {
     if (patch_)
-        blit(context_->gl(), white ? patch_->white_source : patch_->black_source, {0, 0}, picture_target_,
-             patch_->place.origin_px, patch_->place.size_px);
+        blit(context_->gl(), white ? patch_->white : patch_->black, picture_, patch_->place.origin_px,
+             patch_->place.size_px);
 }
 
 /// They stand on the background, and so on every screen and beside every frame.
@@ -179,32 +156,30 @@ void PagePresenter::put_tags() {
                 const float light = is_white_module(tag.id, x / module_px, y / module_px)
                                         ? static_cast<float>(display_.tags_light)
                                         : 0.0f;
-                picture.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(tag.size_px.x) +
-                               static_cast<std::size_t>(x)] = glm::vec4(light, light, light, 1.0f);
+                picture.at(x, y) = glm::vec4(light, light, light, 1.0f);
             }
         }
-        put_on(background_target_, picture, tag.origin_px);
+        put_on(background_, picture, tag.origin_px);
     }
 }
 
-void PagePresenter::put_picture(const LinearImage& picture, glm::ivec2 origin) {
-    put_on(picture_target_, picture, origin);
+Framebuffer PagePresenter::encoded(const LinearImage& picture, glm::ivec2 origin) const {
+    Framebuffer made(*context_, encoder_.patch_of(origin, picture.size_px).size_px, encoder_.format());
+    std::vector<std::byte> bytes(bytes_in(made.size_px(), encoder_.format()));
+    encoder_.encode(picture, origin, bytes);
+    made.texture().upload(bytes);
+    return made;
 }
 
 void PagePresenter::put_on(const Framebuffer& target, const LinearImage& picture, glm::ivec2 origin) {
     const ScreenPatch patch = encoder_.patch_of(origin, picture.size_px);
-    std::vector<std::byte> bytes(bytes_in(patch.size_px, encoder_.format()));
-    encoder_.encode(picture, origin, bytes);
-    Texture2D encoded(*context_, patch.size_px, encoder_.format());
-    encoded.upload(bytes);
-    const Framebuffer source(*context_, {&encoded}, false);
-    blit(context_->gl(), source, {0, 0}, target, patch.origin_px, patch.size_px);
+    blit(context_->gl(), encoded(picture, origin), target, patch.origin_px, patch.size_px);
 }
 
 FlipReport PagePresenter::show(const Screen& screen) {
     clear_picture();
-    const float background = static_cast<float>(display_.background),
-                grey = static_cast<float>(screens_.text_grey);
+    const auto background = static_cast<float>(display_.background),
+               grey = static_cast<float>(screens_.text_grey);
     PlacedPicture placed;
     if (screen.kind != Screen::Kind::blank && screen.kind != Screen::Kind::target) {
         placed = draw_screen(screen, geometry_, screens_, display_.background);
@@ -215,7 +190,7 @@ FlipReport PagePresenter::show(const Screen& screen) {
         // It stands on the background already.
         for (glm::vec4& pixel : placed.picture.pixels)
             pixel.w = 1.0f;
-        put_picture(placed.picture, placed.origin_px);
+        put_on(picture_, placed.picture, placed.origin_px);
     }
     put_patch(false);
     throw_on_gl_error(*context_, "drawing a screen");
@@ -224,7 +199,7 @@ FlipReport PagePresenter::show(const Screen& screen) {
 
 void PagePresenter::show_level(const LevelBar& bar) {
     LinearImage picture = draw_level_bar(bar, geometry_, screens_, display_.background);
-    put_picture(picture, level_bar_origin(geometry_, picture.size_px));
+    put_on(picture_, picture, level_bar_origin(geometry_, picture.size_px));
     put_patch(false);
     throw_on_gl_error(*context_, "drawing a level meter");
     present();
@@ -253,23 +228,21 @@ FlipReport PagePresenter::present() noexcept {
     compose();
     put_messages();
     ++refreshes_;
-    return surface_->present(veil_target_ ? *veil_target_ : canvas());
+    return surface_->present(veil_ ? *veil_ : canvas());
 }
 
 void PagePresenter::veil(bool is_on) {
-    veil_target_.reset();
     veil_.reset();
     if (!is_on)
         return;
     const PixelFormat format = last_step_ ? last_step_->format() : encoder_.format();
     veil_.emplace(*context_, geometry_.screen_px, format);
-    veil_->upload(std::vector<std::byte>(bytes_in(geometry_.screen_px, format)));
-    veil_target_.emplace(*context_, std::initializer_list<const Texture2D*>{&*veil_}, false);
+    veil_->texture().upload(std::vector<std::byte>(bytes_in(geometry_.screen_px, format)));
 }
 
 void PagePresenter::compose() noexcept {
     if (last_step_)
-        last_step_->draw(picture_, *signal_target_, refreshes_);
+        last_step_->draw(picture_.texture(), *signal_, refreshes_);
 }
 
 void PagePresenter::send_with_next_flip(int row, const t_lock::Packet& packet) noexcept {
@@ -285,7 +258,7 @@ void PagePresenter::send_with_next_flip(int row, const t_lock::Packet& packet) n
 
 void PagePresenter::put_row(int row, int first_px, std::span<const SignalPixel> pixels) noexcept {
     const GladGLContext& gl = context_->gl();
-    gl.BindTexture(GL_TEXTURE_2D, final_texture().name());
+    gl.BindTexture(GL_TEXTURE_2D, canvas().texture().name());
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     gl.TexSubImage2D(GL_TEXTURE_2D, 0, first_px, row, static_cast<GLsizei>(pixels.size()), 1, GL_RGBA,
                      GL_UNSIGNED_BYTE, pixels.data());
@@ -294,8 +267,7 @@ void PagePresenter::put_row(int row, int first_px, std::span<const SignalPixel> 
 void PagePresenter::put_messages() noexcept {
     const int rows = reserved_rows(display_.output);
     if (rows_are_dirty_) {
-        blit(context_->gl(), background_target_, {0, 0}, picture_target_, {0, 0},
-             {geometry_.screen_px.x, rows});
+        blit(context_->gl(), background_, picture_, {0, 0}, {geometry_.screen_px.x, rows});
         rows_are_dirty_ = false;
     }
     if (has_colour_table(display_.output))

@@ -26,8 +26,7 @@ class PagePresenter final : public Presenter {
     /// All references must outlive the presenter. Throws GraphicsError, also if the display's framebuffer has
     /// other bits per channel than the output mode sends.
     PagePresenter(const GlContext& context, DisplaySurface& surface, const FrameSource& frames,
-                  const ScreenGeometry& geometry, const DisplaySettings& display,
-                  const ScreenSettings& screens);
+                  const ScreenGeometry& geometry, const DisplaySettings& display, ScreenSettings screens);
 
     DisplayTiming timing() const override { return surface_->timing(); }
     void load_frames(const Condition& condition) override;
@@ -66,13 +65,13 @@ class PagePresenter final : public Presenter {
 
   private:
     bool is_interrupted() const noexcept { return interrupted_ && interrupted_->load(); }
-    const Texture2D& final_texture() const { return signal_ ? *signal_ : picture_; }
-    const Framebuffer& canvas() const { return signal_ ? *signal_target_ : picture_target_; }
+    const Framebuffer& canvas() const { return signal_ ? *signal_ : picture_; }
     void check_depth() const;
     void clear_picture() noexcept;
     void put_page(int page) noexcept;
     void put_tags();
-    void put_picture(const LinearImage& picture, glm::ivec2 origin);
+    /// A picture at a place of the screen, and what its encoding changes around it.
+    Framebuffer encoded(const LinearImage& picture, glm::ivec2 origin) const;
     void put_on(const Framebuffer& target, const LinearImage& picture, glm::ivec2 origin);
     void make_patch();
     void put_patch(bool white) noexcept;
@@ -87,17 +86,13 @@ class PagePresenter final : public Presenter {
     DisplaySettings display_;
     ScreenSettings screens_;
     DisplayEncoder encoder_;
-    Texture2D background_;
-    Framebuffer background_target_;
+    Framebuffer background_;
     // What is shown, as the encoder writes it; where the encoder leaves the last step, what becomes of it.
-    Texture2D picture_;
-    Framebuffer picture_target_;
+    Framebuffer picture_;
     std::optional<SignalPass> last_step_;
-    std::optional<Texture2D> signal_;
-    std::optional<Framebuffer> signal_target_;
+    std::optional<Framebuffer> signal_;
     // In the place of the canvas while that is veiled: black, also as a signal.
-    std::optional<Texture2D> veil_;
-    std::optional<Framebuffer> veil_target_;
+    std::optional<Framebuffer> veil_;
     FrameStore store_;
     Framebuffer page_target_;
     const StoredStimulus* loaded_ = nullptr; ///< null: nothing
@@ -115,8 +110,7 @@ class PagePresenter final : public Presenter {
     // The square for a photodiode.
     struct Patch {
         PatchPlace place;
-        Texture2D black, white;
-        Framebuffer black_source, white_source;
+        Framebuffer black, white;
     };
     std::optional<Patch> patch_;
     bool patch_is_white_ = false;

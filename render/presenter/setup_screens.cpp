@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "render/image/stored_values.h"
 #include "render/image/text_layout.h"
 
 namespace overt {
@@ -28,8 +29,7 @@ void put_cross(InkCanvas& canvas, glm::dvec2 at, double arm, bool oblique, doubl
 }
 
 float linear_of(std::byte value) {
-    const float coded = static_cast<float>(std::to_integer<int>(value)) / 255.0f;
-    return coded <= 0.04045f ? coded / 12.92f : std::pow((coded + 0.055f) / 1.055f, 2.4f);
+    return linear_from_srgb(static_cast<float>(std::to_integer<int>(value)) / 255.0f);
 }
 
 } // namespace

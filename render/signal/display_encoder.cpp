@@ -68,10 +68,6 @@ const std::array<double, 12>& lanczos_weights() {
     return all;
 }
 
-std::size_t pixels_in(glm::ivec2 size_px) {
-    return static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y);
-}
-
 } // namespace
 
 DisplayEncoder::DisplayEncoder(const DisplaySettings& display)
@@ -116,7 +112,7 @@ void DisplayEncoder::encode_row(const Row& row, int width, std::byte* into) cons
 void DisplayEncoder::encode(const LinearImage& picture, glm::ivec2 origin_px,
                             std::span<std::byte> into) const {
     const ScreenPatch patch = patch_of(origin_px, picture.size_px);
-    OVERT_EXPECTS(into.size() == pixels_in(patch.size_px) * bytes_per_pixel(format()));
+    OVERT_EXPECTS(into.size() == bytes_in(patch.size_px, format()));
     if (reach_px_ == 0 && !leaves_last_step_ && patch.origin_px == origin_px &&
         patch.size_px == picture.size_px) {
         // Rows follow one another in the picture as in what is made of it.
@@ -127,7 +123,7 @@ void DisplayEncoder::encode(const LinearImage& picture, glm::ivec2 origin_px,
     const glm::dvec3 background(display_.background);
     Row row(static_cast<std::size_t>(patch.size_px.x + 2 * reach_px_), background);
     glm::dvec3* first = row.data() + reach_px_ + (origin_px.x - patch.origin_px.x);
-    const std::size_t stride = static_cast<std::size_t>(patch.size_px.x) * bytes_per_pixel(format());
+    const std::size_t stride = bytes_in({patch.size_px.x, 1}, format());
     for (int y = 0; y < picture.size_px.y; ++y) {
         for (int x = 0; x < picture.size_px.x; ++x) {
             const glm::vec4& pixel = picture.at(x, y);
@@ -138,9 +134,9 @@ void DisplayEncoder::encode(const LinearImage& picture, glm::ivec2 origin_px,
 }
 
 void DisplayEncoder::encode_background(glm::ivec2 size_px, std::span<std::byte> into) const {
-    OVERT_EXPECTS(into.size() == pixels_in(size_px) * bytes_per_pixel(format()));
+    OVERT_EXPECTS(into.size() == bytes_in(size_px, format()));
     const Row row(static_cast<std::size_t>(size_px.x + 2 * reach_px_), glm::dvec3(display_.background));
-    const std::size_t stride = static_cast<std::size_t>(size_px.x) * bytes_per_pixel(format());
+    const std::size_t stride = bytes_in({size_px.x, 1}, format());
     for (int y = 0; y < size_px.y; ++y)
         encode_row(row, size_px.x, into.data() + static_cast<std::size_t>(y) * stride);
 }

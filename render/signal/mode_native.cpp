@@ -9,9 +9,9 @@ namespace {
 
 void encode(const RowLevels& row, int width, std::byte* into) {
     row.for_colours(width, [&](int begin, int count, const ColourRun& run) {
-        const auto& [red, green, blue] = run.levels;
+        const auto& levels = run.levels;
         put_pixels(into + 4 * begin, count,
-                   [&](std::size_t i) { return opaque_pixel(red[i], green[i], blue[i]); });
+                   [&](std::size_t i) { return opaque_pixel(levels[0][i], levels[1][i], levels[2][i]); });
     });
 }
 

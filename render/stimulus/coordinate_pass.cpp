@@ -8,7 +8,7 @@ namespace overt {
 CoordinatePass::CoordinatePass(const GlContext& context, glm::ivec2 image_px)
     : context_(&context),
       program_(context, "coordinate map", embedded::coordinate_vert, embedded::coordinate_frag),
-      triangle_codes_(context, image_px, PixelFormat::r32ui), target_(context, {&triangle_codes_}, true) {}
+      target_(context, image_px, PixelFormat::r32ui, true) {}
 
 void CoordinatePass::render(const MeshBuffers& mesh, const glm::mat4& clip_from_object) noexcept {
     const GladGLContext& gl = context_->gl();
@@ -30,8 +30,7 @@ std::vector<std::uint32_t> CoordinatePass::draw(const MeshBuffers& mesh, const S
     render(mesh, clip_from_centred_object(scene, angle));
     std::vector<std::uint32_t> codes(static_cast<std::size_t>(target_.size_px().x) *
                                      static_cast<std::size_t>(target_.size_px().y));
-    read_pixels(*context_, 0, {0, 0}, target_.size_px(), PixelFormat::r32ui,
-                std::as_writable_bytes(std::span(codes)));
+    target_.read(PixelFormat::r32ui, std::as_writable_bytes(std::span(codes)));
     return codes;
 }
 

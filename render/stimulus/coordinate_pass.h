@@ -27,7 +27,6 @@ class CoordinatePass {
   private:
     const GlContext* context_;
     ShaderProgram program_;
-    Texture2D triangle_codes_;
     Framebuffer target_;
 };
 

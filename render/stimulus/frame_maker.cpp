@@ -98,9 +98,21 @@ void FrameMaker::draw_live_frame(const Condition& condition, PoseIndex pose, con
 SpectralFrame FrameMaker::trace(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
                                 const BakeProgress& progress) {
     maps_->draw_missing_map(condition.sculpture, pose);
-    return tracer_.trace(
-        condition, cache_->angle_of(pose), read_triangle_map(cache_->map_file(condition.sculpture, pose)),
-        bake_settings(quality, cache_->protocol().bake, cache_->material_of(condition).kind), progress);
+    const TriangleMap map = read_triangle_map(cache_->map_file(condition.sculpture, pose));
+    const Sculpture& sculpture = cache_->sculpture_of(condition);
+    const MaterialSettings& material = cache_->material_of(condition);
+    if (!light_)
+        light_.emplace(cache_->protocol().light);
+    if (!scene_ || scene_of_ != condition) {
+        scene_.reset(); // the memory of one at a time
+        scene_.emplace(sculpture.mesh, material);
+        scene_of_ = condition;
+    }
+    std::vector<std::uint8_t> covered(map.codes.size());
+    for (std::size_t i = 0; i < covered.size(); ++i)
+        covered[i] = map.codes[i] != 0;
+    return bake_frame(*scene_, *light_, sculpture.scene, cache_->angle_of(pose), covered,
+                      bake_settings(quality, cache_->protocol().bake, material.kind), progress);
 }
 
 } // namespace overt

@@ -4,7 +4,7 @@
 #include <future>
 #include <optional>
 
-#include "render/stimulus/frame_tracer.h"
+#include "render/bake/frame_baker.h"
 #include "render/stimulus/map_maker.h"
 #include "render/stimulus/stimulus_renderer.h"
 
@@ -14,15 +14,16 @@ class FrameMaker {
   public:
     /// All must outlive the maker, which is used on the context's thread.
     FrameMaker(const GlContext& context, const StimulusCache& cache, MapMaker& maps)
-        : context_(&context), cache_(&cache), maps_(&maps), tracer_(cache.protocol(), cache.sculptures()) {}
+        : context_(&context), cache_(&cache), maps_(&maps) {}
 
     /// Makes the frames of these stimuli that the cache lacks, of all poses or of one, and puts them there.
     /// Throws InputError, GraphicsError, RecordError.
     void make_frames(std::span<const Condition> conditions, const FrameQuality& quality,
                      const Progress& progress, std::optional<PoseIndex> only = {});
 
-    /// Traces one frame, drawing its map before if the cache lacks it; the cache does not get it. Not
-    /// complete if `progress` stopped it.
+    /// Traces one frame on all processors (see bake_frame()), drawing its map before if the cache lacks it;
+    /// the cache does not get it. Not complete if `progress` stopped it. What a stimulus needs is built when
+    /// it comes up and kept until another does. Throws InputError, GraphicsError.
     SpectralFrame trace(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
                         const BakeProgress& progress);
 
@@ -35,7 +36,10 @@ class FrameMaker {
     const GlContext* context_;
     const StimulusCache* cache_;
     MapMaker* maps_;
-    FrameTracer tracer_;
+    // What is traced, and its light.
+    std::optional<SpectralLight> light_;
+    std::optional<BakeScene> scene_;
+    Condition scene_of_;
     std::optional<StimulusRenderer> renderer_;
     int live_material_ = -1; ///< that the renderer is prepared for
 };

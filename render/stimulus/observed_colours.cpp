@@ -43,7 +43,7 @@ LinearImage seen_by(StandardObserver observer, const SpectralFrame& frame) {
     LinearImage picture(frame.size_px);
     const MatchingBins& bins = cie2006_bins();
     parallel_for(frame.size_px.y, [&](int row) {
-        const std::size_t width = static_cast<std::size_t>(frame.size_px.x);
+        const auto width = static_cast<std::size_t>(frame.size_px.x);
         for (std::size_t i = static_cast<std::size_t>(row) * width;
              i < (static_cast<std::size_t>(row) + 1) * width; ++i) {
             glm::dvec3 xyz(0.0);

@@ -23,10 +23,9 @@ StimulusRenderer::StimulusRenderer(const GlContext& context, const LightSettings
     : context_(&context), light_(light), probe_(load_light_probe(light)), image_px_(image_px),
       program_(context, "stimulus", embedded::stimulus_vert, embedded::stimulus_frag),
       sharp_(texture_of(context, probe_)), soft_(texture_of(context, irradiance_over_pi(probe_, {64, 32}))),
-      samples_(context, image_px * samples_per_side, PixelFormat::rgba32f),
-      target_(context, {&samples_}, true),
+      samples_(context, image_px * samples_per_side, PixelFormat::rgba32f, true),
       resolve_(context, "resolve", embedded::encode_vert, embedded::resolve_frag), no_attributes_(context),
-      image_(context, image_px, PixelFormat::rgba32f), image_target_(context, {&image_}, false) {}
+      image_(context, image_px, PixelFormat::rgba32f) {}
 
 void StimulusRenderer::set_material(const MaterialSettings& material) {
     material_ = material;
@@ -42,7 +41,7 @@ void StimulusRenderer::set_material(const MaterialSettings& material) {
 LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& scene, Degrees angle) {
     OVERT_EXPECTS(mirrored_.has_value() && scene.view.image_px == image_px_);
     const GladGLContext& gl = context_->gl();
-    target_.bind();
+    samples_.bind();
     draw_nearest_only(gl);
     const GLfloat nothing[4] = {0, 0, 0, 0}, far = 1.0f;
     gl.ClearBufferfv(GL_COLOR, 0, nothing);
@@ -84,17 +83,16 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     mesh.draw();
     gl.Disable(GL_CULL_FACE);
 
-    image_target_.bind();
+    image_.bind();
     gl.Disable(GL_DEPTH_TEST);
     resolve_.use();
     resolve_.set("samples", 0);
     resolve_.set("per_side", samples_per_side);
-    samples_.bind(0);
+    samples_.texture().bind(0);
     no_attributes_.bind();
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     LinearImage image(image_px_);
-    read_pixels(*context_, 0, {0, 0}, image_px_, PixelFormat::rgba32f,
-                std::as_writable_bytes(std::span(image.pixels)));
+    image_.read(PixelFormat::rgba32f, std::as_writable_bytes(std::span(image.pixels)));
     return image;
 }
 

@@ -45,12 +45,10 @@ class StimulusRenderer {
     MaterialSettings material_;
     const LiveApproximation* live_ = nullptr; ///< of the material
     glm::dvec3 reflectance_{0.0};             ///< of a metal at normal incidence, or albedo
-    Texture2D samples_;
-    Framebuffer target_;
+    Framebuffer samples_;
     ShaderProgram resolve_;
     VertexArray no_attributes_;
-    Texture2D image_;
-    Framebuffer image_target_;
+    Framebuffer image_;
 };
 
 } // namespace overt

@@ -55,10 +55,16 @@ LinearImage gaze_panel(const TrialPictureContent& content) {
         const glm::vec3 clay = glm::vec3(0.02f + 0.33f * facing * facing);
         if (highest <= 0.0)
             return clay;
-        const float heat = static_cast<float>(density.at(surface.position) / highest);
+        const auto heat = static_cast<float>(density.at(surface.position) / highest);
         // Transparent where no gaze fell; the shape stays readable below.
         return glm::mix(clay, heat_colour(heat) * (0.45f + 0.55f * facing), std::min(1.0f, 6.0f * heat));
     });
+}
+
+LinearImage opaque(LinearImage picture) {
+    for (glm::vec4& pixel : picture.pixels)
+        pixel.w = 1.0f;
+    return picture;
 }
 
 void paste(LinearImage& onto, const LinearImage& picture, glm::ivec2 origin) {
@@ -83,9 +89,7 @@ TextStyle caption_style(int width) {
 }
 
 void write_caption(LinearImage& onto, const std::string& text, int left, int top, int width) {
-    LinearImage caption = draw_text(text, caption_style(width));
-    for (glm::vec4& pixel : caption.pixels)
-        pixel.w = 1.0f;
+    const LinearImage caption = opaque(draw_text(text, caption_style(width)));
     paste(onto, caption, {left + (width - caption.size_px.x) / 2, top});
 }
 
@@ -124,16 +128,11 @@ LinearImage draw_trial_picture(const TrialPictureContent& content) {
     const int captions_top = margin_px + panel.y + margin_px / 2 + scale_px + margin_px / 2;
     LinearImage picture({3 * panel.x + 4 * margin_px, captions_top + caption_height + margin_px});
     std::fill(picture.pixels.begin(), picture.pixels.end(), glm::vec4(glm::vec3(paper), 1.0f));
-    LinearImage frame = content.frame;
-    for (glm::vec4& pixel : frame.pixels)
-        pixel.w = 1.0f; // on black, as on the display
-    const std::array<LinearImage, 3> panels{frame, map_panel(content), gaze_panel(content)};
-    LinearImage black(panel);
-    for (glm::vec4& pixel : black.pixels)
-        pixel.w = 1.0f;
+    // On black, as on the display.
+    const std::array<LinearImage, 3> panels{opaque(content.frame), opaque(map_panel(content)),
+                                            opaque(gaze_panel(content))};
     for (int i = 0; i < 3; ++i) {
         const int left = margin_px + i * (panel.x + margin_px);
-        paste(picture, black, {left, margin_px});
         paste(picture, panels[static_cast<std::size_t>(i)], {left, margin_px});
         write_caption(picture, *captions[static_cast<std::size_t>(i)], left, captions_top, panel.x);
     }

@@ -35,8 +35,7 @@ FlipReport VirtualDisplay::present(const Framebuffer&) noexcept {
 }
 
 void VirtualDisplay::read(const Framebuffer& canvas, PixelFormat format, std::span<std::byte> into) {
-    canvas.bind();
-    read_pixels(*context_, 0, {0, 0}, canvas.size_px(), format, into);
+    canvas.read(format, into);
 }
 
 WindowDisplay::WindowDisplay(WindowContext& window, Clock& clock, double refresh_hz, bool virtual_time,
@@ -86,8 +85,8 @@ void WindowDisplay::read(const Framebuffer& canvas, PixelFormat format, std::spa
     const GladGLContext& gl = window_->gl();
     const glm::ivec2 size = canvas.size_px();
     const auto [components, type] = transfer_format(format);
-    const std::size_t stride = bytes_per_pixel(format) * static_cast<std::size_t>(size.x);
-    OVERT_EXPECTS(into.size() == stride * static_cast<std::size_t>(size.y));
+    const std::size_t stride = bytes_in({size.x, 1}, format);
+    OVERT_EXPECTS(into.size() == bytes_in(size, format));
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
     gl.ReadBuffer(GL_BACK);
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);

@@ -2,13 +2,10 @@
 #pragma once
 
 #include "render/vblank/refresh_measurement.h"
+#include "render/window/monitor_choice.h"
 #include "render/window/screen_check.h"
 
 namespace overt {
-
-/// How far the measured rate may be from the protocol's: 120 Hz and 119.88 Hz are the same to it, 60 and
-/// 59.94, but not 100 and 99.
-inline constexpr double largest_rate_deviation = 0.005;
 
 /// Weighs the facts for a session that has to run at `nominal_hz`. `nominal_from` says whose rate that is:
 /// "the protocol". One finding for each thing looked at.

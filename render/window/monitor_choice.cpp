@@ -12,10 +12,8 @@
 namespace overt {
 namespace {
 
-/// Shares of the rate. The first tells 59.94 from 60 Hz; the second is that within which a session runs.
-constexpr double same_rate = 5e-4, near_rate = 5e-3;
-/// Where 59.94 Hz is named as 59 or 60.
-constexpr double whole_rate_tolerance_hz = 1.0;
+/// Of the rate: tells 59.94 from 60 Hz.
+constexpr double same_rate = 5e-4;
 
 std::string lines_of(std::span<const MonitorInfo> monitors) {
     std::string lines;
@@ -26,11 +24,6 @@ std::string lines_of(std::span<const MonitorInfo> monitors) {
 
 bool has_size(const MonitorInfo& monitor, const MonitorWish& wish) {
     return !wish.size_px || monitor.size_px == *wish.size_px;
-}
-
-bool has_rate(const MonitorInfo& monitor, double refresh_hz, double tolerance) {
-    return std::abs(monitor.refresh_hz - refresh_hz) <=
-           (monitor.rate_is_exact ? tolerance * refresh_hz : whole_rate_tolerance_hz);
 }
 
 bool is_called(const MonitorInfo& monitor, const std::string& which) {
@@ -59,6 +52,12 @@ const MonitorInfo& named(std::span<const MonitorInfo> monitors, const MonitorWis
 
 } // namespace
 
+bool has_rate(const MonitorInfo& monitor, double refresh_hz, double tolerance) {
+    constexpr double whole_rate_tolerance_hz = 1.0;
+    return std::abs(monitor.refresh_hz - refresh_hz) <=
+           (monitor.rate_is_exact ? tolerance * refresh_hz : whole_rate_tolerance_hz);
+}
+
 const MonitorInfo& choose_monitor(std::span<const MonitorInfo> monitors, const MonitorWish& wish) {
     if (!wish.which.empty())
         return named(monitors, wish);
@@ -75,7 +74,7 @@ const MonitorInfo& choose_monitor(std::span<const MonitorInfo> monitors, const M
                         wish.size_px->x, wish.size_px->y, lines_of(monitors)));
     if (fitting.size() == 1)
         return *fitting.front();
-    for (const double tolerance : {same_rate, near_rate}) {
+    for (const double tolerance : {same_rate, largest_rate_deviation}) {
         const auto has_it = [&](const MonitorInfo* monitor) {
             return wish.refresh_hz && has_rate(*monitor, *wish.refresh_hz, tolerance);
         };

@@ -10,6 +10,14 @@
 
 namespace overt {
 
+/// Of a rate, within which a session runs: 120 Hz and 119.88 Hz are the same to it, 60 and 59.94, but not 100
+/// and 99.
+inline constexpr double largest_rate_deviation = 0.005;
+
+/// Whether the monitor's rate is this one within a share of it. Where the window system names whole rates
+/// only, within 1 Hz: 59.94 Hz may be 59 or 60.
+bool has_rate(const MonitorInfo& monitor, double refresh_hz, double tolerance = largest_rate_deviation);
+
 struct MonitorWish {
     /// This one, if it has the size: by its number in list_monitors(), from 1, or by the name of its output
     /// or of its EDID. Empty: by its size, then by its rate.

@@ -1,20 +1,15 @@
 #include "render/window/screen_check.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
 #include "experiment/protocol/protocol_keys.h"
+#include "render/window/monitor_choice.h"
 
 namespace overt {
 namespace {
 
 using Weight = ScreenFinding::Weight;
-
-/// GLFW rounds rates to whole hertz: 59.94 Hz may be 59 or 60.
-constexpr double whole_rate_tolerance_hz = 1.0;
-constexpr double rate_tolerance = 0.005; ///< as that of the rate that is measured before a session
 
 /// The value an entry of 16 bits stands for in a table of so many entries.
 std::size_t level_of(std::uint16_t entry, std::size_t entries) {
@@ -104,13 +99,10 @@ ScreenFinding scaling_finding(const ScreenFacts& facts) {
 }
 
 ScreenFinding rate_finding(const ScreenFacts& facts, const DisplaySettings& display) {
-    const double has = facts.monitor.refresh_hz;
-    if (has <= 0.0)
+    if (facts.monitor.refresh_hz <= 0.0)
         return {Weight::risk, "refresh rate",
                 fmt::format("the screen does not say its own; the protocol says {} Hz", display.refresh_hz)};
-    const double tolerance_hz =
-        facts.monitor.rate_is_exact ? rate_tolerance * display.refresh_hz : whole_rate_tolerance_hz;
-    if (std::abs(has - display.refresh_hz) <= tolerance_hz)
+    if (has_rate(facts.monitor, display.refresh_hz))
         return {Weight::good, "refresh rate", describe_rate(facts.monitor)};
     return {Weight::refusal, "refresh rate",
             fmt::format("the screen runs at {}, the protocol says {} Hz: frames would be lit for another "

@@ -87,8 +87,7 @@ std::vector<std::string> neighbours_of(xcb_connection_t* link, const NativeWindo
             xcb_randr_get_output_info(link, xcb_randr_get_crtc_info_outputs(lit.get())[0], XCB_CURRENT_TIME),
             nullptr));
         if (output)
-            names.emplace_back(reinterpret_cast<const char*>(xcb_randr_get_output_info_name(output.get())),
-                               output->name_len);
+            names.push_back(name_of(*output));
     }
     return names;
 }
@@ -100,12 +99,8 @@ ScreenOutput examine_output(const NativeWindow& window) {
     if (window.x11_server.empty() || window.randr_output == 0)
         return output;
     const XcbLink link = link_to(window.x11_server.c_str());
-    const xcb_query_extension_reply_t* const extension =
-        xcb_connection_has_error(link.get()) ? nullptr : xcb_get_extension_data(link.get(), &xcb_randr_id);
-    if (!extension || !extension->present)
+    if (!begin_randr(link.get()))
         return output;
-    // A server answers in the version that it has been told, and with none as if it had none.
-    owned(xcb_randr_query_version_reply(link.get(), xcb_randr_query_version(link.get(), 1, 3), nullptr));
     output.refresh_hz = rate_of_crtc(link.get(), window);
     output.neighbours = neighbours_of(link.get(), window);
     output.edid_name =

@@ -1,6 +1,8 @@
 #include "render/window/window_response_panel.h"
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 #include "experiment/ports/event_kinds.h"
 #include "experiment/ports/session_log.h"
@@ -9,7 +11,38 @@ namespace overt {
 
 namespace {
 using ResponseKey = ResponsePress::Key;
+using SetupKind = SetupKey::Kind;
+template <class Meaning> using KeyMeaning = std::pair<WindowKey, Meaning>;
+
+constexpr KeyMeaning<ResponseKey> when_reading[] = {
+    {WindowKey::space, ResponseKey::next},     {WindowKey::enter, ResponseKey::next},
+    {WindowKey::character, ResponseKey::next}, // response boxes type digits
+    {WindowKey::backspace, ResponseKey::back}, {WindowKey::left, ResponseKey::left},
+    {WindowKey::right, ResponseKey::right}};
+constexpr KeyMeaning<ResponseKey> when_filling_in[] = {{WindowKey::character, ResponseKey::character},
+                                                       {WindowKey::backspace, ResponseKey::erase},
+                                                       {WindowKey::left, ResponseKey::left},
+                                                       {WindowKey::right, ResponseKey::right},
+                                                       {WindowKey::up, ResponseKey::up},
+                                                       {WindowKey::back_tab, ResponseKey::up},
+                                                       {WindowKey::down, ResponseKey::down},
+                                                       {WindowKey::tab, ResponseKey::down},
+                                                       {WindowKey::enter, ResponseKey::next}};
+constexpr KeyMeaning<SetupKind> in_setup[] = {
+    {WindowKey::space, SetupKind::space},     {WindowKey::enter, SetupKind::enter},
+    {WindowKey::escape, SetupKind::escape},   {WindowKey::backspace, SetupKind::backspace},
+    {WindowKey::tab, SetupKind::tab},         {WindowKey::back_tab, SetupKind::tab},
+    {WindowKey::up, SetupKind::up},           {WindowKey::down, SetupKind::down},
+    {WindowKey::left, SetupKind::left},       {WindowKey::right, SetupKind::right},
+    {WindowKey::page_up, SetupKind::page_up}, {WindowKey::page_down, SetupKind::page_down}};
+
+template <class Meaning>
+std::optional<Meaning> meaning_in(std::span<const KeyMeaning<Meaning>> table, WindowKey key) noexcept {
+    const auto found = std::ranges::find(table, key, &KeyMeaning<Meaning>::first);
+    return found == table.end() ? std::nullopt : std::optional(found->second);
 }
+
+} // namespace
 
 bool NamedKey::is(const WindowKeyPress& press) const noexcept {
     if (press.is_repeated || press.key != key)
@@ -36,36 +69,12 @@ std::optional<SetupKey> setup_key_of(const WindowKeyPress& press) noexcept {
     if (press.key >= WindowKey::f1 && press.key <= WindowKey::f12)
         return SetupKey{Kind::function, static_cast<char32_t>(1 + static_cast<int>(press.key) -
                                                               static_cast<int>(WindowKey::f1))};
-    switch (press.key) {
-    case WindowKey::space:
-        return SetupKey{Kind::space};
-    case WindowKey::enter:
-        return SetupKey{Kind::enter};
-    case WindowKey::escape:
-        return SetupKey{Kind::escape};
-    case WindowKey::backspace:
-        return SetupKey{Kind::backspace};
-    case WindowKey::tab:
-    case WindowKey::back_tab:
-        return SetupKey{Kind::tab};
-    case WindowKey::up:
-        return SetupKey{Kind::up};
-    case WindowKey::down:
-        return SetupKey{Kind::down};
-    case WindowKey::left:
-        return SetupKey{Kind::left};
-    case WindowKey::right:
-        return SetupKey{Kind::right};
-    case WindowKey::page_up:
-        return SetupKey{Kind::page_up};
-    case WindowKey::page_down:
-        return SetupKey{Kind::page_down};
-    case WindowKey::character: // the space bar was a key already
+    // The space bar was a key already.
+    if (press.key == WindowKey::character)
         return press.character == U' ' ? std::nullopt
                                        : std::optional(SetupKey{Kind::character, press.character});
-    default:
-        return std::nullopt;
-    }
+    const std::optional<Kind> kind = meaning_in<Kind>(in_setup, press.key);
+    return kind ? std::optional(SetupKey{*kind}) : std::nullopt;
 }
 
 WindowResponsePanel::WindowResponsePanel(WindowContext& window, const Clock& clock,
@@ -93,31 +102,17 @@ std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPres
         for (const auto& [key, meaning] : operators_)
             if (key.is(press))
                 return ResponsePress{meaning, now, 0, uncertainty};
-    const auto meant = [&](ResponseKey key) {
-        return std::optional(ResponsePress{key, now, press.character, uncertainty});
+    const auto meant = [&](std::optional<ResponseKey> key) {
+        return key ? std::optional(ResponsePress{*key, now, press.character, uncertainty}) : std::nullopt;
     };
     // Where the observer has a box, what is the observer's to press is pressed there.
     if (!answers_ && (mode_ == Mode::reading || mode_ == Mode::consent))
         return std::nullopt;
     switch (mode_) {
-    case Mode::reading:
-        if (is_held)
-            return std::nullopt;
-        switch (press.key) {
-        case WindowKey::space:
-        case WindowKey::enter:
-            return meant(ResponseKey::next);
-        case WindowKey::character: // response boxes type digits; the space bar was a key already
-            return press.character == U' ' ? std::nullopt : meant(ResponseKey::next);
-        case WindowKey::backspace:
-            return meant(ResponseKey::back);
-        case WindowKey::left:
-            return meant(ResponseKey::left);
-        case WindowKey::right:
-            return meant(ResponseKey::right);
-        default:
-            return std::nullopt;
-        }
+    case Mode::reading: // the space bar was a key already
+        return is_held || (is_character && press.character == U' ')
+                   ? std::nullopt
+                   : meant(meaning_in<ResponseKey>(when_reading, press.key));
     case Mode::consent:
     case Mode::confirmation: {
         const bool is_consent = mode_ == Mode::consent;
@@ -130,26 +125,9 @@ std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPres
     case Mode::setup: // keys are asked for by next_setup_key()
         return std::nullopt;
     case Mode::entry:
-        switch (press.key) {
-        case WindowKey::character:
-            return meant(ResponseKey::character);
-        case WindowKey::backspace:
-            return meant(ResponseKey::erase);
-        case WindowKey::left:
-            return meant(ResponseKey::left);
-        case WindowKey::right:
-            return meant(ResponseKey::right);
-        case WindowKey::up:
-        case WindowKey::back_tab:
-            return meant(ResponseKey::up);
-        case WindowKey::down:
-        case WindowKey::tab:
-            return meant(ResponseKey::down);
-        case WindowKey::enter:
-            return is_held ? std::nullopt : meant(ResponseKey::next);
-        default:
-            return std::nullopt;
-        }
+        return is_held && press.key == WindowKey::enter
+                   ? std::nullopt
+                   : meant(meaning_in<ResponseKey>(when_filling_in, press.key));
     }
     return std::nullopt;
 }

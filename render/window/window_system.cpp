@@ -38,10 +38,8 @@ std::string name_of_window(xcb_connection_t* link, xcb_window_t window) {
 bool is_xwayland_server(xcb_connection_t* link, xcb_window_t root) {
     if (has_extension(link, "XWAYLAND"))
         return true;
-    if (!has_extension(link, "RANDR"))
+    if (!begin_randr(link))
         return false;
-    // A server answers in the version that it has been told, and with none as if it had none.
-    owned(xcb_randr_query_version_reply(link, xcb_randr_query_version(link, 1, 3), nullptr));
     const auto resources = owned(xcb_randr_get_screen_resources_current_reply(
         link, xcb_randr_get_screen_resources_current(link, root), nullptr));
     const xcb_atom_t emulation = atom_called(link, "RANDR Emulation");
@@ -50,10 +48,7 @@ bool is_xwayland_server(xcb_connection_t* link, xcb_window_t root) {
         const std::uint32_t number = xcb_randr_get_screen_resources_current_outputs(resources.get())[i];
         const auto output = owned(xcb_randr_get_output_info_reply(
             link, xcb_randr_get_output_info(link, number, XCB_CURRENT_TIME), nullptr));
-        if (output &&
-            std::string_view(reinterpret_cast<const char*>(xcb_randr_get_output_info_name(output.get())),
-                             output->name_len)
-                .starts_with("XWAYLAND"))
+        if (output && name_of(*output).starts_with("XWAYLAND"))
             return true;
         const auto value = owned(xcb_randr_get_output_property_reply(
             link, xcb_randr_get_output_property(link, number, emulation, XCB_ATOM_ANY, 0, 1, 0, 0), nullptr));
@@ -120,8 +115,7 @@ WindowSystem examine_window_system() {
     if (variable("DISPLAY").empty())
         return system;
     int screen = 0;
-    const std::unique_ptr<xcb_connection_t, decltype(&xcb_disconnect)> link(xcb_connect(nullptr, &screen),
-                                                                            &xcb_disconnect);
+    const XcbLink link(xcb_connect(nullptr, &screen), &xcb_disconnect);
     if (xcb_connection_has_error(link.get()) == 0)
         examine_server(system, link.get(), screen);
     return system;

@@ -78,10 +78,7 @@ std::optional<FoundOutput> output_called(xcb_connection_t* link, const std::stri
         for (int i = 0; i < xcb_randr_get_screen_resources_current_outputs_length(resources.get()); ++i) {
             const auto info = owned(xcb_randr_get_output_info_reply(
                 link, xcb_randr_get_output_info(link, outputs[i], XCB_CURRENT_TIME), nullptr));
-            if (info &&
-                std::string_view(
-                    reinterpret_cast<const char*>(xcb_randr_get_output_info_name(info.get())),
-                    static_cast<std::size_t>(xcb_randr_get_output_info_name_length(info.get()))) == name)
+            if (info && name_of(*info) == name)
                 return FoundOutput{outputs[i], info->crtc};
         }
     }
@@ -135,13 +132,8 @@ std::vector<WireSetting> read_nvidia_settings(const std::string& output, const s
 
 std::vector<WireSetting> read_wire_settings(const std::string& output, const std::string& nvidia_settings) {
     const XcbLink link = link_to(nullptr);
-    if (xcb_connection_has_error(link.get()))
+    if (!begin_randr(link.get()))
         return {};
-    const xcb_query_extension_reply_t* const extension = xcb_get_extension_data(link.get(), &xcb_randr_id);
-    if (!extension || !extension->present)
-        return {};
-    // A server answers in the version that it has been told, and with none as if it had none.
-    owned(xcb_randr_query_version_reply(link.get(), xcb_randr_query_version(link.get(), 1, 3), nullptr));
     const std::optional<FoundOutput> found = output_called(link.get(), output);
     if (!found)
         return {};

@@ -17,8 +17,9 @@ void MarkPen::draw(std::span<const Mark> marks, glm::ivec2 window_px) {
     array_.bind();
     for (const GLuint index : {0u, 1u}) {
         gl.EnableVertexAttribArray(index);
-        gl.VertexAttribPointer(index, 4, GL_FLOAT, GL_FALSE, sizeof(Mark),
-                               reinterpret_cast<const void*>(index * 4 * sizeof(float)));
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL has offsets as pointers
+        const auto* const offset = reinterpret_cast<const void*>(index * 4 * sizeof(float));
+        gl.VertexAttribPointer(index, 4, GL_FLOAT, GL_FALSE, sizeof(Mark), offset);
     }
     gl.Enable(GL_BLEND);
     gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);

@@ -51,14 +51,11 @@ void SaliencyPicture::upload(const SaliencyMap& map) {
 
 GLuint SaliencyPicture::draw(const WatchedSculpture& sculpture, const std::shared_ptr<const SaliencyMap>& map,
                              const Orbit& orbit, glm::ivec2 size_px) {
-    const bool is_other_size = !texture_ || texture_->size_px() != size_px;
+    const bool is_other_size = !frame_ || frame_->size_px() != size_px;
     if (map == map_ && is_same(orbit, orbit_) && !is_other_size)
-        return texture_->name();
-    if (is_other_size) {
-        frame_.reset();
-        texture_.emplace(*context_, size_px, PixelFormat::rgba8);
-        frame_.emplace(*context_, std::initializer_list<const Texture2D*>{&*texture_}, true);
-    }
+        return frame_->texture().name();
+    if (is_other_size)
+        frame_.emplace(*context_, size_px, PixelFormat::rgba8, true);
     if (map != map_)
         upload(*map);
     map_ = map;
@@ -88,7 +85,7 @@ GLuint SaliencyPicture::draw(const WatchedSculpture& sculpture, const std::share
                     nullptr);
     gl.Disable(GL_DEPTH_TEST);
     throw_on_gl_error(*context_, "drawing the map of gaze");
-    return texture_->name();
+    return frame_->texture().name();
 }
 
 std::optional<SaliencyPicture::Place> SaliencyPicture::place_of(const WatchedSculpture& sculpture,

@@ -37,7 +37,6 @@ class SaliencyPicture {
     ShaderProgram program_;
     VertexArray array_;
     std::optional<Buffer> positions_, normals_, colours_, triangles_;
-    std::optional<Texture2D> texture_;
     std::optional<Framebuffer> frame_;
     std::shared_ptr<const SaliencyMap> map_; ///< that is uploaded
     Orbit orbit_;

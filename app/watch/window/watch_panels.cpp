@@ -35,6 +35,7 @@ std::string degrees(const std::optional<double>& value) {
     return value ? fmt::format("{:.2f} deg", *value) : std::string("-");
 }
 
+// NOLINTNEXTLINE(performance-no-int-to-ptr): Dear ImGui has names of textures as pointers
 void* texture_of(GLuint name) { return reinterpret_cast<void*>(static_cast<std::uintptr_t>(name)); }
 
 /// The colours from nothing to the most, with words at both ends.

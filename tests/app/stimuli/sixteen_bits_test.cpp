@@ -11,7 +11,7 @@
 #include "render/gl/headless_context.h"
 #include "render/presenter/page_presenter.h"
 #include "render/signal/signal_decoder.h"
-#include "render/stimulus/frame_tracer.h"
+#include "render/stimulus/stimulus_library.h"
 #include "tests/app/stimuli/traced_experiment.h"
 #include "tests/support/gl_contexts.h"
 
@@ -66,11 +66,7 @@ TEST_CASE("every level of a ramp comes through film, cache, frame store and enco
 
     // Light of the material under the protocol's light, as the tracer gives it ...
     const FrameQuality quality = quality_of(BakeQuality::draft, protocol.bake);
-    FrameTracer tracer(protocol, experiment->sculptures);
-    BakeSettings settings = bake_settings(quality, protocol.bake, MaterialKind::diffuse);
-    settings.samples = 1;
-    SpectralFrame frame =
-        tracer.trace(matt_bust, cache.angle_of({0}), read_triangle_map(cache.map_file(0, {0})), settings, {});
+    SpectralFrame frame = library.frames().trace(matt_bust, {0}, {BakeQuality::draft, 1, {}}, {});
     const std::vector<float> light = traced_light(frame);
 
     // ... at every level from black to where its brightest channel is the display's white.

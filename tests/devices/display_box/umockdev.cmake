@@ -1,9 +1,12 @@
-# Devices behind the kernel's own interfaces, on a machine that has none: needs umockdev and is left out without it.
+# Devices behind the kernel's own interfaces, on a machine that has none: needs umockdev and is skipped without it.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(UMOCKDEV QUIET IMPORTED_TARGET umockdev-1.0)
 find_program(OVERT_UMOCKDEV_WRAPPER umockdev-wrapper)
 if(NOT UMOCKDEV_FOUND OR NOT OVERT_UMOCKDEV_WRAPPER)
-    message(STATUS "umockdev and libumockdev-dev are not installed: the tests of USB serial ports and HID devices are left out")
+    add_test(NAME "devices behind the system's own interfaces (umockdev)"
+        COMMAND ${CMAKE_COMMAND} -E echo "skipped: umockdev and libumockdev-dev are not installed (packages.txt)")
+    set_tests_properties("devices behind the system's own interfaces (umockdev)" PROPERTIES LABELS unit
+        SKIP_REGULAR_EXPRESSION "skipped: ")
     return()
 endif()
 add_executable(umockdev_tests ${CMAKE_CURRENT_LIST_DIR}/umockdev_display.cpp ${CMAKE_CURRENT_LIST_DIR}/../hid/umockdev_hid.cpp)

@@ -29,7 +29,7 @@ FurnaceResult furnace(const Mesh& mesh, const MaterialSettings& material, int sa
             continue;
         ++result.lit;
         for (int channel = 0; channel < 3; ++channel) {
-            const double share = static_cast<double>(pixel[channel] / pixel.a);
+            const auto share = static_cast<double>(pixel[channel] / pixel.a);
             result.worst = std::max(result.worst, std::abs(share - 1.0));
             result.mean += share / 3.0;
         }
@@ -138,7 +138,7 @@ TEST_CASE("light that gold has mirrored twice has the square of its spectrum, no
     groove.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
     groove.triangle_parts.assign(4, 0);
     groove.part_names = {"groove"};
-    const BakeScene scene(groove, test::material_of(MaterialKind::smooth_conductor), 0.0);
+    const BakeScene scene(groove, test::material_of(MaterialKind::smooth_conductor));
     const SpectralLight light(test::even_light(), 1.0);
     SceneView view = test::front_view(groove, 32);
     view.view.camera = {{0.0, -500.0, 0.0}, {0.0, 0.0, 0.0}, {0.2}};

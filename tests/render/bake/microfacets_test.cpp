@@ -102,7 +102,7 @@ TEST_CASE("diffuse directions lie as densely as their cosine", "[unit]") {
 TEST_CASE("no sample of a rough surface carries more than it got", "[unit]") {
     RandomStream random(9, "rough samples");
     for (int i = 0; i < 20000; ++i) {
-        const float alpha = static_cast<float>(random.uniform(0.001, 1.0));
+        const auto alpha = static_cast<float>(random.uniform(0.001, 1.0));
         const glm::vec3 eye = direction_at(random.uniform(1e-3, 1.0), random.uniform(0.0, 6.28));
         const glm::vec3 m = ggx_visible_normal(
             eye, alpha, {static_cast<float>(random.uniform()), static_cast<float>(random.uniform())});

@@ -36,7 +36,7 @@ TEST_CASE("figure 4 shows each observer", "[unit]") {
         write_figures(study, folder.path() / name);
         const std::string svg = read_whole_file(folder.path() / name / "figure_4.svg");
         std::size_t curves = 0;
-        for (std::size_t at = svg.find(" C "); at != svg.npos; at = svg.find(" C ", at + 1))
+        for (std::size_t at = svg.find(" C "); at != std::string::npos; at = svg.find(" C ", at + 1))
             ++curves;
         return curves;
     };

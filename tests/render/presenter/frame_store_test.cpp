@@ -63,8 +63,7 @@ struct Store {
         std::vector<std::byte> bytes(page_bytes);
         for (int page = 0; page < stimulus.pages; ++page) {
             target.attach_layer(*stimulus.textures, page);
-            target.bind();
-            read_pixels(*context, 0, {0, 0}, page_px, PixelFormat::rgba8, bytes);
+            target.read(PixelFormat::rgba8, bytes);
             greys.push_back(std::to_integer<int>(bytes[0]));
             for (std::size_t i = 0; i < page_bytes; i += 4)
                 REQUIRE(bytes[i] == bytes[0]);

@@ -25,8 +25,7 @@ std::vector<int> sent(const DisplaySettings& display, const LinearImage& picture
                       glm::ivec2 origin = {0, 0}) {
     const DisplayEncoder encoder(display);
     const glm::ivec2 size = encoder.patch_of(origin, picture.size_px).size_px;
-    std::vector<std::byte> bytes(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
-                                 bytes_per_pixel(encoder.format()));
+    std::vector<std::byte> bytes(bytes_in(size, encoder.format()));
     encoder.encode(picture, origin, bytes);
     std::vector<int> numbers;
     for (const std::byte byte : bytes)
@@ -273,8 +272,7 @@ TEST_CASE("what a page takes is reckoned before any is drawn as the encoder has 
                 const DisplayEncoder encoder(protocol.display);
                 const ScreenGeometry geometry = screen_geometry_of(protocol);
                 const glm::ivec2 size = encoder.patch_of(geometry.image_origin_px, geometry.image_px).size_px;
-                CHECK(page_bytes(protocol) ==
-                      double(size.x) * size.y * static_cast<double>(bytes_per_pixel(encoder.format())));
+                CHECK(page_bytes(protocol) == static_cast<double>(bytes_in(size, encoder.format())));
             }
         }
     }

@@ -33,7 +33,7 @@ double largest_difference(const glm::dmat3& a, const glm::dmat3& b) {
 
 SampledSpectrum bump(double centre_nm, double width_nm) {
     std::vector<double> values;
-    for (double nm = 380.0; nm <= 780.0; nm += 1.0)
+    for (int nm = 380; nm <= 780; ++nm)
         values.push_back(0.01 * std::exp(-std::pow((nm - centre_nm) / width_nm, 2.0)));
     return sampled(380.0, 1.0, values);
 }

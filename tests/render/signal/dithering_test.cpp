@@ -27,7 +27,7 @@ class PlainLight final : public FrameSource {
     }
     LinearImage page(const Condition&, int page) const override {
         LinearImage image(size_);
-        const float light = static_cast<float>(light_[static_cast<std::size_t>(page)]);
+        const auto light = static_cast<float>(light_[static_cast<std::size_t>(page)]);
         std::fill(image.pixels.begin(), image.pixels.end(),
                   glm::vec4(light, 0.5f * light, 1.0f - light, 1.0f));
         return image;
@@ -99,13 +99,12 @@ TEST_CASE("over 4096 refreshes dithering keeps each pixel's own mean to half a c
     for (std::uint16_t& code : content)
         code = static_cast<std::uint16_t>(random.below(65536));
     codes.upload(std::as_bytes(std::span(content)));
-    Texture2D signal(*context, screen, PixelFormat::rgba8);
-    const Framebuffer target(*context, {&signal}, false);
+    const Framebuffer target(*context, screen, PixelFormat::rgba8);
     std::vector<double> sums(content.size(), 0.0), short_sums;
     std::vector<std::byte> bytes(content.size());
     for (int refresh = 0; refresh < 4096; ++refresh) {
         pass.draw(codes, target, refresh);
-        read_pixels(*context, 0, {0, 0}, screen, PixelFormat::rgba8, bytes);
+        target.read(PixelFormat::rgba8, bytes);
         for (std::size_t i = 0; i < sums.size(); ++i)
             sums[i] += std::to_integer<int>(bytes[i]);
         if (refresh == 63)

@@ -67,7 +67,7 @@ std::vector<NamedCurve> all_curves() {
 /// doubles half-way between them, at which rounding to a float turns over.
 void add_light_around(double border, std::vector<double>& lights) {
     lights.insert(lights.end(), {border, std::nextafter(border, 2.0), std::nextafter(border, -1.0)});
-    float near = static_cast<float>(border);
+    auto near = static_cast<float>(border);
     for (int i = 0; i < 3; ++i)
         near = std::nextafter(near, -1.0f);
     for (int i = 0; i < 6; ++i) {

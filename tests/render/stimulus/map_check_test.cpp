@@ -239,7 +239,7 @@ TEST_CASE("meshes with degenerate and inverted faces are mapped like rays see th
         if (random.uniform(0, 1) < 0.3)
             std::swap(mesh.triangles[i].y, mesh.triangles[i].z);
         if (i % 50 == 0) { // a face without area beside the sound ones
-            mesh.triangles.push_back({mesh.triangles[i].x, mesh.triangles[i].x, mesh.triangles[i].y});
+            mesh.triangles.emplace_back(mesh.triangles[i].x, mesh.triangles[i].x, mesh.triangles[i].y);
             mesh.triangle_parts.push_back(0);
         }
     }
