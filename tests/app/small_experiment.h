@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "experiment/scene/ply_writer.h"
@@ -108,10 +109,18 @@ inline Mesh tall_bust() {
     return mesh;
 }
 
-/// Its protocol and meshes in a folder of their own, with a cache and a place for sessions.
+/// A cache that stays from one run of the tests to the next, for tests of what the shipped sculptures are
+/// needed for: making one takes seven seconds of a processor. What is in it is named by what made it.
+inline std::filesystem::path lasting_cache() {
+    return std::filesystem::path(OVERT_PROGRAM).parent_path().parent_path() / "tests/cache";
+}
+
+/// Its protocol and meshes in a folder of their own, with a place for sessions, and a cache there or
+/// elsewhere.
 class SmallExperiment {
   public:
-    explicit SmallExperiment(std::string_view protocol = small_protocol) {
+    explicit SmallExperiment(std::string_view protocol = small_protocol, std::filesystem::path cache = {})
+        : cache_(cache.empty() ? folder_.path() / "cache" : std::move(cache)) {
         folder_.file("small.toml", protocol);
         std::filesystem::create_directories(folder_.path() / "meshes");
         write_ply(folder_.path() / "meshes/bust.ply", bust());
@@ -120,7 +129,7 @@ class SmallExperiment {
 
     const TemporaryFolder& folder() const { return folder_; }
     std::filesystem::path protocol() const { return folder_.path() / "small.toml"; }
-    std::filesystem::path cache() const { return folder_.path() / "cache"; }
+    const std::filesystem::path& cache() const { return cache_; }
     std::filesystem::path sessions() const { return folder_.path() / "sessions"; }
 
     /// `overt ARGUMENTS` with this experiment's cache.
@@ -156,6 +165,7 @@ class SmallExperiment {
 
   private:
     TemporaryFolder folder_;
+    std::filesystem::path cache_;
 };
 
 } // namespace overt::test

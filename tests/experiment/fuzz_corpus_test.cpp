@@ -44,12 +44,11 @@ TEST_CASE("session files that fuzzers found worth keeping are exported or refuse
 
 TEST_CASE("meshes, maps, included texts and shards, whole and damaged, are read or refused", "[unit]") {
     using namespace overt::fuzz;
-    CHECK(replay("mesh", [](std::string_view bytes) { overt::test::each_damage(bytes, 200, take_mesh); }) >
+    CHECK(replay("mesh", [](std::string_view bytes) { overt::test::each_damage(bytes, 60, take_mesh); }) > 0);
+    CHECK(replay("map", [](std::string_view bytes) { overt::test::each_damage(bytes, 15, take_map); }) > 0);
+    CHECK(replay("texts", [](std::string_view bytes) { overt::test::each_damage(bytes, 40, take_texts); }) >
           0);
-    CHECK(replay("map", [](std::string_view bytes) { overt::test::each_damage(bytes, 40, take_map); }) > 0);
-    CHECK(replay("texts", [](std::string_view bytes) { overt::test::each_damage(bytes, 100, take_texts); }) >
-          0);
-    CHECK(replay("shard", [](std::string_view bytes) { overt::test::each_damage(bytes, 100, take_shard); }) >
+    CHECK(replay("shard", [](std::string_view bytes) { overt::test::each_damage(bytes, 40, take_shard); }) >
           0);
     for (const char* const target : {"mesh", "map", "texts", "shard"})
         CHECK(replay(target, target == std::string_view("mesh")    ? take_mesh

@@ -109,12 +109,12 @@ TEST_CASE("more observers find more", "[unit]") {
 TEST_CASE("studies are the same on any number of threads, and with observers to follow", "[unit]") {
     const std::vector<std::string> effects{"head:material=rough:odds=1.6:sd=0.3",
                                            "wss:material=rough:ratio=0.9:sd=0.1", "cc:task=free:share=0.2"};
-    const PowerResults one = power_of(busts(2), effects, {6, 8}, 12, 1),
-                       two = power_of(busts(2), effects, {6, 8}, 12, 2),
-                       six = power_of(busts(2), effects, {6}, 12, 2);
+    const PowerResults one = power_of(busts(2), effects, {6, 8}, 4, 1),
+                       two = power_of(busts(2), effects, {6, 8}, 4, 2),
+                       six = power_of(busts(2), effects, {6}, 4, 2);
     for (std::size_t curve = 0; curve < effects.size(); ++curve) {
         CHECK(one.curves[curve].planted == two.curves[curve].planted);
-        for (std::size_t study = 0; study < 12; ++study) {
+        for (std::size_t study = 0; study < 4; ++study) {
             for (std::size_t i = 0; i < 2; ++i) {
                 const StudyOutcome &a = one.curves[curve].points[i].studies[study],
                                    &b = two.curves[curve].points[i].studies[study];

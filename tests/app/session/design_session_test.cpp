@@ -154,7 +154,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a new protocol passes the check at once, and is not written over another", "[session]") {
-    const SmallExperiment experiment;
+    const SmallExperiment experiment(small_protocol, lasting_cache());
     const std::string file = (experiment.folder().path() / "a study.toml").string();
     CHECK(experiment.overt({"new", file}).exit_code == 0);
     const std::string text = text_of(file);
