@@ -4,6 +4,7 @@ namespace overt::key_rows {
 
 std::vector<Key> block() {
     using B = BlockSettings;
+    constexpr KeyLimits limit = range(0, 1000).left_out("as in `[schedule]`");
     return {
         {"id", &B::id, identifier().required(), "Short name, used in tables."},
         {"tasks", &B::tasks, identifier().left_out("all"),
@@ -37,21 +38,21 @@ std::vector<Key> block() {
         {"continues", &B::continues,
          "The limits count the trials of the block before, too, and both are drawn together; otherwise each "
          "block begins afresh, and its order does not depend on any other block."},
-        {"max_task_run", &B::max_task_run, range(0, 1000).left_out("as in `[schedule]`"),
+        {"max_task_run", &B::max_task_run, limit,
          "Longest run of trials with the same task in this block; 0 for no limit."},
-        {"max_sculpture_run", &B::max_sculpture_run, range(0, 1000).left_out("as in `[schedule]`"),
+        {"max_sculpture_run", &B::max_sculpture_run, limit,
          "Longest run of trials with the same sculpture in this block; 0 for no limit."},
-        {"max_material_run", &B::max_material_run, range(0, 1000).left_out("as in `[schedule]`"),
+        {"max_material_run", &B::max_material_run, limit,
          "Longest run of trials with the same material in this block; 0 for no limit."},
-        {"max_stimulus_run", &B::max_stimulus_run, range(0, 1000).left_out("as in `[schedule]`"),
+        {"max_stimulus_run", &B::max_stimulus_run, limit,
          "Longest run of trials with the same stimulus in this block; 0 for no limit."},
-        {"min_task_distance", &B::min_task_distance, range(0, 1000).left_out("as in `[schedule]`"),
+        {"min_task_distance", &B::min_task_distance, limit,
          "Least distance of trials with the same task in this block; 0 for no limit."},
-        {"min_sculpture_distance", &B::min_sculpture_distance, range(0, 1000).left_out("as in `[schedule]`"),
+        {"min_sculpture_distance", &B::min_sculpture_distance, limit,
          "Least distance of trials with the same sculpture in this block; 0 for no limit."},
-        {"min_material_distance", &B::min_material_distance, range(0, 1000).left_out("as in `[schedule]`"),
+        {"min_material_distance", &B::min_material_distance, limit,
          "Least distance of trials with the same material in this block; 0 for no limit."},
-        {"min_stimulus_distance", &B::min_stimulus_distance, range(0, 1000).left_out("as in `[schedule]`"),
+        {"min_stimulus_distance", &B::min_stimulus_distance, limit,
          "Least distance of trials with the same stimulus in this block; 0 for no limit."},
     };
 }
