@@ -29,7 +29,7 @@ std::vector<std::vector<double>> MapMaker::densities(std::span<const std::vector
     const EuclideanKernel kernel(*surface_.geometry);
     parallel_for(static_cast<int>(maps.size()), [&](int i) {
         const auto map = static_cast<std::size_t>(i);
-        made[map] = kernel.map(maps[map]).density;
+        made[map] = kernel.density(maps[map]);
     });
     return made;
 }
