@@ -13,7 +13,7 @@
 #include "app/cli/interruption.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
-#include "experiment/study/study_tables.h"
+#include "experiment/study/tables/study_tables.h"
 
 namespace overt {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "experiment/study/study_options.h"
+#include "experiment/study/results/study_options.h"
 
 namespace overt {
 

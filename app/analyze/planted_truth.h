@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/inputs/protocol_inputs.h"
-#include "experiment/study/study_results.h"
+#include "experiment/study/results/study_results.h"
 
 namespace overt {
 

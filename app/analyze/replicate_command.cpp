@@ -21,7 +21,7 @@
 #include "experiment/base/whole_file.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/session_schema.h"
-#include "experiment/study/study_tables.h"
+#include "experiment/study/tables/study_tables.h"
 #include "render/gl/headless_context.h"
 
 namespace overt {

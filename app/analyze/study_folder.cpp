@@ -12,7 +12,7 @@
 #include "experiment/report/surface_files.h"
 #include "experiment/report/volume_maps.h"
 #include "experiment/study/analyze_study.h"
-#include "experiment/study/study_tables.h"
+#include "experiment/study/tables/study_tables.h"
 #include "render/figures/study_figures.h"
 
 namespace overt {

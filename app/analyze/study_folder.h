@@ -7,8 +7,8 @@
 #include "app/cli/shard.h"
 #include "experiment/base/export_folder.h"
 #include "experiment/record/tables/table_writer.h"
-#include "experiment/study/study_options.h"
-#include "experiment/study/study_shard.h"
+#include "experiment/study/read/study_shard.h"
+#include "experiment/study/results/study_options.h"
 
 namespace overt {
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "app/record/recorded_surface.h"
-#include "experiment/study/study_reader.h"
+#include "experiment/study/read/study_reader.h"
 
 namespace overt {
 

@@ -13,8 +13,8 @@
 #include "devices/simulated/gaze_targets.h"
 #include "devices/simulated/observed_scene.h"
 #include "experiment/power/power_effect.h"
-#include "experiment/study/study_options.h"
-#include "experiment/study/study_reader.h"
+#include "experiment/study/read/study_reader.h"
+#include "experiment/study/results/study_options.h"
 
 namespace overt {
 

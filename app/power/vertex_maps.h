@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "experiment/study/study_reader.h"
+#include "experiment/study/read/study_reader.h"
 #include "experiment/surface/coarse_surface.h"
 #include "experiment/surface/surface_geometry.h"
 

@@ -259,11 +259,4 @@ TriangleMap PoseCells::map() const {
     return map;
 }
 
-std::size_t PoseCells::memory_bytes() const {
-    return cells_.capacity() * sizeof(PixelCell) + rim_.capacity() * sizeof(glm::i16vec2) +
-           nearest_rim_.capacity() * sizeof(std::uint16_t) + nearest_rim_high_.capacity() +
-           borders_.capacity() * sizeof(std::int16_t) + first_border_.capacity() * sizeof(std::uint32_t) +
-           (row_extents_.capacity() + column_extents_.capacity()) * sizeof(Extent);
-}
-
 } // namespace overt

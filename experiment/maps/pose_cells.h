@@ -82,7 +82,6 @@ class PoseCells {
     void fetch(glm::ivec2 pixel) const;
 
     TriangleMap map() const;
-    std::size_t memory_bytes() const;
 
   private:
     /// First and last covered pixel of a row or column; first > last if there is none.

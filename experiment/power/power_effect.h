@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiment/protocol/protocol.h"
-#include "experiment/study/study_results.h"
+#include "experiment/study/results/study_results.h"
 
 namespace overt {
 

@@ -8,7 +8,7 @@
 
 #include "experiment/power/power_effect.h"
 #include "experiment/statistics/estimate.h"
-#include "experiment/study/study_results.h"
+#include "experiment/study/results/study_results.h"
 
 namespace overt {
 

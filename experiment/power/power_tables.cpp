@@ -5,7 +5,7 @@
 #include "experiment/base/json_text.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/record/tables/export_tables.h"
-#include "experiment/study/study_columns.h"
+#include "experiment/study/tables/study_layout.h"
 
 namespace overt {
 
@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int share_digits = 4, estimate_digits = 6;
+constexpr int share_digits = 4;
 
 struct CurveRow {
     const PowerCurve& curve;
@@ -27,64 +27,44 @@ struct OutcomeRow {
     const StudyOutcome& outcome;
 };
 
-template <class Row> StudyColumns<Row> effect_columns() {
-    return joined_columns<Row>(text_column<Row>("effect",
-                                                "What was planted and is tested, as --effect takes it",
-                                                [](const Row& row) { return row.curve.effect.text(); }),
-                               count_column<Row>("observers", "Observers of a study",
-                                                 [](const Row& row) { return row.point.observers; }));
+template <class Row> void add_effect(StudyLayout<Row>& to) {
+    to.text("effect", "What was planted and is tested, as --effect takes it",
+            [](const Row& row) { return row.curve.effect.text(); });
+    to.count("observers", "Observers of a study", [](const Row& row) { return row.point.observers; });
 }
 
 RowLayout<CurveRow> curve_layout() {
-    using Row = CurveRow;
-    const auto number = [](const char* name, const char* meaning, auto value) {
-        return number_column<Row>(name, meaning, "", share_digits, [value](const Row& row) {
-            return std::optional<double>(value(row.point));
-        });
+    const auto of_point = [](auto what) {
+        return [what](const CurveRow& row) { return std::invoke(what, row.point); };
     };
-    return {"power_curve", "How many of the simulated studies found the effect, by number of observers.",
-            joined_columns<Row>(
-                effect_columns<Row>(),
-                count_column<Row>("studies", "Simulated studies",
-                                  [](const Row& row) { return static_cast<int>(row.point.studies.size()); }),
-                count_column<Row>("found", "Of these, with p at most alpha",
-                                  [](const Row& row) { return row.point.found; }),
-                count_column<Row>("without_test", "Of these, with nothing to test; they count as not found",
-                                  [](const Row& row) { return row.point.without_test; }),
-                number("power", "Share that found the effect", [](const PowerPoint& p) { return p.share(); }),
-                number("power_low", "Lower end of its interval of 95 % (Wilson)",
-                       [](const PowerPoint& p) { return p.interval.low; }),
-                number("power_high", "Upper end of its interval of 95 % (Wilson)",
-                       [](const PowerPoint& p) { return p.interval.high; }),
-                number_column<Row>(
-                    "median_estimate",
-                    "Median over studies of the estimated difference of head fractions, difference of WSS in "
-                    "mm^2, or CC",
-                    "", estimate_digits,
-                    [](const Row& row) { return std::optional<double>(row.point.median_estimate); }))};
+    StudyLayout<CurveRow> to("power_curve",
+                             "How many of the simulated studies found the effect, by number of observers.");
+    add_effect(to);
+    to.count("studies", "Simulated studies", of_point([](auto& point) { return point.studies.size(); }));
+    to.count("found", "Of these, with p at most alpha", of_point(&PowerPoint::found));
+    to.count("without_test", "Of these, with nothing to test; they count as not found",
+             of_point(&PowerPoint::without_test));
+    to.number("power", "Share that found the effect", "", of_point(&PowerPoint::share), share_digits);
+    to.number("power_low", "Lower end of its interval of 95 % (Wilson)", "",
+              of_point([](auto& point) { return point.interval.low; }), share_digits);
+    to.number("power_high", "Upper end of its interval of 95 % (Wilson)", "",
+              of_point([](auto& point) { return point.interval.high; }), share_digits);
+    to.number(
+        "median_estimate",
+        "Median over studies of the estimated difference of head fractions, difference of WSS in mm^2, or CC",
+        "", of_point(&PowerPoint::median_estimate));
+    return to;
 }
 
 RowLayout<OutcomeRow> outcome_layout() {
-    using Row = OutcomeRow;
-    return {"power_studies", "The test of each effect in each simulated study.",
-            joined_columns<Row>(effect_columns<Row>(),
-                                count_column<Row>("study",
-                                                  "Number of the study; one with fewer observers has the "
-                                                  "first of those of one with more",
-                                                  [](const Row& row) { return row.study; }),
-                                number_column<Row>("p", "Of the test", "", estimate_digits,
-                                                   [](const Row& row) { return row.outcome.p; }),
-                                number_column<Row>("estimate",
-                                                   "Difference of head fractions, difference of WSS in mm^2, "
-                                                   "or CC",
-                                                   "", estimate_digits,
-                                                   [](const Row& row) { return row.outcome.estimate; }))};
-}
-
-template <class Row> void describe(Json& dictionary, const RowLayout<Row>& layout, TableFormat format) {
-    dictionary[layout.table().name + "." + std::string(ending_of(format))] = {
-        {"Description", layout.table().description},
-        {"Columns", describe_columns(layout.table().columns, format)}};
+    StudyLayout<OutcomeRow> to("power_studies", "The test of each effect in each simulated study.");
+    add_effect(to);
+    to.count("study", "Number of the study; one with fewer observers has the first of those of one with more",
+             &OutcomeRow::study);
+    to.number("p", "Of the test", "", [](const OutcomeRow& row) { return row.outcome.p; });
+    to.number("estimate", "Difference of head fractions, difference of WSS in mm^2, or CC", "",
+              [](const OutcomeRow& row) { return row.outcome.estimate; });
+    return to;
 }
 
 } // namespace
@@ -133,8 +113,8 @@ void write_power_tables(const PowerResults& results, const std::filesystem::path
     curve_file.close();
     outcome_file.close();
     Json dictionary = Json::object();
-    describe(dictionary, curves, format);
-    describe(dictionary, outcomes, format);
+    describe_table(dictionary, curves.table(), format);
+    describe_table(dictionary, outcomes.table(), format);
     write_whole_file(folder / "dictionary.json", json_text(dictionary));
     write_whole_file(folder / "power.json", power_json(results));
 }

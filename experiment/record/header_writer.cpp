@@ -10,44 +10,38 @@
 namespace overt {
 namespace {
 
-template <class... Values> void insert(SQLite::Database& database, const char* sql, const Values&... values) {
-    SQLite::Statement statement(database, sql);
-    run_statement(statement, values...);
-}
-
 void insert_characterisation(SQLite::Database& database, const RecordedCharacterisation& light) {
     insert_row(database, characterisation_table(), 1, light);
     int index = 0;
     for (const RecordedCharacterisation::File& file : light.files)
-        insert(database, "INSERT INTO characterisation_file VALUES (?,?,?)", index++, file.name, file.text);
+        insert_values(database, "INTO characterisation_file", index++, file.name, file.text);
 }
 
 void insert_design(SQLite::Database& database, const SessionHeader& header) {
     for (const Trial& trial : header.schedule.trials)
-        insert(database, "INSERT INTO schedule VALUES (?,?,?,?,?)", trial.index, trial.task,
-               trial.condition.sculpture, trial.condition.material, trial.block);
+        insert_values(database, "INTO schedule", trial.index, trial.task, trial.condition.sculpture,
+                      trial.condition.material, trial.block);
     int index = 0;
     for (const std::string& block : header.blocks)
-        insert(database, "INSERT INTO block VALUES (?,?)", index++, block);
+        insert_values(database, "INTO block", index++, block);
     index = 0;
     for (const RecordedProtocol::Included& file : header.protocol.included)
-        insert(database, "INSERT INTO protocol_file VALUES (?,?,?,?)", index++, file.name, file.text,
-               file.sha256);
+        insert_values(database, "INTO protocol_file", index++, file.name, file.text, file.sha256);
     index = 0;
     for (const RecordedDatasetEntry& entry : header.dataset)
-        insert(database, "INSERT INTO dataset_entry VALUES (?,?,?)", index++, entry.key, entry.value);
+        insert_values(database, "INTO dataset_entry", index++, entry.key, entry.value);
     index = 0;
     for (const RecordedTask& task : header.tasks)
-        insert(database, "INSERT INTO task VALUES (?,?,?)", index++, task.id, task.question);
+        insert_values(database, "INTO task", index++, task.id, task.question);
     index = 0;
     for (const RecordedMaterial& material : header.materials)
-        insert(database, "INSERT INTO material VALUES (?,?,?)", index++, material.id, material.title);
+        insert_values(database, "INTO material", index++, material.id, material.title);
     index = 0;
     for (const Degrees angle : header.poses.angles)
-        insert(database, "INSERT INTO pose VALUES (?,?)", index++, angle.value);
+        insert_values(database, "INTO pose", index++, angle.value);
     index = 0;
     for (const PoseIndex pose : header.poses.of_frame)
-        insert(database, "INSERT INTO animation_frame VALUES (?,?)", index++, pose.value);
+        insert_values(database, "INTO animation_frame", index++, pose.value);
 }
 
 void insert_sculptures(SQLite::Database& database, const SessionHeader& header) {
@@ -56,16 +50,16 @@ void insert_sculptures(SQLite::Database& database, const SessionHeader& header) 
         insert_row(database, sculpture_table(), index, sculpture);
         int part = 0;
         for (const std::string& name : sculpture.part_names)
-            insert(database, "INSERT INTO part VALUES (?,?,?)", index, part++, name);
+            insert_values(database, "INTO part", index, part++, name);
         ++index;
     }
     for (const RecordedStimulus& stimulus : header.stimuli)
-        insert(database, "INSERT INTO stimulus VALUES (?,?,?,?)", stimulus.condition.sculpture,
-               stimulus.condition.material, stimulus.source, stimulus.frames_sha256);
+        insert_values(database, "INTO stimulus", stimulus.condition.sculpture, stimulus.condition.material,
+                      stimulus.source, stimulus.frames_sha256);
     for (const RecordedMap& map : header.maps)
-        insert(database, "INSERT INTO map VALUES (?,?,?,?,?,?)", map.sculpture, map.pose.value, map.file,
-               map.sha256, map.made == RecordedMap::Made::prepared ? "prepared" : "live",
-               map.kind == RecordedMap::Kind::triangles ? "triangles" : "coordinates");
+        insert_values(database, "INTO map", map.sculpture, map.pose.value, map.file, map.sha256,
+                      map.made == RecordedMap::Made::prepared ? "prepared" : "live",
+                      map.kind == RecordedMap::Kind::triangles ? "triangles" : "coordinates");
 }
 
 } // namespace

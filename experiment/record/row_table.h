@@ -13,7 +13,6 @@
 
 #include "experiment/base/error.h"
 #include "experiment/record/sql.h"
-#include "experiment/units.h"
 
 namespace overt {
 
@@ -34,12 +33,6 @@ template <class Enum>
 requires std::is_enum_v<Enum>
 const char* stored(Enum value) { return stored_words<Enum>[value == Enum{} ? 0 : 1]; }
 
-inline void read_into(int& value, Query& row) { value = row.small(); }
-inline void read_into(bool& value, Query& row) { value = row.small() != 0; }
-inline void read_into(double& value, Query& row) { value = row.real(); }
-inline void read_into(std::string& value, Query& row) { value = row.text(); }
-inline void read_into(Degrees& value, Query& row) { value.value = row.real(); }
-inline void read_into(SessionDuration& value, Query& row) { value = SessionDuration(row.integer()); }
 inline void read_into(std::uint64_t& value, Query& row) {
     const std::string text = row.text();
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -94,20 +94,10 @@ std::string Query::bytes() {
     return bytes == nullptr ? std::string() : std::string(bytes, static_cast<std::size_t>(length));
 }
 
-std::optional<double> Query::optional_real() {
-    if (sqlite3_column_type(statement_.get(), column_) == SQLITE_NULL) {
-        ++column_;
-        return std::nullopt;
-    }
-    return real();
-}
-
-std::optional<int> Query::optional_small() {
-    if (sqlite3_column_type(statement_.get(), column_) == SQLITE_NULL) {
-        ++column_;
-        return std::nullopt;
-    }
-    return small();
+bool Query::skip_null() {
+    const bool is_null = sqlite3_column_type(statement_.get(), column_) == SQLITE_NULL;
+    column_ += is_null;
+    return is_null;
 }
 
 bool has_column(const SQLite::Database& database, const char* table, const char* column) {

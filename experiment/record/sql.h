@@ -2,6 +2,7 @@
 /// errors that say which file.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -12,8 +13,10 @@
 #include <vector>
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
 
 #include "experiment/session_time.h"
+#include "experiment/units.h"
 
 struct sqlite3_stmt;
 
@@ -33,8 +36,23 @@ inline void bind_value(SQLite::Statement& statement, int index, const std::strin
 inline void bind_value(SQLite::Statement& statement, int index, const char* value) {
     statement.bind(index, value);
 }
-inline void bind_value(SQLite::Statement& statement, int index, SessionTime value) {
-    statement.bind(index, static_cast<std::int64_t>(value.time_since_epoch().count()));
+inline void bind_value(SQLite::Statement& statement, int index, std::string_view value) {
+    statement.bind(index, std::string(value));
+}
+inline void bind_value(SQLite::Statement& statement, int index, bool value) {
+    statement.bind(index, value ? 1 : 0);
+}
+inline void bind_value(SQLite::Statement& statement, int index, Degrees value) {
+    statement.bind(index, value.value);
+}
+/// In the unit of the clock: nanoseconds of a session, microseconds of a tracker or a box.
+template <class Rep, class Period>
+void bind_value(SQLite::Statement& statement, int index, std::chrono::duration<Rep, Period> value) {
+    statement.bind(index, static_cast<std::int64_t>(value.count()));
+}
+template <class Clock, class Duration>
+void bind_value(SQLite::Statement& statement, int index, std::chrono::time_point<Clock, Duration> value) {
+    bind_value(statement, index, value.time_since_epoch());
 }
 template <class T> void bind_value(SQLite::Statement& statement, int index, const std::optional<T>& value) {
     if (value)
@@ -50,6 +68,17 @@ template <class... Values> void run_statement(SQLite::Statement& statement, cons
     (bind_value(statement, ++index, values), ...);
     statement.exec();
     statement.reset();
+}
+
+/// Adds a row: `into` is "INTO table (columns of the values)", or "OR REPLACE INTO …". Throws
+/// SQLite::Exception.
+template <class... Values>
+void insert_values(SQLite::Database& database, const char* into, const Values&... values) {
+    std::string marks = "?";
+    for (std::size_t i = 1; i < sizeof...(values); ++i)
+        marks += ",?";
+    SQLite::Statement statement(database, fmt::format("INSERT {} VALUES ({})", into, marks));
+    run_statement(statement, values...);
 }
 
 /// Reads the rows of a SELECT, and of each row its columns from left to right. On SQLite's C interface,
@@ -74,9 +103,14 @@ class Query {
     /// Throw RecordError for times that are centuries away: differences of any two must be times, too.
     SessionTime session_time();
     TrackerTime tracker_time();
+    /// Passes over the next column if it is NULL.
+    bool skip_null();
     /// Nothing if NULL.
-    std::optional<double> optional_real();
-    std::optional<int> optional_small();
+    std::optional<double> optional_real() { return skip_null() ? std::nullopt : std::optional(real()); }
+    std::optional<int> optional_small() { return skip_null() ? std::nullopt : std::optional(small()); }
+
+    /// The next columns, each as its value's type has it (read_into); what run_statement() is for writing.
+    template <class... Values> void read(Values&... values) { (read_into(values, *this), ...); }
 
   private:
     struct Finalizer {
@@ -86,6 +120,21 @@ class Query {
     std::unique_ptr<sqlite3_stmt, Finalizer> statement_;
     int column_ = 0;
 };
+
+inline void read_into(int& value, Query& row) { value = row.small(); }
+inline void read_into(std::int64_t& value, Query& row) { value = row.integer(); }
+inline void read_into(bool& value, Query& row) { value = row.integer() != 0; }
+inline void read_into(double& value, Query& row) { value = row.real(); }
+inline void read_into(std::string& value, Query& row) { value = row.text(); }
+inline void read_into(Degrees& value, Query& row) { value.value = row.real(); }
+inline void read_into(SessionTime& value, Query& row) { value = row.session_time(); }
+inline void read_into(SessionDuration& value, Query& row) { value = SessionDuration(row.integer()); }
+inline void read_into(TrackerTime& value, Query& row) { value = row.tracker_time(); }
+template <class T> void read_into(std::optional<T>& value, Query& row) {
+    value.reset();
+    if (!row.skip_null())
+        read_into(value.emplace(), row);
+}
 
 /// Whether a table has a column: earlier versions of the program may have made it without.
 bool has_column(const SQLite::Database& database, const char* table, const char* column);

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/study/study_results.h"
+#include "experiment/study/results/study_results.h"
 
 namespace overt {
 

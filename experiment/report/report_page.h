@@ -6,7 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "experiment/study/study_results.h"
+#include "experiment/study/results/study_results.h"
 
 namespace overt {
 

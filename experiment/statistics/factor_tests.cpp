@@ -98,13 +98,12 @@ std::vector<std::vector<double>> centred_both_ways(std::span<const LevelMeans> a
     return found;
 }
 
-template <class Sign>
-double size_of_mean(const std::vector<std::vector<double>>& observers, const Sign& is_flipped) {
+double size_of_mean(const std::vector<std::vector<double>>& observers, std::span<const double> signs) {
     double size = 0.0;
     for (std::size_t i = 0; i < observers.front().size(); ++i) {
         double sum = 0.0;
         for (std::size_t o = 0; o < observers.size(); ++o)
-            sum += is_flipped(o) ? -observers[o][i] : observers[o][i];
+            sum += signs[o] * observers[o][i];
         size += sum * sum;
     }
     const auto count = static_cast<double>(observers.size());
@@ -145,29 +144,13 @@ std::optional<FactorTest> interaction_flip_test(std::span<const LevelMeans> all,
     FactorTest found;
     const std::size_t n = observers.size();
     found.observers = static_cast<int>(n);
-    found.statistic = size_of_mean(observers, [](std::size_t) { return false; });
+    found.statistic = size_of_mean(observers, std::vector(n, 1.0));
     const double threshold = found.statistic * all_but_rounding;
-    std::uint64_t hits = 0;
-    if (n < 63 && (std::uint64_t{1} << n) <= settings.most_exact) {
-        const std::uint64_t ways = std::uint64_t{1} << n;
-        for (std::uint64_t flips = 0; flips < ways; ++flips)
-            hits +=
-                size_of_mean(observers, [&](std::size_t o) { return (flips >> o & 1u) != 0; }) >= threshold;
-        found.test = {static_cast<double>(hits) / static_cast<double>(ways), true, ways};
-        found.least_p = 2.0 / static_cast<double>(ways);
-        return found;
-    }
-    std::vector<bool> flipped(n);
-    for (int i = 0; i < settings.permutations; ++i) {
-        RandomStream random(settings.seed, "signs of observers", static_cast<std::uint64_t>(i));
-        for (std::size_t o = 0; o < n; ++o)
-            flipped[o] = (random.next_bits() & 1u) != 0;
-        hits += size_of_mean(observers, [&](std::size_t o) { return static_cast<bool>(flipped[o]); }) >=
-                threshold;
-    }
-    found.test = {static_cast<double>(hits + 1) / (settings.permutations + 1.0), false,
-                  static_cast<std::uint64_t>(settings.permutations)};
-    found.least_p = 1.0 / (settings.permutations + 1.0);
+    found.test = flip_test(n, "signs of observers", settings, [&](std::span<const double> signs) {
+        return size_of_mean(observers, signs) >= threshold;
+    });
+    found.least_p = found.test.is_exact ? 2.0 / static_cast<double>(found.test.permutations)
+                                        : 1.0 / (settings.permutations + 1.0);
     return found;
 }
 

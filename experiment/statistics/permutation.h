@@ -1,7 +1,9 @@
 /// Tests that compare what was found with what exchanging labels would give.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,25 +23,22 @@ struct TestResult {
     std::uint64_t permutations = 0;
 };
 
-/// Whether differences within observers have another mean than 0: each may as well have the other sign. Two-
-/// sided by the size of the sum. Exact where the 2^n flips are few enough; else random flips, where p counts
+/// How often a flip of signs, each 1 or -1, is a hit. Flips of all of them must be hits or not together.
+/// `count` > 0. Exact where the 2^count flips are few enough; else random flips by `purpose`, where p counts
 /// the observed one too, (1 + hits) / (1 + flips), so that it is never 0 and its error of the first kind
-/// holds (Phipson and Smyth 2010). Nothing without differences.
+/// holds (Phipson and Smyth 2010).
+TestResult flip_test(std::size_t count, const char* purpose, const PermutationSettings& settings,
+                     const std::function<bool(std::span<const double> signs)>& is_hit);
+
+/// Whether differences within observers have another mean than 0: each may as well have the other sign
+/// (flip_test). Two-sided by the size of the sum. Nothing without differences.
 std::optional<TestResult> sign_flip_test(std::span<const double> differences,
                                          const PermutationSettings& settings = {});
-
-/// Whether two groups of observers have different means: each may as well belong to the other. Two-sided,
-/// exact over all choices where these are few enough. Nothing if a group is empty.
-std::optional<TestResult> label_permutation_test(std::span<const double> a, std::span<const double> b,
-                                                 const PermutationSettings& settings = {});
 
 /// p of an observed number among those that permutations gave, one-sided: how often chance gives as little.
 double p_of_least(double observed, std::span<const double> permuted);
 
 /// The p values after Holm (1979): each at least as large as before, in the order in which they were given.
 std::vector<double> holm(std::span<const double> p);
-
-/// The same after Benjamini and Hochberg (1995), for the false discovery rate.
-std::vector<double> benjamini_hochberg(std::span<const double> p);
 
 } // namespace overt

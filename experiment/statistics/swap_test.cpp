@@ -1,10 +1,7 @@
 #include "experiment/statistics/swap_test.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-
-#include "experiment/base/random.h"
 
 namespace overt {
 
@@ -139,32 +136,14 @@ std::optional<SwapTest> swap_test(std::span<const PairedMaps> surfaces, std::siz
     const std::optional<double> observed = mean_correlation(swapped, signs);
     if (!observed)
         return std::nullopt;
-    const auto is_as_small = [&] {
-        const std::optional<double> one = mean_correlation(swapped, signs);
-        return one && *one <= *observed + swap_rounding;
-    };
-    const std::size_t n = numbers.size();
-    std::uint64_t hits = 0;
-    if (n < 63 && (std::uint64_t{1} << n) <= settings.most_exact) {
-        // Swapping everybody gives the same correlation, so half of the ways tell all. Neighbours in this
-        // order differ by one observer (Gray's code).
-        const std::uint64_t half = std::uint64_t{1} << (n - 1);
-        for (std::uint64_t way = 0; way < half; ++way) {
-            if (way > 0)
-                signs[numbers[static_cast<std::size_t>(std::countr_zero(way))]] *= -1.0;
-            hits += is_as_small();
-        }
-        return SwapTest{*observed, {static_cast<double>(hits) / static_cast<double>(half), true, 2 * half}};
-    }
-    for (int permutation = 0; permutation < settings.permutations; ++permutation) {
-        RandomStream random(settings.seed, "swapped conditions", static_cast<std::uint64_t>(permutation));
-        for (const std::size_t number : numbers)
-            signs[number] = (random.next_bits() & 1u) ? -1.0 : 1.0;
-        hits += is_as_small();
-    }
-    return SwapTest{*observed,
-                    {static_cast<double>(hits + 1) / (settings.permutations + 1.0), false,
-                     static_cast<std::uint64_t>(settings.permutations)}};
+    return SwapTest{*observed, flip_test(numbers.size(), "swapped conditions", settings,
+                                         [&](std::span<const double> of_numbers) {
+                                             for (std::size_t i = 0; i < numbers.size(); ++i)
+                                                 signs[numbers[i]] = of_numbers[i];
+                                             const std::optional<double> one =
+                                                 mean_correlation(swapped, signs);
+                                             return one && *one <= *observed + swap_rounding;
+                                         })};
 }
 
 } // namespace overt

@@ -23,7 +23,7 @@
 #include "experiment/study/map_predictions.h"
 #include "experiment/study/map_reliability.h"
 #include "experiment/study/point_distributions.h"
-#include "experiment/study/reporting.h"
+#include "experiment/study/read/reporting.h"
 #include "experiment/study/study_maps.h"
 #include "experiment/study/study_pairs.h"
 
@@ -138,13 +138,10 @@ void add_fixations_to_exposures(StudyResults& results) {
     for (ExposureRow& row : results.exposures) {
         const StudySculpture& shown = results.sculptures[static_cast<std::size_t>(row.sculpture)];
         int all = 0, own = 0;
-        for (const StudyFixation& fixation : results.fixations) {
-            if (!fixation.counted() || !fixation.part ||
-                results.trials[static_cast<std::size_t>(fixation.trial)].sculpture != row.sculpture)
-                continue;
-            ++all;
-            own += row.part == "all" || shown.part_names[*fixation.part] == row.part;
-        }
+        for_each_counted_on(results, row.sculpture, [&](const StudyFixation& fixation) {
+            all += fixation.part.has_value();
+            own += fixation.part && (row.part == "all" || shown.part_names[*fixation.part] == row.part);
+        });
         if (all > 0)
             row.share_of_fixations = static_cast<double>(own) / all;
     }

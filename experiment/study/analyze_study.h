@@ -1,7 +1,7 @@
 /// A study from its sessions: everything that tables, figures and the report show.
 #pragma once
 
-#include "experiment/study/study_reader.h"
+#include "experiment/study/read/study_reader.h"
 
 namespace overt {
 

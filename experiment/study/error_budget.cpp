@@ -65,10 +65,9 @@ LeakOfFixation leaks_on(const StudyResults& results, int sculpture, const Sculpt
         return leaks;
     std::vector<const StudyFixation*> fixations;
     std::map<std::tuple<std::uint32_t, double, double>, SharedPlace> places;
-    for (const StudyFixation& fixation : results.fixations) {
-        if (!fixation.counted() || !fixation.triangle || !(fixation.sigma_mm > 0.0) ||
-            results.trials[static_cast<std::size_t>(fixation.trial)].sculpture != sculpture)
-            continue;
+    for_each_counted_on(results, sculpture, [&](const StudyFixation& fixation) {
+        if (!fixation.triangle || !(fixation.sigma_mm > 0.0))
+            return;
         for (const SurfaceWeight& weight : surface.coarse->moved(weight_of(fixation, 1.0))) {
             const SurfacePlace& at = weight.place;
             SharedPlace& shared = places[{at.triangle, at.barycentric.x, at.barycentric.y}];
@@ -78,7 +77,7 @@ LeakOfFixation leaks_on(const StudyResults& results, int sculpture, const Sculpt
             shared.sigmas_mm.push_back(weight.sigma_mm);
         }
         fixations.push_back(&fixation);
-    }
+    });
     std::vector<const SharedPlace*> shared;
     for (const auto& [key, place] : places)
         shared.push_back(&place);

@@ -1,7 +1,7 @@
 /// How far the places of a map's fixations can be trusted, in millimetres on the surface.
 #pragma once
 
-#include "experiment/study/study_reader.h"
+#include "experiment/study/read/study_reader.h"
 
 namespace overt {
 

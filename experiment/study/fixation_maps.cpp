@@ -13,10 +13,7 @@ FixationMaps::FixationMaps(const StudyResults& results, int sculpture, const Scu
     const StudySculpture& shown = results.sculptures[static_cast<std::size_t>(sculpture)];
     const Mesh& mesh = surface.coarse->mesh();
     std::vector<std::vector<SurfaceWeight>> weights;
-    for (const StudyFixation& fixation : results.fixations) {
-        if (!fixation.counted() ||
-            results.trials[static_cast<std::size_t>(fixation.trial)].sculpture != sculpture)
-            continue;
+    for_each_counted_on(results, sculpture, [&](const StudyFixation& fixation) {
         const auto moved = surface.coarse->moved(weight_of(fixation, 1.0));
         index_of_[&fixation] = weights.size();
         std::vector<Place>& places = places_.emplace_back();
@@ -31,7 +28,7 @@ FixationMaps::FixationMaps(const StudyResults& results, int sculpture, const Scu
             weights.push_back({weight_of(fixation, 1.0)});
         else
             weights.emplace_back(moved.begin(), moved.end());
-    }
+    });
     std::vector<std::uint32_t> nodes;
     std::unique_ptr<SurfaceSmoother> smoother;
     if (surface.hats) {

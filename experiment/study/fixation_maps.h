@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "experiment/statistics/cluster_test.h"
-#include "experiment/study/study_options.h"
-#include "experiment/study/study_reader.h"
+#include "experiment/study/read/study_reader.h"
+#include "experiment/study/results/study_options.h"
 
 namespace overt {
 

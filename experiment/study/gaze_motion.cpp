@@ -38,14 +38,8 @@ GazeMotionRow motion_of(const StudyResults& results, const StudyGroup& group, co
 std::vector<GazeMotionRow> gaze_motions(const StudyResults& results, const LevelLists& levels,
                                         const StudyOptions& options) {
     std::vector<GazeMotionRow> rows;
-    for (const StudyGroup& all : make_groups(results, {}, levels))
-        rows.push_back(motion_of(results, all, options));
-    for (const std::string& column : options.by) {
-        if (column == "observer")
-            continue;
-        for (const StudyGroup& level : make_groups(results, {column}, levels))
-            rows.push_back(motion_of(results, level, options));
-    }
+    for (const StudyGroup& group : all_and_levels(results, options.by, levels))
+        rows.push_back(motion_of(results, group, options));
     return rows;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "experiment/statistics/proportion.h"
-#include "experiment/study/part_evidence.h"
+#include "experiment/study/read/part_evidence.h"
 
 namespace overt {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "experiment/study/study_groups.h"
-#include "experiment/study/study_options.h"
+#include "experiment/study/results/study_groups.h"
+#include "experiment/study/results/study_options.h"
 
 namespace overt {
 

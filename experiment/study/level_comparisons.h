@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "experiment/study/study_groups.h"
-#include "experiment/study/study_reader.h"
+#include "experiment/study/read/study_reader.h"
+#include "experiment/study/results/study_groups.h"
 
 namespace overt {
 

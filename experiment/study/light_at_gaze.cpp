@@ -45,14 +45,8 @@ std::vector<LightAtGazeRow> lights_at_gaze(const StudyResults& results, const Le
                              [](const auto& fixation) { return fixation.light.has_value(); }))
         return {};
     std::vector<LightAtGazeRow> rows;
-    for (const StudyGroup& all : make_groups(results, {}, levels))
-        rows.push_back(light_of(results, all, options));
-    for (const std::string& column : options.by) {
-        if (column == "observer")
-            continue;
-        for (const StudyGroup& level : make_groups(results, {column}, levels))
-            rows.push_back(light_of(results, level, options));
-    }
+    for (const StudyGroup& group : all_and_levels(results, options.by, levels))
+        rows.push_back(light_of(results, group, options));
     return rows;
 }
 

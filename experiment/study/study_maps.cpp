@@ -29,7 +29,7 @@ std::vector<std::vector<double>> MapMaker::densities(std::span<const std::vector
     const EuclideanKernel kernel(*surface_.geometry);
     parallel_for(static_cast<int>(maps.size()), [&](int i) {
         const auto map = static_cast<std::size_t>(i);
-        made[map] = kernel.map(maps[map]).density;
+        made[map] = kernel.density(maps[map]);
     });
     return made;
 }
@@ -84,13 +84,10 @@ std::vector<const StudyFixation*> fixations_on(const StudyResults& results, std:
 
 std::pair<double, double> sigma_range_mm(const StudyResults& results, int sculpture) {
     double least = 0.0, widest = 0.0;
-    for (const StudyFixation& fixation : results.fixations) {
-        if (fixation.counted() &&
-            results.trials[static_cast<std::size_t>(fixation.trial)].sculpture == sculpture) {
-            least = widest > 0.0 ? std::min(least, fixation.sigma_mm) : fixation.sigma_mm;
-            widest = std::max(widest, fixation.sigma_mm);
-        }
-    }
+    for_each_counted_on(results, sculpture, [&](const StudyFixation& fixation) {
+        least = widest > 0.0 ? std::min(least, fixation.sigma_mm) : fixation.sigma_mm;
+        widest = std::max(widest, fixation.sigma_mm);
+    });
     return {least, widest};
 }
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "experiment/study/study_groups.h"
-#include "experiment/study/study_options.h"
-#include "experiment/study/study_reader.h"
+#include "experiment/study/read/study_reader.h"
+#include "experiment/study/results/study_groups.h"
+#include "experiment/study/results/study_options.h"
 #include "experiment/surface/surface_smoother.h"
 
 namespace overt {

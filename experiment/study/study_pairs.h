@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "experiment/study/fixation_maps.h"
-#include "experiment/study/study_groups.h"
-#include "experiment/study/study_options.h"
-#include "experiment/study/study_reader.h"
+#include "experiment/study/read/study_reader.h"
+#include "experiment/study/results/study_groups.h"
+#include "experiment/study/results/study_options.h"
 
 namespace overt {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "experiment/study/study_results.h"
+#include "experiment/study/results/study_results.h"
 
 namespace overt {
 

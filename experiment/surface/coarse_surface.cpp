@@ -102,13 +102,4 @@ std::array<SurfaceWeight, 3> CoarseSurface::moved(const SurfaceWeight& weight) c
     return weights;
 }
 
-double CoarseSurface::mean_edge_mm() const {
-    double sum = 0.0;
-    for (const glm::uvec3& t : mesh_.triangles) {
-        for (int k = 0; k < 3; ++k)
-            sum += glm::distance(mesh_.positions[t[k]], mesh_.positions[t[(k + 1) % 3]]);
-    }
-    return mesh_.triangles.empty() ? 0.0 : sum / (3.0 * static_cast<double>(mesh_.triangles.size()));
-}
-
 } // namespace overt

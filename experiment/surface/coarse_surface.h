@@ -35,9 +35,6 @@ class CoarseSurface {
     /// A vertex as a place of this surface.
     const SurfacePlace& place_of(std::uint32_t vertex) const { return places_[vertex]; }
 
-    /// The mean edge, in millimetres.
-    double mean_edge_mm() const;
-
   private:
     void find_nearest();
 

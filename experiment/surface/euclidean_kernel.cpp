@@ -96,15 +96,12 @@ std::vector<double> EuclideanKernel::leaked_shares(const SurfacePlace& place,
     return shares;
 }
 
-EuclideanKernel::Map EuclideanKernel::map(std::span<const SurfaceWeight> weights) const {
-    GeodesicField field(geometry_);
+std::vector<double> EuclideanKernel::density(std::span<const SurfaceWeight> weights) const {
     const std::span<const double> areas = geometry_.node_areas_mm2();
     std::vector<double> density(geometry_.node_count(), 0.0);
     std::vector<std::pair<std::uint32_t, double>> nodes;
-    double whole = 0.0, leaked = 0.0;
     for (const SurfaceWeight& weight : weights) {
         const double sum = spread(geometry_.position_mm(weight.place), weight.sigma_mm, nodes);
-        whole += weight.weight;
         if (sum <= 0.0) {
             const glm::uvec3& corners = geometry_.corners(weight.place.triangle);
             for (int k = 0; k < 3; ++k) {
@@ -113,14 +110,10 @@ EuclideanKernel::Map EuclideanKernel::map(std::span<const SurfaceWeight> weights
             }
             continue;
         }
-        field.spread_from(weight.place, leak_sigmas * weight.sigma_mm);
-        for (const auto& [node, value] : nodes) {
+        for (const auto& [node, value] : nodes)
             density[node] += weight.weight * value / sum;
-            if (field.to_node(node) == GeodesicField::unreached)
-                leaked += weight.weight * value * areas[node] / sum;
-        }
     }
-    return {geometry_.at_vertices(density), whole > 0.0 ? leaked / whole : 0.0};
+    return geometry_.at_vertices(density);
 }
 
 } // namespace overt

@@ -15,24 +15,18 @@ namespace overt {
 /// corners of its triangle.
 class EuclideanKernel {
   public:
-    struct Map {
-        std::vector<double> density; ///< by vertex of the mesh, weight per mm^2
-        /// The share of the weight that came to lie farther than three sigmas along the surface: leaks over
-        /// gaps. A plane has 1.1 % there, for the Gaussian has.
-        double leaked_share = 0.0;
-    };
-
     /// The share beyond three sigmas that is no leak: exp(-9 / 2).
     static constexpr double share_on_a_plane = 0.0111089965;
 
     /// `geometry` must live as long as the kernel. May be used from any thread.
     explicit EuclideanKernel(const SurfaceGeometry& geometry);
 
-    /// Sigmas above 0.
-    Map map(std::span<const SurfaceWeight> weights) const;
+    /// By vertex of the mesh, weight per mm^2. Sigmas above 0.
+    std::vector<double> density(std::span<const SurfaceWeight> weights) const;
 
-    /// The leaked share of a weight at one place with each of these sigmas, above 0: distances along the
-    /// surface, which take nearly all the time, are found once.
+    /// The share of a weight at one place, with each of these sigmas, above 0, that comes to lie farther than
+    /// three sigmas along the surface: leaks over gaps. Distances along the surface, which take nearly all
+    /// the time, are found once.
     std::vector<double> leaked_shares(const SurfacePlace& place, std::span<const double> sigmas_mm) const;
 
   private:

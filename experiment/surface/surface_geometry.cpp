@@ -113,31 +113,7 @@ SurfaceGeometry::SurfaceGeometry(const Mesh& mesh, double mm_per_unit)
         neighbours_.push_back(static_cast<std::uint32_t>(edge));
     }
     std::partial_sum(neighbours_begin_.begin(), neighbours_begin_.end(), neighbours_begin_.begin());
-    number_components();
     triangulation_ = IntrinsicTriangulation(positions_mm_, distinct);
-}
-
-void SurfaceGeometry::number_components() {
-    constexpr auto none = ~std::uint32_t{0};
-    component_of_node_.assign(node_count(), none);
-    std::vector<std::uint32_t> open;
-    for (std::uint32_t first = 0; first < node_count(); ++first) {
-        if (component_of_node_[first] != none)
-            continue;
-        const auto component = static_cast<std::uint32_t>(component_count_++);
-        component_of_node_[first] = component;
-        open.push_back(first);
-        while (!open.empty()) {
-            const std::uint32_t node = open.back();
-            open.pop_back();
-            for (const std::uint32_t next : neighbours(node)) {
-                if (component_of_node_[next] == none) {
-                    component_of_node_[next] = component;
-                    open.push_back(next);
-                }
-            }
-        }
-    }
 }
 
 std::span<const std::uint32_t> SurfaceGeometry::neighbours(std::uint32_t node) const {

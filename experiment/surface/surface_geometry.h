@@ -1,4 +1,4 @@
-/// A mesh as a surface that things spread over: areas, neighbours, pieces, lengths in millimetres.
+/// A mesh as a surface that things spread over: areas, neighbours, lengths in millimetres.
 #pragma once
 
 #include <cstddef>
@@ -57,10 +57,6 @@ class SurfaceGeometry {
     /// Nodes that share an edge with a node, rising.
     std::span<const std::uint32_t> neighbours(std::uint32_t node) const;
 
-    /// Pieces that hang together by edges, numbered by their first node. A node of no triangle is a piece.
-    std::size_t component_count() const { return component_count_; }
-    std::uint32_t component_of(std::uint32_t node) const { return component_of_node_[node]; }
-
     /// Triangles of the surface at a node, rising.
     std::span<const std::uint32_t> triangles_at(std::uint32_t node) const;
 
@@ -71,8 +67,6 @@ class SurfaceGeometry {
     std::vector<double> at_vertices(std::span<const double> of_nodes) const;
 
   private:
-    void number_components();
-
     std::vector<std::uint32_t> node_of_vertex_;
     std::vector<glm::dvec3> positions_mm_;
     std::vector<glm::uvec3> corners_;
@@ -82,8 +76,6 @@ class SurfaceGeometry {
     std::vector<std::uint32_t> neighbours_;
     std::vector<std::size_t> triangles_begin_; ///< by node, one more at the end
     std::vector<std::uint32_t> triangles_;
-    std::vector<std::uint32_t> component_of_node_;
-    std::size_t component_count_ = 0;
     IntrinsicTriangulation triangulation_;
 };
 

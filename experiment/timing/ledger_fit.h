@@ -57,15 +57,13 @@ class LedgerFit {
     MappedTime begin_of(int refresh_in_trial) const;
 
     const RefreshFit& line() const { return line_; }
-    /// Stamps scatter so little that the flips keep them.
-    bool stamps_stand() const { return stamps_stand_; }
 
   private:
     void find_misses();
 
     std::vector<FlipRecord> flips_;
     RefreshFit line_;
-    bool stamps_stand_;
+    bool stamps_stand_; ///< they scatter so little that the flips keep them
     std::vector<FittedRefresh> times_;
     std::vector<MissedRun> runs_;
 };

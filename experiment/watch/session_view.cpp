@@ -28,8 +28,6 @@ std::string line_of_json(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Json or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(nullptr); }
-
 /// The member of a line, if it is there and of the kind that is asked for; else the value stays.
 template <class T> void take(const Json& from, const char* name, T& into) {
     const auto found = from.find(name);
@@ -58,26 +56,87 @@ template <class T> void take(const Json& from, const char* name, T& into) {
     }
 }
 
-SessionFacts read_facts(const Json& json) {
-    SessionFacts facts;
-    take(json, "protocol", facts.protocol);
-    take(json, "observer", facts.observer);
-    take(json, "folder", facts.folder);
-    take(json, "trials", facts.trials);
-    take(json, "refresh_hz", facts.refresh_hz);
-    take(json, "width_px", facts.width_px);
-    take(json, "height_px", facts.height_px);
-    take(json, "image_width_px", facts.image_width_px);
-    take(json, "image_height_px", facts.image_height_px);
-    take(json, "poses", facts.poses);
-    take(json, "has_tracker", facts.has_tracker);
-    take(json, "is_timing_unproven", facts.is_timing_unproven);
-    take(json, "drift_limit_deg", facts.drift_limit_deg);
-    take(json, "mean_limit_deg", facts.mean_limit_deg);
-    take(json, "max_limit_deg", facts.max_limit_deg);
-    take(json, "skip_reasons", facts.skip_reasons);
-    take(json, "clock_zero_s", facts.clock_zero_s);
-    return facts;
+/// Puts the members of a line's object; words are cut to a length.
+struct MemberWriter {
+    Json json = Json::object();
+    template <class T> void value(const char* name, const T& of) { json[name] = of; }
+    void value(const char* name, const std::optional<double>& of) {
+        json[name] = of ? Json(*of) : Json(nullptr);
+    }
+    void words(const char* name, const std::string& of) { json[name] = bounded(of); }
+    void words(const char* name, const std::vector<std::string>& of) {
+        json[name] = Json::array();
+        for (const std::string& one : of)
+            json[name].push_back(bounded(one));
+    }
+};
+
+struct MemberReader {
+    const Json& json;
+    template <class T> void value(const char* name, T& into) { take(json, name, into); }
+    template <class T> void words(const char* name, T& into) { take(json, name, into); }
+};
+
+// The members of each object, once for writing and reading.
+template <class Members, class Facts> void facts_members(Members& members, Facts& facts) {
+    members.words("protocol", facts.protocol);
+    members.words("observer", facts.observer);
+    members.value("folder", facts.folder);
+    members.value("trials", facts.trials);
+    members.value("refresh_hz", facts.refresh_hz);
+    members.value("width_px", facts.width_px);
+    members.value("height_px", facts.height_px);
+    members.value("image_width_px", facts.image_width_px);
+    members.value("image_height_px", facts.image_height_px);
+    members.value("poses", facts.poses);
+    members.value("has_tracker", facts.has_tracker);
+    members.value("is_timing_unproven", facts.is_timing_unproven);
+    members.value("drift_limit_deg", facts.drift_limit_deg);
+    members.value("mean_limit_deg", facts.mean_limit_deg);
+    members.value("max_limit_deg", facts.max_limit_deg);
+    members.words("skip_reasons", facts.skip_reasons);
+    members.value("clock_zero_s", facts.clock_zero_s);
+}
+
+template <class Members, class View> void view_members(Members& members, View& view) {
+    members.value("time_s", view.time_s);
+    members.value("phase", view.phase);
+    members.value("trial", view.trial);
+    members.words("task", view.task);
+    members.words("question", view.question);
+    members.words("sculpture", view.sculpture);
+    members.words("material", view.material);
+    members.value("light_file", view.light_file);
+    members.value("done", view.done);
+    members.value("failed", view.failed);
+    members.value("first_trial_s", view.first_trial_s);
+    members.value("done_before", view.done_before);
+    members.value("pose", view.pose);
+    members.value("refresh", view.refresh);
+    members.value("missed", view.missed);
+    members.value("missed_in_trial", view.missed_in_trial);
+    members.value("samples", view.samples);
+    members.value("lost", view.lost);
+    members.value("samples_in_trial", view.samples_in_trial);
+    members.value("lost_in_trial", view.lost_in_trial);
+    members.value("validation_mean_deg", view.validation_mean_deg);
+    members.value("validation_max_deg", view.validation_max_deg);
+    members.value("drift_deg", view.drift_deg);
+    members.value("tracker_is_lost", view.tracker_is_lost);
+    members.words("asks", view.asks);
+    members.value("level_rms", view.level_rms);
+    members.value("level_peak", view.level_peak);
+    members.value("is_clipping", view.is_clipping);
+    members.words("answer", view.answer);
+    members.value("dropped", view.dropped);
+    members.value("is_over", view.is_over);
+}
+
+template <class Members, class Event> void event_members(Members& members, Event& event) {
+    members.value("at_s", event.at_s);
+    members.value("trial", event.trial);
+    members.words("kind", event.kind);
+    members.words("detail", event.detail);
 }
 
 /// A point is [eye, trial, pose, at_s, sampled_us], and then [x, y] unless the eye was lost.
@@ -118,109 +177,25 @@ std::optional<ViewedCamera> read_camera(const Json& json) {
     return camera;
 }
 
-SessionView read_view(const Json& json) {
-    SessionView view;
-    take(json, "time_s", view.time_s);
-    take(json, "phase", view.phase);
-    take(json, "trial", view.trial);
-    take(json, "task", view.task);
-    take(json, "question", view.question);
-    take(json, "sculpture", view.sculpture);
-    take(json, "material", view.material);
-    take(json, "light_file", view.light_file);
-    take(json, "done", view.done);
-    take(json, "failed", view.failed);
-    take(json, "first_trial_s", view.first_trial_s);
-    take(json, "done_before", view.done_before);
-    take(json, "pose", view.pose);
-    take(json, "refresh", view.refresh);
-    take(json, "missed", view.missed);
-    take(json, "missed_in_trial", view.missed_in_trial);
-    take(json, "samples", view.samples);
-    take(json, "lost", view.lost);
-    take(json, "samples_in_trial", view.samples_in_trial);
-    take(json, "lost_in_trial", view.lost_in_trial);
-    take(json, "validation_mean_deg", view.validation_mean_deg);
-    take(json, "validation_max_deg", view.validation_max_deg);
-    take(json, "drift_deg", view.drift_deg);
-    take(json, "tracker_is_lost", view.tracker_is_lost);
-    take(json, "asks", view.asks);
-    take(json, "level_rms", view.level_rms);
-    take(json, "level_peak", view.level_peak);
-    take(json, "is_clipping", view.is_clipping);
-    take(json, "answer", view.answer);
-    take(json, "dropped", view.dropped);
-    take(json, "is_over", view.is_over);
-    return view;
-}
-
 } // namespace
 
 std::string line_of(const SessionFacts& facts) {
-    std::vector<std::string> reasons;
-    for (const std::string& reason : facts.skip_reasons)
-        reasons.push_back(bounded(reason));
-    return line_of_json({{"overt_watch", view_version},
-                         {"protocol", bounded(facts.protocol)},
-                         {"observer", bounded(facts.observer)},
-                         {"folder", facts.folder},
-                         {"trials", facts.trials},
-                         {"refresh_hz", facts.refresh_hz},
-                         {"width_px", facts.width_px},
-                         {"height_px", facts.height_px},
-                         {"image_width_px", facts.image_width_px},
-                         {"image_height_px", facts.image_height_px},
-                         {"poses", facts.poses},
-                         {"has_tracker", facts.has_tracker},
-                         {"is_timing_unproven", facts.is_timing_unproven},
-                         {"drift_limit_deg", facts.drift_limit_deg},
-                         {"mean_limit_deg", facts.mean_limit_deg},
-                         {"max_limit_deg", facts.max_limit_deg},
-                         {"skip_reasons", reasons},
-                         {"clock_zero_s", or_null(facts.clock_zero_s)}});
+    MemberWriter writer;
+    writer.value("overt_watch", view_version);
+    facts_members(writer, facts);
+    return line_of_json(writer.json);
 }
 
 std::string line_of(const SessionView& view) {
-    return line_of_json({{"state",
-                          {{"time_s", view.time_s},
-                           {"phase", view.phase},
-                           {"trial", view.trial},
-                           {"task", bounded(view.task)},
-                           {"question", bounded(view.question)},
-                           {"sculpture", bounded(view.sculpture)},
-                           {"material", bounded(view.material)},
-                           {"light_file", view.light_file},
-                           {"done", view.done},
-                           {"failed", view.failed},
-                           {"first_trial_s", or_null(view.first_trial_s)},
-                           {"done_before", view.done_before},
-                           {"pose", view.pose},
-                           {"refresh", view.refresh},
-                           {"missed", view.missed},
-                           {"missed_in_trial", view.missed_in_trial},
-                           {"samples", view.samples},
-                           {"lost", view.lost},
-                           {"samples_in_trial", view.samples_in_trial},
-                           {"lost_in_trial", view.lost_in_trial},
-                           {"validation_mean_deg", or_null(view.validation_mean_deg)},
-                           {"validation_max_deg", or_null(view.validation_max_deg)},
-                           {"drift_deg", or_null(view.drift_deg)},
-                           {"tracker_is_lost", view.tracker_is_lost},
-                           {"asks", bounded(view.asks)},
-                           {"level_rms", or_null(view.level_rms)},
-                           {"level_peak", or_null(view.level_peak)},
-                           {"is_clipping", view.is_clipping},
-                           {"answer", bounded(view.answer)},
-                           {"dropped", view.dropped},
-                           {"is_over", view.is_over}}}});
+    MemberWriter writer;
+    view_members(writer, view);
+    return line_of_json({{"state", std::move(writer.json)}});
 }
 
 std::string line_of(const ViewedEvent& event) {
-    return line_of_json({{"event",
-                          {{"at_s", event.at_s},
-                           {"trial", event.trial},
-                           {"kind", bounded(event.kind)},
-                           {"detail", bounded(event.detail)}}}});
+    MemberWriter writer;
+    event_members(writer, event);
+    return line_of_json({{"event", std::move(writer.json)}});
 }
 
 std::string line_of(std::span<const ViewedGaze> gaze) {
@@ -252,16 +227,15 @@ ViewLine read_view_line(std::string_view line) {
         return read;
     if (json.contains("overt_watch")) {
         take(json, "overt_watch", read.version);
+        MemberReader reader{json};
         if (read.version == view_version)
-            read.facts = read_facts(json);
+            facts_members(reader, read.facts.emplace());
     } else if (const auto state = json.find("state"); state != json.end() && state->is_object()) {
-        read.view = read_view(*state);
+        MemberReader reader{*state};
+        view_members(reader, read.view.emplace());
     } else if (const auto event = json.find("event"); event != json.end() && event->is_object()) {
-        read.event.emplace();
-        take(*event, "at_s", read.event->at_s);
-        take(*event, "trial", read.event->trial);
-        take(*event, "kind", read.event->kind);
-        take(*event, "detail", read.event->detail);
+        MemberReader reader{*event};
+        event_members(reader, read.event.emplace());
     } else if (const auto gaze = json.find("gaze"); gaze != json.end() && gaze->is_array()) {
         read.gaze = read_gaze(*gaze);
     } else if (const auto camera = json.find("camera"); camera != json.end() && camera->is_object()) {

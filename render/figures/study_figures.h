@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/study/study_results.h"
+#include "experiment/study/results/study_results.h"
 
 namespace overt {
 

@@ -13,7 +13,7 @@
 #include "experiment/protocol/characterisation_file.h"
 #include "experiment/protocol/fault_file.h"
 #include "experiment/scene/mesh_reader.h"
-#include "experiment/study/study_shard.h"
+#include "experiment/study/read/study_shard.h"
 #include "tests/fuzz/inputs.h"
 
 namespace overt::fuzz {

@@ -15,6 +15,7 @@
 #include "tests/devices/simulated/sitting.h"
 #include "tests/experiment/record/session_fixture.h"
 #include "tests/support/counted_calls.h"
+#include "tests/support/missed_rows.h"
 
 using namespace overt;
 
@@ -98,7 +99,7 @@ void run_quietly(const DisplayFaults& faults) {
         for (const FlipRecord& flip : record.flips(trial))
             if (flip.refresh_in_trial < 960)
                 ++rows[static_cast<std::size_t>(flip.refresh_in_trial)];
-        for (const MissedRefresh& missed : record.missed_refreshes(trial))
+        for (const MissedRefresh& missed : test::missed_rows(session, trial.id))
             ++rows.at(static_cast<std::size_t>(missed.refresh_in_trial));
         CHECK(rows == std::vector<int>(960, 1));
         CHECK(record.samples(trial).size() > 15'000);

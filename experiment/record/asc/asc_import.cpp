@@ -74,28 +74,25 @@ void insert_trial(SQLite::Database& database, const AscTrialTimes& times,
     // Nothing where no message says when it was.
     const auto screen = [&](std::string_view word) {
         const auto found = times.screens.find(word);
-        return found == times.screens.end()
-                   ? std::nullopt
-                   : std::optional<std::int64_t>(session_time(found->second).time_since_epoch().count());
+        return found == times.screens.end() ? std::nullopt : std::optional(session_time(found->second));
     };
-    SQLite::Statement insert(
-        database, "INSERT INTO trial (trial_id, sitting, trial, attempt, task, sculpture, material, status, "
+    insert_values(database,
+                  "INTO trial (trial_id, sitting, trial, attempt, task, sculpture, material, status, "
                   "started_ns, task_screen_onset_ns, presentation_onset_ns, presentation_end_ns, "
                   "response_screen_onset_ns, responded_ns, shown_refreshes, missed_refreshes, answer, "
-                  "lost_flips, lost_samples) VALUES (?,1,?,1,0,0,0,?,?,?,?,?,?,?,0,0,'',0,0)");
-    run_statement(insert, times.trial + 1, times.trial, times.is_aborted ? "aborted" : "completed",
+                  "lost_flips, lost_samples)",
+                  times.trial + 1, 1, times.trial, 1, 0, 0, 0, times.is_aborted ? "aborted" : "completed",
                   session_time(times.first), screen(task_screen_message), screen(onset_message),
-                  screen(end_message), screen(response_screen_message), screen(response_message));
+                  screen(end_message), screen(response_screen_message), screen(response_message), 0, 0, "", 0,
+                  0);
 }
 
 void insert_sitting(SQLite::Database& database, const SessionHeader& header, const AscSurvey& survey,
                     const SessionClockOf& session_time) {
-    SQLite::Statement sitting(database,
-                              "INSERT INTO sitting (sitting, started_utc, closed) VALUES (1, ?, 1)");
-    run_statement(sitting, header.started_utc);
-    SQLite::Statement pair(database, "INSERT INTO clock_pair VALUES (NULL, 1, ?1, ?2, ?1)");
+    insert_values(database, "INTO sitting (sitting, started_utc, closed)", 1, header.started_utc, 1);
     for (const TrackerTime time : {survey.first, survey.last})
-        run_statement(pair, session_time(time), static_cast<std::int64_t>(time.time_since_epoch().count()));
+        insert_values(database, "INTO clock_pair (sitting, before_ns, tracker_us, after_ns)", 1,
+                      session_time(time), time, session_time(time));
 }
 
 void add_remarks(AscImportSummary& summary, const SessionHeader& header) {

@@ -63,29 +63,6 @@ Match best_match(const SessionRecord& record, const std::vector<std::optional<in
     return best;
 }
 
-/// Reads the numbers of the file's trials.
-class NumberListener final : public AscListener {
-  public:
-    NumberListener() : cutter_(AscTrialCutter::By::trial_ids) {}
-    void header(std::string_view) override {}
-    void samples(std::span<const GazeSample>) override {
-        if (cutter_.take_sample())
-            numbers.emplace_back();
-    }
-    void event(const GazeEvent& event) override {
-        if (cutter_.take(event))
-            numbers.emplace_back();
-        if (is_trial_id(event) && !numbers.empty())
-            numbers.back() = asc_trial_number(event);
-    }
-    void malformed(std::int64_t, std::string_view, std::string_view) override {}
-
-    std::vector<std::optional<int>> numbers; ///< by the file's trial
-
-  private:
-    AscTrialCutter cutter_;
-};
-
 bool speak_for(const std::vector<ClockPair>& pairs, const AscSurvey& survey) {
     if (pairs.empty())
         return false;
@@ -183,10 +160,7 @@ AscImportSummary import_asc_into(const AscFiles& files, const fs::path& session,
             "{}: exists already and is not overwritten. Name another folder with --out.", out.string()));
     AscImportSummary summary;
     summary.survey = survey_asc(files, options.report, part_of(options.progress, 0));
-    NumberListener listener;
-    AscParser number_parser(listener);
-    files.parse(number_parser);
-    const Match match = best_match(record, listener.numbers);
+    const Match match = best_match(record, summary.survey.trial_numbers);
     if (match.attempt_of.empty())
         throw InputError(
             fmt::format("{}: no message TRIALID of this file names a trial of {}. Trials are told by "
@@ -238,10 +212,9 @@ AscImportSummary import_asc_into(const AscFiles& files, const fs::path& session,
                             files.path(), onset_message));
         SQLite::Statement forget_pairs(database, "DELETE FROM clock_pair WHERE sitting = ?");
         run_statement(forget_pairs, match.sitting);
-        SQLite::Statement insert(database, "INSERT INTO clock_pair VALUES (NULL,?,?,?,?)");
         for (const ClockPair& pair : pairs)
-            run_statement(insert, match.sitting, pair.before,
-                          static_cast<std::int64_t>(pair.other.time_since_epoch().count()), pair.after);
+            insert_values(database, "INTO clock_pair (sitting, before_ns, tracker_us, after_ns)",
+                          match.sitting, pair.before, pair.other, pair.after);
     });
     finish_imported_session(partial.path(), options.program);
     partial.publish();

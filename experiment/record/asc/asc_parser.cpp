@@ -41,17 +41,17 @@ std::size_t slot(Kind kind, Eye eye) {
 std::string AscParser::utf8(std::string_view text) {
     if (is_utf8(text))
         return std::string(text);
-    ++recoded_;
+    ++counts_.non_ascii_texts;
     return utf8_of_latin1(text);
 }
 
 void AscParser::drop_open_events() {
-    unfinished_ += std::count(open_events_.begin(), open_events_.end(), true);
+    counts_.unfinished_events += std::count(open_events_.begin(), open_events_.end(), true);
     open_events_ = {};
 }
 
 void AscParser::line(std::string_view line, std::int64_t number) {
-    ++lines_;
+    ++counts_.lines;
     number_ = number;
     if (!line.empty() && line.back() == '\r')
         line.remove_suffix(1);
@@ -144,7 +144,7 @@ void AscParser::eye_event_begin(std::string_view line, Kind kind) {
     if (!eye || !asc_time_us(words.next()))
         return bad("the begin of an event without eye or time", line);
     bool& is_open = open_events_[slot(kind, *eye)];
-    unfinished_ += is_open;
+    counts_.unfinished_events += is_open;
     is_open = true;
 }
 
@@ -184,7 +184,7 @@ void AscParser::eye_event_end(std::string_view line, Kind kind) {
                    take_number(event.peak_velocity_deg_s);
     if (!is_whole)
         return bad("an event without all its values", line);
-    no_gaze_events_ += !format_.events_are_gaze && kind != Kind::blink;
+    counts_.events_that_are_no_gaze += !format_.events_are_gaze && kind != Kind::blink;
     listener_.event(event);
 }
 
@@ -195,7 +195,7 @@ TrackerClock::duration AscParser::duration_of(std::string_view word, TrackerCloc
     const std::optional<std::int64_t> us = asc_time_us(word);
     if (us && TrackerClock::duration(*us) <= span + most_beyond)
         return TrackerClock::duration(*us);
-    ++mended_durations_;
+    ++counts_.mended_durations;
     const double interval_us = format_.rate_hz > 0.0 ? 1e6 / format_.rate_hz : 0.0;
     return span + TrackerClock::duration(static_cast<std::int64_t>(interval_us));
 }

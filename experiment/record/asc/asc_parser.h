@@ -28,6 +28,17 @@ struct AscFormat {
     bool eyes_are_declared = false;   ///< by START, SAMPLES, EVENTS or RECCFG, not only by samples of both
 };
 
+/// What was counted in the lines so far.
+struct AscCounts {
+    std::int64_t lines = 0;
+    std::int64_t mended_durations = 0;  ///< of events, that could not be: taken from their begin and end
+    std::int64_t unfinished_events = 0; ///< begins of fixations, saccades and blinks whose ends never came
+    std::int64_t samples_that_are_no_gaze = 0;
+    /// Fixations and saccades whose places are of the pupil or the head's frame: they are told without.
+    std::int64_t events_that_are_no_gaze = 0;
+    std::int64_t non_ascii_texts = 0; ///< taken for Latin-1, as they are not UTF-8
+};
+
 /// Told by an AscParser. Texts are valid only during the call.
 class AscListener {
   public:
@@ -52,22 +63,14 @@ class AscParser {
   public:
     explicit AscParser(AscListener& listener) : listener_(listener) {}
 
-    void line(std::string_view line) { this->line(line, lines_ + 1); }
+    void line(std::string_view line) { this->line(line, counts_.lines + 1); }
     /// The same of the line of this number, where others of its file were left out.
     void line(std::string_view line, std::int64_t number);
     /// There are no more lines.
     void end();
 
     const AscFormat& format() const { return format_; }
-    std::int64_t lines() const { return lines_; }
-    /// Fixations, saccades and blinks whose duration could not be, and was taken from begin and end.
-    std::int64_t mended_durations() const { return mended_durations_; }
-    /// Begins of fixations, saccades and blinks whose ends never came.
-    std::int64_t unfinished_events() const { return unfinished_; }
-    std::int64_t samples_that_are_no_gaze() const { return no_gaze_; }
-    /// Fixations and saccades whose places are of the pupil or the head's frame: they are told without.
-    std::int64_t events_that_are_no_gaze() const { return no_gaze_events_; }
-    std::int64_t non_ascii_texts() const { return recoded_; } ///< taken for Latin-1, as they are not UTF-8
+    const AscCounts& counts() const { return counts_; }
 
   private:
     void sample_line(std::string_view line);
@@ -106,8 +109,8 @@ class AscParser {
 
     AscListener& listener_;
     AscFormat format_;
-    std::int64_t lines_ = 0, number_ = 0, unfinished_ = 0, no_gaze_ = 0, no_gaze_events_ = 0, recoded_ = 0,
-                 mended_durations_ = 0;
+    AscCounts counts_;
+    std::int64_t number_ = 0;
     bool in_calibration_ = false;                ///< lines without a time belong to it
     TrackerTime last_time_;                      ///< of any line
     std::optional<TrackerTime> recording_start_; ///< of what goes on; nothing outside of START and END

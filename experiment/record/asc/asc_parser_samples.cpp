@@ -89,7 +89,7 @@ void AscParser::eyes_by_status(std::string_view line) {
 void AscParser::deliver(const Samples& taken) {
     last_sample_ = last_time_ = taken.of_eyes[0].sampled_at;
     if (!format_.is_gaze) {
-        ++no_gaze_;
+        ++counts_.samples_that_are_no_gaze;
         return;
     }
     listener_.samples(std::span(taken.of_eyes).first(static_cast<std::size_t>(taken.eyes)));

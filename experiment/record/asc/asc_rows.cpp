@@ -74,10 +74,8 @@ void AscRows::event(const GazeEvent& event) {
     if (event.kind != GazeEvent::Kind::note)
         take_time(event.end);
     if (event.kind == GazeEvent::Kind::message && !is_after_) {
-        if (is_trial_id(event)) {
-            times_.number = asc_trial_number(event);
+        if (is_trial_id(event))
             times_.first = event.start;
-        }
         const std::string_view text = event.text;
         const std::string_view word = text.substr(0, text.find(' '));
         constexpr std::array words{task_screen_message, onset_message, end_message, response_screen_message,

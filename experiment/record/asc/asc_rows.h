@@ -18,7 +18,6 @@ namespace overt {
 /// its end, and does not make it begin earlier.
 struct AscTrialTimes {
     int trial = -1;                                          ///< in the file, from 0
-    std::optional<int> number;                               ///< that its TRIALID names
     TrackerTime first;                                       ///< of its TRIALID, or of its first line
     std::map<std::string, TrackerTime, std::less<>> screens; ///< by the messages of asc_trial.h
     bool is_aborted = false;

@@ -75,7 +75,8 @@ void Surveyor::take_time(TrackerTime time) {
 void Surveyor::samples(std::span<const GazeSample> samples) {
     const TrackerTime time = samples.front().sampled_at;
     take_time(time);
-    by_ids_.take_sample();
+    if (by_ids_.take_sample())
+        survey_.trial_numbers.emplace_back();
     by_recordings_.take_sample();
     if (last_sample_ && time < *last_sample_ && !clock_began_anew_) {
         clock_began_anew_ = true;
@@ -95,7 +96,10 @@ void Surveyor::samples(std::span<const GazeSample> samples) {
 }
 
 void Surveyor::event(const GazeEvent& event) {
-    by_ids_.take(event);
+    if (by_ids_.take(event))
+        survey_.trial_numbers.emplace_back();
+    if (is_trial_id(event) && !survey_.trial_numbers.empty())
+        survey_.trial_numbers.back() = asc_trial_number(event);
     by_recordings_.take(event);
     ++survey_.events;
     if (event.kind == Kind::note)
@@ -209,12 +213,7 @@ AscSurvey survey_asc(const AscFiles& files, const AscReport& report,
     AscParser parser(surveyor);
     files.parse(parser, progress);
     survey.format = parser.format();
-    survey.lines = parser.lines();
-    survey.mended_durations = parser.mended_durations();
-    survey.unfinished_events = parser.unfinished_events();
-    survey.samples_that_are_no_gaze = parser.samples_that_are_no_gaze();
-    survey.events_that_are_no_gaze = parser.events_that_are_no_gaze();
-    survey.non_ascii_texts = parser.non_ascii_texts();
+    static_cast<AscCounts&>(survey) = parser.counts();
     survey.cut_by = surveyor.has_trial_ids() ? AscTrialCutter::By::trial_ids : AscTrialCutter::By::recordings;
     survey.trials = surveyor.trials(survey.cut_by);
     survey.rate_hz = survey.format.highest_rate_hz;

@@ -43,10 +43,11 @@ class AscTrialCutter {
 std::optional<int> asc_trial_number(const GazeEvent& event);
 bool is_trial_id(const GazeEvent& event);
 
-struct AscSurvey {
+struct AscSurvey : AscCounts {
     AscTrialCutter::By cut_by = AscTrialCutter::By::recordings;
     int trials = 0;
-    AscFormat format; ///< at the file's end
+    std::vector<std::optional<int>> trial_numbers; ///< that their TRIALIDs name, cut by these
+    AscFormat format;                              ///< at the file's end
     std::string header;
     std::int64_t samples = 0, samples_without_gaze = 0, events = 0;
     bool has_left = false, has_right = false; ///< of all recordings
@@ -56,10 +57,7 @@ struct AscSurvey {
     std::optional<glm::dvec2> screen_mm;
     std::optional<double> viewing_distance_mm, refresh_hz;
     std::optional<glm::dvec2> px_per_deg;
-    std::int64_t lines = 0, skipped_lines = 0;
-    std::int64_t mended_durations = 0; ///< of events, that could not be
-    std::int64_t unfinished_events = 0, samples_that_are_no_gaze = 0, events_that_are_no_gaze = 0;
-    std::int64_t non_ascii_texts = 0;
+    std::int64_t skipped_lines = 0;
 };
 
 /// "LINE: why: the line", which is cut short and of ASCII.

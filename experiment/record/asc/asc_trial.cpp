@@ -49,6 +49,12 @@ AscTrial::Line AscTrial::message_at(TrackerTime at, std::string text) const {
     return line_of(std::move(event));
 }
 
+TrackerTime AscTrial::latest(TrackerTime at) const {
+    for (const Line& line : lines_)
+        at = std::max(at, line.at);
+    return at;
+}
+
 bool AscTrial::has(std::string_view word) const {
     return std::any_of(lines_.begin(), lines_.end(), [&](const Line& line) {
         return line.event.kind == Kind::message && Words(line.event.text).next() == word;
@@ -142,11 +148,17 @@ std::vector<std::pair<std::string_view, SessionTime>> screens_of(const TrialReco
 
 namespace {
 
-std::string condition_text(const SessionHeader& header, const TrialRecord& trial) {
-    std::string text = fmt::format("CONDITION trial={}", trial.trial.index + 1);
-    for (const auto& [name, value] : variables_of(header, trial.trial))
-        text += fmt::format(" {}={}", name, value);
-    return text + fmt::format(" attempt={}", trial.attempt);
+/// The messages that say what a trial is of.
+std::vector<std::string> condition_texts(const SessionHeader& header, const TrialRecord& trial) {
+    std::vector<std::string> texts{fmt::format("CONDITION trial={}", trial.trial.index + 1)};
+    for (const auto& [name, value] : variables_of(header, trial.trial)) {
+        texts.front() += fmt::format(" {}={}", name, value);
+        texts.push_back(fmt::format("!V TRIAL_VAR {} {}", name, value));
+    }
+    texts.front() += fmt::format(" attempt={}", trial.attempt);
+    if (const RecordedStimulus* const stimulus = stimulus_of(header, trial.trial.condition))
+        texts.push_back(fmt::format("!V TRIAL_VAR frames {}", ascii_of(stimulus->source)));
+    return texts;
 }
 
 std::string result_text(const TrialRecord& trial) {
@@ -219,11 +231,8 @@ void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
         lines_.push_back(line_of(std::move(start)));
         add(first, fmt::format("!MODE RECORD CR {:.0f} 2 1 {}", layout_.rate_hz, layout_.eyes()));
     }
-    add(first, condition_text(header, trial));
-    for (const auto& [name, value] : variables_of(header, trial.trial))
-        add(first, fmt::format("!V TRIAL_VAR {} {}", name, value));
-    if (const RecordedStimulus* const stimulus = stimulus_of(header, trial.trial.condition))
-        add(first, fmt::format("!V TRIAL_VAR frames {}", ascii_of(stimulus->source)));
+    for (const std::string& text : condition_texts(header, trial))
+        add(first, text);
     for (Line& line : within)
         lines_.push_back(std::move(line));
     if (span) {
@@ -235,10 +244,7 @@ void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
                                              TrackerClock::duration(interval_us));
         lines_.push_back(line_of(std::move(end)));
     }
-    TrackerTime last = first;
-    for (const Line& line : lines_)
-        last = std::max(last, line.at);
-    add(last + std::chrono::milliseconds(1), result_text(trial));
+    add(latest(first) + std::chrono::milliseconds(1), result_text(trial));
     settle_places();
 }
 
@@ -259,24 +265,16 @@ void AscTrial::add_missing(const SessionRecord& record, const TrialRecord& trial
     }
     if (header.stimuli.empty())
         return; // of a recording made elsewhere, which says itself what was shown
-    if (!has("CONDITION")) {
-        const TrackerTime at = span ? span->first : first;
-        insert(message_at(at, condition_text(header, trial)));
-        for (const auto& [name, value] : variables_of(header, trial.trial))
-            insert(message_at(at, fmt::format("!V TRIAL_VAR {} {}", name, value)));
-        if (const RecordedStimulus* const stimulus = stimulus_of(header, trial.trial.condition))
-            insert(message_at(at, fmt::format("!V TRIAL_VAR frames {}", ascii_of(stimulus->source))));
-    }
+    if (!has("CONDITION"))
+        for (const std::string& text : condition_texts(header, trial))
+            insert(message_at(span ? span->first : first, text));
     if (clock_map)
         for (const auto& [word, screen] : screens_of(trial))
             if (!has(word) && !(word == end_message && has(earlier_end_message)))
                 insert(message_at(clock_map->to_other(screen), std::string(word)));
-    if (!has("TRIAL_RESULT")) {
-        TrackerTime last = span ? span->second : first;
-        for (const Line& line : lines_)
-            last = std::max(last, line.at);
-        lines_.push_back(message_at(last + std::chrono::milliseconds(1), result_text(trial)));
-    }
+    if (!has("TRIAL_RESULT"))
+        lines_.push_back(message_at(latest(span ? span->second : first) + std::chrono::milliseconds(1),
+                                    result_text(trial)));
 }
 
 /// The parser of OpenSesame's users knows a trial by start_trial and end_trial, and cuts samples by phases.
@@ -299,10 +297,7 @@ void AscTrial::frame_for_opensesame(const SessionRecord& record, const TrialReco
         if (found != lines_.end())
             lines_.insert(found + 1, message_at(found->at, phase));
     }
-    TrackerTime last = begin;
-    for (const Line& line : lines_)
-        last = std::max(last, line.at);
-    lines_.push_back(message_at(last, "end_trial"));
+    lines_.push_back(message_at(latest(begin), "end_trial"));
     settle_places();
 }
 

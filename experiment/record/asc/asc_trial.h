@@ -59,6 +59,8 @@ class AscTrial {
                     const std::optional<ClockMap>& clock_map);
     void frame_for_opensesame(const SessionRecord& record, const TrialRecord& trial);
     bool has(std::string_view word) const;
+    /// The latest time of the lines, or this if they are earlier.
+    TrackerTime latest(TrackerTime at) const;
     void settle_places();
 
     AscLayout layout_;

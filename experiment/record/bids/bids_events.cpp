@@ -12,8 +12,8 @@
 #include "experiment/base/json_text.h"
 #include "experiment/record/bids/bids_names.h"
 #include "experiment/record/preview_file.h"
+#include "experiment/record/tables/attempt_cells.h"
 #include "experiment/record/tables/export_tables.h"
-#include "experiment/record/tables/joined_cells.h"
 #include "experiment/record/tables/table_writer.h"
 
 namespace overt {
@@ -40,9 +40,15 @@ struct BidsEvent {
     SessionTime from, to; ///< the same where something else ended it
     std::optional<SessionDuration> response_time = {};
     std::string stimulus_file = {};
-    const TrialOutcome* outcome = nullptr; ///< of the attempt itself, once it has one
-    std::string value = {}, device = {};   ///< of a button or a marker
+    const TrialRecord* ended = nullptr;  ///< the attempt, where the event is all of it and it has an outcome
+    std::string value = {}, device = {}; ///< of a button or a marker
+    operator const TrialRecord&() const { return *attempt; }
 };
+
+/// A cell of the attempt's outcome.
+auto of_ended(auto of) {
+    return [of](const BidsEvent& row) { return of_maybe(row.ended, of); };
+}
 
 /// `header` must outlive it.
 RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero,
@@ -56,13 +62,11 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
         "",
         "",
         {
-            {{"onset",
-              "Begin of the event by the session's clock, from the first gaze sample of the run",
-              "s",
-              {}},
-             [zero](auto& to, auto& row) { to.seconds(row.from - zero); }},
-            {{"duration", "Until it gave way; n/a where it was cut off", "s", {}},
-             [](auto& to, auto& row) { row.to > row.from ? to.seconds(row.to - row.from) : to.missing(); }},
+            {{"onset", "Begin of the event by the session's clock, from the first gaze sample of the run",
+              "s"},
+             [zero](auto& row) { return row.from - zero; }},
+            {{"duration", "Until it gave way; n/a where it was cut off", "s"},
+             [](auto& row) { return when(row.to > row.from, row.to - row.from); }},
             {{"trial_type",
               "What it was",
               "",
@@ -72,24 +76,21 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
                {"response", "the screen during the answer"},
                {"button", "a button of a response box was pressed"},
                {"marker", "another device was told of an event"}}},
-             [](auto& to, auto& row) { to.word(row.what); }},
-            {{"response_time", "From the onset of the response screen to the end of the answer", "s", {}},
-             [](auto& to, auto& row) { row.response_time ? to.seconds(*row.response_time) : to.missing(); }},
-            {{"stim_file", "First frame of the animated stimulus, in the folder stimuli", "", {}},
-             [](auto& to, auto& row) { to.text(row.stimulus_file); }},
+             &BidsEvent::what},
+            {{"response_time", "From the onset of the response screen to the end of the answer", "s"},
+             &BidsEvent::response_time},
+            {{"stim_file", "First frame of the animated stimulus, in the folder stimuli"},
+             &BidsEvent::stimulus_file},
             {{"tracker_onset",
               "Begin of the event by the tracker's own clock, as the timestamps of the samples; by the line "
               "through the readings of both clocks. The two clocks run apart: onsets are by the session's",
-              "us",
-              {}},
-             [clock_map](auto& to, auto& row) {
-                 clock_map ? to.integer(clock_map->to_other(row.from).time_since_epoch().count())
-                           : to.missing();
+              "us"},
+             [clock_map](auto& row) {
+                 return of_maybe(clock_map,
+                                 [&](auto& map) { return microseconds_of(map.to_other(row.from)); });
              }},
-            {{"trial", "Position of the trial in the observer's order, from 1", "", {}},
-             [](auto& to, auto& row) { to.integer(row.attempt->trial.index + 1); }},
-            {{"attempt", "Which attempt at this trial, from 1", "", {}},
-             [](auto& to, auto& row) { to.integer(row.attempt->attempt); }},
+            {{"trial", "Position of the trial in the observer's order, from 1"}, number_of_trial},
+            {{"attempt", "Which attempt at this trial, from 1"}, attempt_number},
             {{"status",
               "How the attempt ended",
               "",
@@ -97,66 +98,36 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
                {"aborted", "broken off, or failed and to come again"},
                {"interrupted", "cut off when the program was killed, and the session went on later"},
                {"open", "cut off when the program was killed"}}},
-             [](auto& to, auto& row) { to.word(name_of(row.attempt->status)); }},
+             attempt_status},
             {{"counts",
               "Whether this is the attempt that counts",
               "",
               {{"yes", "completed"},
                {"no", "not completed, or its block was begun again later: the attempt there counts"}}},
-             [](auto& to, auto& row) { to.word(row.attempt->counts ? "yes" : "no"); }},
+             attempt_counts},
             {{"block", "The block that the trial is of, where there are blocks", "", blocks},
-             [&header](auto& to, auto& row) {
-                 const std::string* const block = item_of(header.blocks, row.attempt->trial.block);
-                 block ? to.text(*block) : to.missing();
-             }},
-            {{"task", "Which task the trial was of", "", tasks},
-             [&header](auto& to, auto& row) { to.text(item(header.tasks, row.attempt->trial.task).id); }},
-            {{"question", "The question as it was asked", "", {}},
-             [&header](auto& to, auto& row) {
-                 to.text(item(header.tasks, row.attempt->trial.task).question);
-             }},
+             block_of(header)},
+            {{"task", "Which task the trial was of", "", tasks}, task_of(header)},
+            {{"question", "The question as it was asked"}, question_of(header)},
             {{"sculpture", "Which sculpture was shown", "", levels_of(header.sculptures)},
-             [&header](auto& to, auto& row) {
-                 to.text(item(header.sculptures, row.attempt->trial.condition.sculpture).id);
-             }},
+             sculpture_of(header)},
             {{"material", "In which material it was shown", "", levels_of(header.materials)},
-             [&header](auto& to, auto& row) {
-                 to.text(item(header.materials, row.attempt->trial.condition.material).id);
+             material_of(header)},
+            {{"frames", "How the frames that were shown had been made"},
+             [&header](const TrialRecord& attempt) {
+                 return of_maybe(stimulus_of(header, attempt.trial.condition), &RecordedStimulus::source);
              }},
-            {{"frames", "How the frames that were shown had been made", "", {}},
-             [&header](auto& to, auto& row) {
-                 const RecordedStimulus* const stimulus = stimulus_of(header, row.attempt->trial.condition);
-                 stimulus ? to.text(stimulus->source) : to.missing();
-             }},
-            {{"timing",
-              "What proves the times of flips, and with them missed refreshes; n/a: not recorded",
-              "",
-              {{"proven", "real vertical blanks of the display"},
-               {"unproven", "nothing: which refreshes were missed is not known"},
-               {"none", "time was virtual, or there was no display"}}},
-             [&header](auto& to, auto&) {
-                 header.display.timing.empty() ? to.missing() : to.word(header.display.timing);
-             }},
+            {timing_column(), timing_of(header)},
             {{"missed_refreshes",
-              "Refreshes of the display that went by with an old picture; n/a also where timing is unproven",
-              "",
-              {}},
-             [&header](auto& to, auto& row) {
-                 row.outcome && !header.display.is_timing_unproven()
-                     ? to.integer(row.outcome->missed_refreshes)
-                     : to.missing();
-             }},
-            {{"drift_deg", "Gaze error at the drift check", "deg", {}},
-             [](auto& to, auto& row) {
-                 row.outcome&& row.outcome->drift ? to.fixed(row.outcome->drift->value, angle_decimals)
-                                                  : to.missing();
-             }},
-            {{"value", "Of a button, its name; of a marker, its code, or its text where it has none", "", {}},
-             [](auto& to, auto& row) { row.device.empty() ? to.missing() : to.text(row.value); }},
-            {{"device", "The response box, or the output of markers, as the protocol calls it", "", {}},
-             [](auto& to, auto& row) { row.device.empty() ? to.missing() : to.text(row.device); }},
-            {{"answer", "The answer, where it was taken down", "", {}},
-             [](auto& to, auto& row) { row.outcome ? to.text(row.outcome->answer) : to.missing(); }},
+              "Refreshes of the display that went by with an old picture; n/a also where timing is unproven"},
+             of_ended(missed_refreshes_of(header))},
+            {{"drift_deg", "Gaze error at the drift check", "deg"}, of_ended(attempt_drift)},
+            {{"value", "Of a button, its name; of a marker, its code, or its text where it has none"},
+             [](auto& row) { return when(!row.device.empty(), row.value); }},
+            {{"device", "The response box, or the output of markers, as the protocol calls it"},
+             &BidsEvent::device},
+            {{"answer", "The answer, where it was taken down"},
+             of_ended([](auto& attempt) { return attempt.outcome.answer; })},
         }};
 }
 
@@ -186,7 +157,7 @@ void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTim
                   .what = "trial",
                   .from = trial.started,
                   .to = end,
-                  .outcome = trial.has_outcome() ? &outcome : nullptr});
+                  .ended = trial.has_outcome() ? &trial : nullptr});
     if (was(outcome.task_screen_onset))
         to.push_back({&trial, "question", outcome.task_screen_onset, outcome.task_screen_onset});
     if (was(outcome.presentation_onset))

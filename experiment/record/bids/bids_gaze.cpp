@@ -24,18 +24,12 @@ using Json = nlohmann::ordered_json;
 /// BIDS wants these three first, in this order.
 JoinedColumns first_columns() {
     return {
-        {{"timestamp", "Time of the sample by the tracker's own clock", "us", {}},
-         [](auto& to, auto& row) { to.integer(row.sample.sampled_at.time_since_epoch().count()); }},
-        {{"x_coordinate",
-          "Gaze on the screen, to the right from its left edge, as the tracker gave it",
-          "pixel",
-          {}},
-         [](auto& to, auto& row) { write_gaze_x(to, row.sample); }},
-        {{"y_coordinate",
-          "Gaze on the screen, downwards from its top edge, as the tracker gave it",
-          "pixel",
-          {}},
-         [](auto& to, auto& row) { write_gaze_y(to, row.sample); }},
+        {{"timestamp", "Time of the sample by the tracker's own clock", "us"}, tracker_time_us},
+        {{"x_coordinate", "Gaze on the screen, to the right from its left edge, as the tracker gave it",
+          "pixel"},
+         gaze_x},
+        {{"y_coordinate", "Gaze on the screen, downwards from its top edge, as the tracker gave it", "pixel"},
+         gaze_y},
     };
 }
 
@@ -45,9 +39,8 @@ RowLayout<JoinedRow> physio_layout(bool pupil_is_diameter) {
         {{"pupil_size",
           pupil_is_diameter ? "Pupil diameter, in the tracker's own unit"
                             : "Pupil area, in the tracker's own unit",
-          "arbitrary",
-          {}},
-         [](auto& to, auto& row) { write_pupil(to, row.sample); }},
+          "arbitrary"},
+         pupil_size},
     });
     return layout;
 }
@@ -106,7 +99,7 @@ Json EyeFiles::side_car(const Table& table, double start_s, int run) const {
     Json json = bids_tracker(record_, run, eye_);
     json["StartTime"] = start_s;
     json["PhysioType"] = "eyetrack";
-    json["RecordedEye"] = eye_ == Eye::left ? "left" : "right";
+    json["RecordedEye"] = word_of_eye(eye_);
     json["SampleCoordinateSystem"] = "gaze-on-screen";
     Json columns = Json::array();
     for (const TableColumn& column : table.columns)

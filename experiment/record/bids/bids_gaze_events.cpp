@@ -44,12 +44,10 @@ RowLayout<PhysioEvent> physio_events_layout() {
         "",
         "",
         {
-            {{"onset",
-              "Begin of the event by the tracker's own clock, as the timestamps of the samples",
-              "us",
-              {}},
-             [](auto& to, auto& row) { to.integer(row.event.start.time_since_epoch().count()); }},
-            {{"duration", "From the begin of the first to the end of the last sample in it", "s", {}},
+            {{"onset", "Begin of the event by the tracker's own clock, as the timestamps of the samples",
+              "us"},
+             [](auto& row) { return microseconds_of(row.event.start); }},
+            {{"duration", "From the begin of the first to the end of the last sample in it", "s"},
              [](auto& to, auto& row) {
                  row.is_of_eye ? to.fixed(1e-6 * static_cast<double>(row.event.duration.count()), 6)
                                : to.integer(0);
@@ -60,11 +58,11 @@ RowLayout<PhysioEvent> physio_events_layout() {
               {{"fixation", "the eye rested"},
                {"saccade", "the eye jumped"},
                {"blink", "there was no pupil"}}},
-             [](auto& to, auto& row) { row.is_of_eye ? to.word(name_of(row.event.kind)) : to.missing(); }},
+             [](auto& row) { return when(row.is_of_eye, name_of(row.event.kind)); }},
             {{"blink", "Whether a blink lies in a saccade", "", {{"0", "no"}, {"1", "yes: it may be none"}}},
-             [](auto& to, auto& row) { row.has_blink ? to.integer(*row.has_blink) : to.missing(); }},
-            {{"message", "Text sent to the tracker or by it; BUTTON and INPUT are its own ports", "", {}},
-             [](auto& to, auto& row) { row.is_of_eye ? to.missing() : to.text(message_of(row.event)); }},
+             &PhysioEvent::has_blink},
+            {{"message", "Text sent to the tracker or by it; BUTTON and INPUT are its own ports"},
+             [](auto& row) { return when(!row.is_of_eye, message_of(row.event)); }},
         }};
     layout.add<EventRow>(event_value_columns("pixel", "arbitrary"));
     return layout;

@@ -12,17 +12,12 @@ namespace {
 FlipRecord read_flip(Query& row, int trial) {
     FlipRecord flip;
     flip.trial = trial;
-    flip.refresh_in_trial = row.small();
-    flip.report.refresh.value = row.integer();
-    flip.planned.value = row.small();
-    flip.shown.value = row.small();
-    flip.pose.value = row.small();
-    flip.report.requested = row.session_time();
-    flip.report.swapped = row.session_time();
-    flip.report.vertical_blank = row.session_time();
-    flip.report.source = static_cast<VblankSource>(row.small());
-    flip.missed_refreshes = row.small();
-    flip.report.uncertainty = SessionDuration(row.integer());
+    FlipReport& report = flip.report;
+    int source = 0;
+    row.read(flip.refresh_in_trial, report.refresh.value, flip.planned.value, flip.shown.value,
+             flip.pose.value, report.requested, report.swapped, report.vertical_blank, source,
+             flip.missed_refreshes, report.uncertainty);
+    report.source = static_cast<VblankSource>(source);
     return flip;
 }
 
@@ -46,27 +41,10 @@ RecordedAnswer read_answer(Query& row, int trial) {
             fmt::format("table answer_recording, trial {}: it names a file outside of the session, "
                         "\"{}\": the record is damaged, or was not made by overt.",
                         trial, answer.file));
-    answer.sha256 = row.text();
-    answer.device = row.text();
-    answer.sample_rate_hz = row.real();
-    answer.measured_rate_hz = row.real();
-    answer.bits = row.small();
-    answer.input_latency = SessionDuration(row.integer());
-    answer.samples = row.integer();
-    answer.onset_sample = row.real();
-    answer.onset_uncertainty = SessionDuration(row.integer());
-    answer.overruns = row.integer();
-    answer.lost_samples = row.integer();
-    answer.peak_dbfs = row.real();
-    answer.noise_dbfs = row.real();
-    answer.clipped_samples = row.integer();
-    answer.fault = row.text();
-    const auto time_or_nothing = [&]() -> std::optional<SessionDuration> {
-        const SessionDuration time(row.integer());
-        return row.integer() == 0 ? std::optional(time) : std::nullopt;
-    };
-    answer.voice_onset = time_or_nothing();
-    answer.voice_end = time_or_nothing();
+    row.read(answer.sha256, answer.device, answer.sample_rate_hz, answer.measured_rate_hz, answer.bits,
+             answer.input_latency, answer.samples, answer.onset_sample, answer.onset_uncertainty,
+             answer.overruns, answer.lost_samples, answer.peak_dbfs, answer.noise_dbfs,
+             answer.clipped_samples, answer.fault, answer.voice_onset, answer.voice_end);
     return answer;
 }
 
@@ -87,21 +65,6 @@ std::vector<FlipRecord> SessionRecord::flips(const TrialRecord& trial) const {
                         "damaged.",
                         file_.string(), trial.trial.index + 1));
     return rows;
-}
-
-std::vector<MissedRefresh> SessionRecord::missed_refreshes(const TrialRecord& trial) const {
-    return reading_session(file_, [&] {
-        return read_later_rows(
-            *database_, "missed_refresh",
-            "SELECT refresh_in_trial, refresh, planned, shown, pose, vertical_blank_ns, "
-            "uncertainty_ns FROM missed_refresh WHERE trial_id = ? ORDER BY refresh_in_trial",
-            [&](Query& row) {
-                return MissedRefresh{
-                    trial.trial.index, row.small(),   {row.integer()},    {row.small()},
-                    {row.small()},     {row.small()}, row.session_time(), SessionDuration(row.integer())};
-            },
-            trial.id);
-    });
 }
 
 std::vector<GazeSample> SessionRecord::samples(const TrialRecord& trial) const {
@@ -163,8 +126,7 @@ SessionRecord::Eyes SessionRecord::eyes(int sitting) const {
         row.bind(1, sitting);
         row.step();
         Eyes eyes;
-        eyes.left = row.integer() != 0;
-        eyes.right = row.integer() != 0;
+        row.read(eyes.left, eyes.right);
         return eyes;
     });
 }
@@ -175,8 +137,7 @@ std::optional<RecordedAnswer> SessionRecord::answer_recording(const TrialRecord&
             *database_, "answer_recording",
             "SELECT file, sha256, device, sample_rate_hz, measured_rate_hz, bits, input_latency_ns, samples, "
             "onset_sample, onset_uncertainty_ns, overruns, lost_samples, peak_dbfs, noise_dbfs, "
-            "clipped_samples, fault, COALESCE(voice_onset_ns, 0), voice_onset_ns IS NULL, "
-            "COALESCE(voice_end_ns, 0), voice_end_ns IS NULL FROM answer_recording WHERE trial_id = ?",
+            "clipped_samples, fault, voice_onset_ns, voice_end_ns FROM answer_recording WHERE trial_id = ?",
             [&](Query& row) { return read_answer(row, trial.trial.index); }, trial.id);
         return answers.empty() ? std::nullopt : std::optional(answers.front());
     });

@@ -102,11 +102,9 @@ class SessionRecord {
     /// All attempts, in the order in which they were made.
     const std::vector<TrialRecord>& trials() const { return trials_; }
 
-    /// In the order in which they were written.
+    /// In the order in which they were written. Which refreshes were missed is told by ledger(): the record's
+    /// rows of them are what the presenting program knew at once.
     std::vector<FlipRecord> flips(const TrialRecord& trial) const;
-    /// In the order of their refreshes. Sessions of earlier programs name none, and have them only as counts
-    /// in the flips.
-    std::vector<MissedRefresh> missed_refreshes(const TrialRecord& trial) const;
     std::vector<GazeSample> samples(const TrialRecord& trial) const;
     /// The same in pieces of at most `most` samples, so that memory does not grow with the trial.
     void read_samples(const TrialRecord& trial, std::size_t most,

@@ -44,9 +44,7 @@ std::vector<RecordedObserverField> SessionRecord::observer_fields() const {
         return read_later_rows(*database_, "observer_field",
                                "SELECT id, title, value FROM observer_field ORDER BY n", [](Query& row) {
                                    RecordedObserverField field;
-                                   field.id = row.text();
-                                   field.title = row.text();
-                                   field.value = row.text();
+                                   row.read(field.id, field.title, field.value);
                                    return field;
                                });
     });

@@ -27,33 +27,19 @@ TrialOutcome::Afterwards afterwards_from(const std::string& word) {
 
 TrialRecord read_trial(Query& row) {
     TrialRecord record;
-    record.id = row.integer();
-    record.sitting = row.small();
-    record.trial.index = row.small();
-    record.attempt = row.small();
-    record.trial.task = row.small();
-    record.trial.condition.sculpture = row.small();
-    record.trial.condition.material = row.small();
-    record.status = status_from(row.text());
-    record.started = row.session_time();
+    Trial& trial = record.trial;
     TrialOutcome& outcome = record.outcome;
+    std::string status, afterwards;
+    row.read(record.id, record.sitting, trial.index, record.attempt, trial.task, trial.condition.sculpture,
+             trial.condition.material, status, record.started, outcome.task_screen_onset,
+             outcome.presentation_onset, outcome.presentation_end, outcome.response_screen_onset,
+             outcome.responded_at, outcome.shown_refreshes, outcome.missed_refreshes, outcome.drift,
+             outcome.answer, record.lost_flips, record.lost_samples, outcome.failure, afterwards,
+             record.is_superseded);
+    record.status = status_from(status);
+    outcome.afterwards = afterwards_from(afterwards);
     outcome.status = record.status == TrialRecord::Status::completed ? TrialOutcome::Status::completed
                                                                      : TrialOutcome::Status::aborted;
-    outcome.task_screen_onset = row.session_time();
-    outcome.presentation_onset = row.session_time();
-    outcome.presentation_end = row.session_time();
-    outcome.response_screen_onset = row.session_time();
-    outcome.responded_at = row.session_time();
-    outcome.shown_refreshes = row.small();
-    outcome.missed_refreshes = row.small();
-    if (const auto drift_deg = row.optional_real())
-        outcome.drift = Degrees{*drift_deg};
-    outcome.answer = row.text();
-    record.lost_flips = row.integer();
-    record.lost_samples = row.integer();
-    outcome.failure = row.text();
-    outcome.afterwards = afterwards_from(row.text());
-    record.is_superseded = row.integer() != 0;
     record.counts = record.status == TrialRecord::Status::completed && !record.is_superseded;
     return record;
 }
@@ -66,14 +52,9 @@ void add_response_boxes(const SQLite::Database& database, std::vector<TrialRecor
                              "ON attempt_id = trial.trial_id AND at_ns = responded_ns "
                              "WHERE is_down = 1 AND used_by = 'observer' AND meaning <> ''");
          row.step();) {
-        const std::int64_t id = row.integer();
-        const auto trial = std::ranges::find(trials, id, &TrialRecord::id);
-        std::string box = row.text();
-        const SessionDuration uncertainty(row.integer());
-        if (trial == trials.end())
-            continue;
-        trial->response_box = std::move(box);
-        trial->response_uncertainty = uncertainty;
+        const auto trial = std::ranges::find(trials, row.integer(), &TrialRecord::id);
+        if (trial != trials.end())
+            row.read(trial->response_box, trial->response_uncertainty);
     }
 }
 
@@ -83,12 +64,11 @@ void add_presses(const SQLite::Database& database, std::vector<TrialRecord>& tri
         return;
     for (Query row(database, "SELECT trial_id, uncertainty_ns FROM response_press"); row.step();) {
         const auto trial = std::ranges::find(trials, row.integer(), &TrialRecord::id);
-        const SessionDuration uncertainty(row.integer());
         if (trial == trials.end())
             continue;
-        trial->outcome.responded_uncertainty = uncertainty;
+        row.read(trial->outcome.responded_uncertainty);
         if (!trial->response_uncertainty)
-            trial->response_uncertainty = uncertainty;
+            trial->response_uncertainty = trial->outcome.responded_uncertainty;
     }
 }
 
@@ -99,8 +79,7 @@ void add_swap_modes(const SQLite::Database& database, std::vector<TrialRecord>& 
          row.step();) {
         const auto trial = std::ranges::find(trials, row.integer(), &TrialRecord::id);
         SwapModes swaps;
-        for (int* const count : {&swaps.flipped, &swaps.copied, &swaps.suboptimal_copied, &swaps.skipped})
-            *count = row.small();
+        row.read(swaps.flipped, swaps.copied, swaps.suboptimal_copied, swaps.skipped);
         if (trial != trials.end())
             trial->outcome.swaps = swaps;
     }

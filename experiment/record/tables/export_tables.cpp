@@ -1,6 +1,5 @@
 #include "experiment/record/tables/export_tables.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "experiment/base/json_text.h"
@@ -33,20 +32,10 @@ ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& sha
       stimuli(stimuli_layout(shared, header)), display_box(display_box_layout()), buttons(buttons_layout()),
       markers(markers_layout()), participants(participants_layout(participant)) {
     const std::vector<LeadingColumn> leading{
-        {{"observer", "Label of the observer", "", {}}, header.schedule.observer.label},
-        {{"session", "Which session of this observer, from 1", "", {}},
-         std::to_string(header.session_number),
-         true}};
-    trials.lead_with(leading);
-    flips.lead_with(leading);
-    samples.lead_with(leading);
-    gaze_events.lead_with(leading);
-    events.lead_with(leading);
-    responses.lead_with(leading);
-    stimuli.lead_with(leading);
-    display_box.lead_with(leading);
-    buttons.lead_with(leading);
-    markers.lead_with(leading);
+        {{"observer", "Label of the observer"}, header.schedule.observer.label},
+        {{"session", "Which session of this observer, from 1"}, std::to_string(header.session_number), true}};
+    const auto lead = [&](auto&... layouts) { (layouts.lead_with(leading), ...); };
+    lead(trials, flips, samples, gaze_events, events, responses, stimuli, display_box, buttons, markers);
 }
 
 std::vector<const Table*> ExportTables::all() const {
@@ -69,12 +58,16 @@ nlohmann::ordered_json describe_columns(const std::vector<TableColumn>& columns,
     return description;
 }
 
+void describe_table(nlohmann::ordered_json& dictionary, const Table& table, TableFormat format) {
+    dictionary[file_name_of(table, format)] = {{"Description", table.description},
+                                               {"Columns", describe_columns(table.all_columns(), format)}};
+}
+
 std::string table_dictionary(const ExportTables& tables, TableFormat format) {
     nlohmann::ordered_json dictionary;
     dictionary["Description"] = std::string(description_of(format));
     for (const Table* table : tables.all())
-        dictionary["Files"][fmt::format("{}.{}", table->name, ending_of(format))] = {
-            {"Description", table->description}, {"Columns", describe_columns(table->all_columns(), format)}};
+        describe_table(dictionary["Files"], *table, format);
     return json_text(dictionary);
 }
 

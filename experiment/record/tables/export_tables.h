@@ -52,7 +52,10 @@ class ExportTables {
 /// Of each column Description, Units and Levels, as in BIDS side cars.
 nlohmann::ordered_json describe_columns(const std::vector<TableColumn>& columns, TableFormat format);
 
-/// The dictionary as JSON: for each file its description and its columns (see describe_columns).
+/// Adds the table's file to a dictionary: its description, and its columns by describe_columns().
+void describe_table(nlohmann::ordered_json& dictionary, const Table& table, TableFormat format);
+
+/// The dictionary as JSON: each of the files.
 std::string table_dictionary(const ExportTables& tables, TableFormat format);
 
 } // namespace overt

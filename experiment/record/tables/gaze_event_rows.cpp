@@ -1,19 +1,27 @@
 #include "experiment/record/tables/gaze_event_rows.h"
 
 #include "experiment/record/tables/joined_cells.h"
+#include "experiment/record/tables/shared_columns.h"
 
 namespace overt {
 namespace {
 
-void write_time(TableCells& to, const GazeEventRow& row, TrackerTime time) {
-    row.clock_map ? to.seconds(row.clock_map->to_session(time).time) : to.missing();
+/// By the session's clock.
+auto session_time_of(TrackerTime GazeEvent::*at) {
+    return [at](const GazeEventRow& row) {
+        return of_maybe(row.clock_map, [&](auto& map) { return map.to_session(row.event.*at).time; });
+    };
+}
+auto tracker_us_of(TrackerTime GazeEvent::*at) {
+    return [at](const GazeEventRow& row) { return microseconds_of(row.event.*at); };
 }
 
 std::string_view detector_of(const GazeEventRow& row) {
     using From = SessionRecord::EventOrigin::From;
-    return row.origin == From::recording ? "overt"
-           : row.origin == From::reading ? "overt at export"
-                                         : "tracker";
+    return !is_eye_event(row.event.kind)   ? ""
+           : row.origin == From::recording ? "overt"
+           : row.origin == From::reading   ? "overt at export"
+                                           : "tracker";
 }
 
 } // namespace
@@ -23,29 +31,25 @@ std::vector<RowLayout<EventRow>::Column> event_value_columns(const std::string& 
     using Place = std::optional<ScreenPoint> GazeEvent::*;
     using Number = std::optional<double> GazeEvent::*;
     const auto coordinate = [](Place place, double ScreenPoint::*axis) {
-        return [=](TableCells& to, const EventRow& row) {
-            const auto& of_row = row.event.*place;
-            of_row ? to.fixed(*of_row.*axis, pixel_decimals) : to.missing();
+        return [=](const EventRow& row) {
+            return of_maybe(row.event.*place, [axis](auto& point) {
+                return Fixed{point.*axis, pixel_decimals};
+            });
         };
     };
     const auto number = [](Number value, int decimals) {
-        return [=](TableCells& to, const EventRow& row) {
-            const auto& of_row = row.event.*value;
-            of_row ? to.fixed(*of_row, decimals) : to.missing();
-        };
+        return [=](const EventRow& row) { return Fixed{row.event.*value, decimals}; };
     };
     return {
-        {{"x_px", "Mean place of a fixation, start of a saccade, to the right", pixels, {}},
+        {{"x_px", "Mean place of a fixation, start of a saccade, to the right", pixels},
          coordinate(&GazeEvent::place, &ScreenPoint::x_px)},
-        {{"y_px", "The same, downwards", pixels, {}}, coordinate(&GazeEvent::place, &ScreenPoint::y_px)},
-        {{"end_x_px", "End of a saccade, to the right", pixels, {}},
+        {{"y_px", "The same, downwards", pixels}, coordinate(&GazeEvent::place, &ScreenPoint::y_px)},
+        {{"end_x_px", "End of a saccade, to the right", pixels},
          coordinate(&GazeEvent::arrival, &ScreenPoint::x_px)},
-        {{"end_y_px", "The same, downwards", pixels, {}},
-         coordinate(&GazeEvent::arrival, &ScreenPoint::y_px)},
-        {{"pupil", "Mean pupil size of a fixation", of_pupil, {}}, number(&GazeEvent::pupil, pupil_decimals)},
-        {{"amplitude_deg", "Size of a saccade", "deg", {}},
-         number(&GazeEvent::amplitude_deg, pixel_decimals)},
-        {{"peak_velocity_deg_s", "Peak velocity of a saccade", "deg/s", {}},
+        {{"end_y_px", "The same, downwards", pixels}, coordinate(&GazeEvent::arrival, &ScreenPoint::y_px)},
+        {{"pupil", "Mean pupil size of a fixation", of_pupil}, number(&GazeEvent::pupil, pupil_decimals)},
+        {{"amplitude_deg", "Size of a saccade", "deg"}, number(&GazeEvent::amplitude_deg, pixel_decimals)},
+        {{"peak_velocity_deg_s", "Peak velocity of a saccade", "deg/s"},
          number(&GazeEvent::peak_velocity_deg_s, pixel_decimals)},
     };
 }
@@ -58,11 +62,8 @@ RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins) {
         "where gaze was imported from one. " +
             origins,
         {
-            {{"trial",
-              "Position of the trial in the observer's order, from 1; n/a outside of trials",
-              "",
-              {}},
-             [](auto& to, auto& row) { row.trial > 0 ? to.integer(row.trial) : to.missing(); }},
+            {{"trial", "Position of the trial in the observer's order, from 1; n/a outside of trials"},
+             [](auto& row) { return when(row.trial > 0, row.trial); }},
             {{"kind",
               "What it was",
               "",
@@ -75,41 +76,31 @@ RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins) {
                {"started", "a recording began: its eyes"},
                {"ended", "a recording ended: pixels per degree, to the right and downwards"},
                {"note", "a line without a time, which stands after the line of that time"}}},
-             [](auto& to, auto& row) { to.word(name_of(row.event.kind)); }},
+             [](auto& row) { return name_of(row.event.kind); }},
             {{"detector",
               "Who found a fixation, saccade or blink; n/a of all else",
               "",
               {{"tracker", "the eye tracker itself"},
                {"overt", "the program, while it recorded the session"},
                {"overt at export", "the program, from the recorded samples"}}},
-             [](auto& to, auto& row) {
-                 is_eye_event(row.event.kind) ? to.text(detector_of(row)) : to.missing();
+             detector_of},
+            {eye_column(), [](auto& row) { return of_maybe(row.event.eye, word_of_eye); }},
+            {{"start_s", "When it began; session clock, nine decimals keep each nanosecond", "s"},
+             session_time_of(&GazeEvent::start)},
+            {{"end_s", "When its last sample was taken; of what does not last, start_s", "s"},
+             session_time_of(&GazeEvent::end)},
+            {{"duration_s", "From its begin to the end of its last sample, as its detector gives it", "s"},
+             [](auto& row) {
+                 return when(is_eye_event(row.event.kind), SessionDuration(row.event.duration));
              }},
-            {{"eye", "Which eye", "", {{"left", "left eye"}, {"right", "right eye"}}},
-             [](auto& to, auto& row) {
-                 row.event.eye ? to.word(*row.event.eye == Eye::left ? "left" : "right") : to.missing();
-             }},
-            {{"start_s", "When it began; session clock, nine decimals keep each nanosecond", "s", {}},
-             [](auto& to, auto& row) { write_time(to, row, row.event.start); }},
-            {{"end_s", "When its last sample was taken; of what does not last, start_s", "s", {}},
-             [](auto& to, auto& row) { write_time(to, row, row.event.end); }},
-            {{"duration_s",
-              "From its begin to the end of its last sample, as its detector gives it",
-              "s",
-              {}},
-             [](auto& to, auto& row) {
-                 is_eye_event(row.event.kind) ? to.seconds(SessionDuration(row.event.duration))
-                                              : to.missing();
-             }},
-            {{"tracker_start_us", "start_s by the tracker's own clock", "us", {}},
-             [](auto& to, auto& row) { to.integer(row.event.start.time_since_epoch().count()); }},
-            {{"tracker_end_us", "end_s by the tracker's own clock", "us", {}},
-             [](auto& to, auto& row) { to.integer(row.event.end.time_since_epoch().count()); }},
+            {{"tracker_start_us", "start_s by the tracker's own clock", "us"},
+             tracker_us_of(&GazeEvent::start)},
+            {{"tracker_end_us", "end_s by the tracker's own clock", "us"}, tracker_us_of(&GazeEvent::end)},
         }};
     layout.add<EventRow>(event_value_columns("px", "the tracker's own unit"));
     layout.add<GazeEventRow>({
-        {{"text", "Words and numbers of what is no fixation, saccade or blink", "", {}},
-         [](auto& to, auto& row) { to.text(row.event.text); }},
+        {{"text", "Words and numbers of what is no fixation, saccade or blink"},
+         [](auto& row) { return row.event.text; }},
     });
     return layout;
 }

@@ -16,24 +16,42 @@ constexpr int surface_decimals = 6; // a nanometre, if the mesh is in millimetre
 constexpr int incidence_decimals = 4;
 constexpr int silhouette_decimals = 4; // a hundredth of a pixel
 
+/// What a function makes of the place on the surface.
+auto of_surface(auto of) {
+    return [of](const JoinedRow& row) { return of_maybe(row.joined.sight.surface, of); };
+}
+auto coordinate(int axis) {
+    return of_surface([axis](auto& surface) { return Fixed{surface.position[axis], surface_decimals}; });
+}
+/// In the stimulus's image.
+auto image_place(int axis) {
+    return [axis](const JoinedRow& row) {
+        return of_maybe(row.joined.image_px, [axis](auto& px) { return Fixed{px[axis], pixel_decimals}; });
+    };
+}
+
 } // namespace
 
-void write_angle(TableCells& to, const SessionHeader& header, PoseIndex pose) {
-    const Degrees* const angle = item_of(header.poses.angles, pose.value);
-    angle ? to.fixed(angle->value, angle_decimals) : to.missing();
+std::optional<Fixed> angle_of(const SessionHeader& header, PoseIndex pose) {
+    return of_maybe(item_of(header.poses.angles, pose.value), [](Degrees angle) {
+        return Fixed{angle.value, angle_decimals};
+    });
 }
 
-void write_gaze_x(TableCells& to, const GazeSample& sample) {
-    sample.gaze ? to.fixed(sample.gaze->x_px, pixel_decimals) : to.missing();
+std::optional<Fixed> gaze_x(const JoinedRow& row) {
+    return of_maybe(row.sample.gaze, [](auto& gaze) { return Fixed{gaze.x_px, pixel_decimals}; });
 }
 
-void write_gaze_y(TableCells& to, const GazeSample& sample) {
-    sample.gaze ? to.fixed(sample.gaze->y_px, pixel_decimals) : to.missing();
+std::optional<Fixed> gaze_y(const JoinedRow& row) {
+    return of_maybe(row.sample.gaze, [](auto& gaze) { return Fixed{gaze.y_px, pixel_decimals}; });
 }
 
-void write_pupil(TableCells& to, const GazeSample& sample) {
-    sample.pupil_area > 0.0f ? to.fixed(shortest_decimal(sample.pupil_area), pupil_decimals) : to.missing();
+std::optional<Fixed> pupil_size(const JoinedRow& row) {
+    const float area = row.sample.pupil_area;
+    return when(area > 0.0f, Fixed{shortest_decimal(area), pupil_decimals});
 }
+
+std::int64_t tracker_time_us(const JoinedRow& row) { return microseconds_of(row.sample.sampled_at); }
 
 std::vector<std::string> all_part_names(const SessionHeader& header) {
     std::vector<std::string> names;
@@ -80,59 +98,35 @@ LengthWords length_words(const SessionHeader& header) {
 JoinedColumns time_columns() {
     return {
         {session_seconds("time_s", "When the sample was taken"),
-         [](auto& to, auto& row) { row.joined.at ? to.seconds(row.joined.at->time) : to.missing(); }},
-        {{"time_uncertainty_s", "Bound on the error of time_s", "s", {}},
-         [](auto& to, auto& row) { row.joined.at ? to.seconds(row.joined.at->uncertainty) : to.missing(); }},
+         [](auto& row) { return of_maybe(row.joined.at, &MappedTime::time); }},
+        {{"time_uncertainty_s", "Bound on the error of time_s", "s"},
+         [](auto& row) { return of_maybe(row.joined.at, &MappedTime::uncertainty); }},
     };
 }
 
 JoinedColumns place_columns(const SessionHeader& header) {
-    TableColumn part{"part", "Part of the figure that is looked at", "", {}};
+    TableColumn part{"part", "Part of the figure that is looked at"};
     for (const std::string& name : all_part_names(header))
         part.levels.emplace_back(name, fmt::format("the triangles labelled \"{}\"", name));
     const LengthWords length = length_words(header);
     const std::string& mesh_unit = length.unit;
     return {
-        {{"frame", "Animation frame lit at the gaze's row", "", {}},
-         [](auto& to, auto& row) {
-             row.joined.shown ? to.integer(row.joined.shown->frame.value) : to.missing();
-         }},
+        {{"frame", "Animation frame lit at the gaze's row"},
+         [](auto& row) { return of_maybe(row.joined.shown, [](auto& shown) { return shown.frame.value; }); }},
         {SharedColumns(header).angle,
-         [&header](auto& to, auto& row) {
-             row.joined.shown ? write_angle(to, header, row.joined.shown->pose)
-                              : static_cast<void>(to.missing());
+         [&header](auto& row) {
+             return of_maybe(row.joined.shown, [&](auto& shown) { return angle_of(header, shown.pose); });
          }},
-        {{"image_x_px", "Gaze in the stimulus image, to the right", "px", {}},
-         [](auto& to, auto& row) {
-             row.joined.image_px ? to.fixed(row.joined.image_px->x, pixel_decimals) : to.missing();
-         }},
-        {{"image_y_px", "Gaze in the stimulus image, downwards", "px", {}},
-         [](auto& to, auto& row) {
-             row.joined.image_px ? to.fixed(row.joined.image_px->y, pixel_decimals) : to.missing();
-         }},
-        {{"surface_x", fmt::format("Place on the unturned surface{}", length.remark), mesh_unit, {}},
-         [](auto& to, auto& row) {
-             const auto& surface = row.joined.sight.surface;
-             surface ? to.fixed(surface->position.x, surface_decimals) : to.missing();
-         }},
-        {{"surface_y", fmt::format("Place on the unturned surface{}", length.remark), mesh_unit, {}},
-         [](auto& to, auto& row) {
-             const auto& surface = row.joined.sight.surface;
-             surface ? to.fixed(surface->position.y, surface_decimals) : to.missing();
-         }},
-        {{"surface_z", fmt::format("Place on the unturned surface, upwards{}", length.remark), mesh_unit, {}},
-         [](auto& to, auto& row) {
-             const auto& surface = row.joined.sight.surface;
-             surface ? to.fixed(surface->position.z, surface_decimals) : to.missing();
-         }},
-        {{"triangle",
-          "Index of the mesh's triangle, from 0; n/a where maps were given without a mesh",
-          "",
-          {}},
-         [](auto& to, auto& row) {
-             const auto& surface = row.joined.sight.surface;
-             surface && surface->triangle != no_triangle ? to.integer(surface->triangle) : to.missing();
-         }},
+        {{"image_x_px", "Gaze in the stimulus image, to the right", "px"}, image_place(0)},
+        {{"image_y_px", "Gaze in the stimulus image, downwards", "px"}, image_place(1)},
+        {{"surface_x", fmt::format("Place on the unturned surface{}", length.remark), mesh_unit},
+         coordinate(0)},
+        {{"surface_y", fmt::format("Place on the unturned surface{}", length.remark), mesh_unit},
+         coordinate(1)},
+        {{"surface_z", fmt::format("Place on the unturned surface, upwards{}", length.remark), mesh_unit},
+         coordinate(2)},
+        {{"triangle", "Index of the mesh's triangle, from 0; n/a where maps were given without a mesh"},
+         of_surface([](auto& surface) { return when(surface.triangle != no_triangle, surface.triangle); })},
         {part,
          [](auto& to, auto& row) {
              const auto& surface = row.joined.sight.surface;
@@ -141,31 +135,25 @@ JoinedColumns place_columns(const SessionHeader& header) {
          }},
         {{"depth",
           fmt::format("Distance of the surface from the camera along the viewing direction{}", length.remark),
-          mesh_unit,
-          {}},
-         [](auto& to, auto& row) {
-             const auto& surface = row.joined.sight.surface;
-             surface ? to.fixed(surface->depth, surface_decimals) : to.missing();
-         }},
-        {{"incidence_deg",
-          "Angle between the line of sight and the surface's normal, 0 is head-on",
-          "deg",
-          {}},
-         [](auto& to, auto& row) {
-             const auto& surface = row.joined.sight.surface;
-             surface ? to.fixed(surface->incidence.value, incidence_decimals) : to.missing();
-         }},
+          mesh_unit},
+         of_surface([](auto& surface) {
+             return Fixed{surface.depth, surface_decimals};
+         })},
+        {{"incidence_deg", "Angle between the line of sight and the surface's normal, 0 is head-on", "deg"},
+         of_surface([](auto& surface) {
+             return Fixed{surface.incidence.value, incidence_decimals};
+         })},
         {{"silhouette_distance_deg",
           "Visual angle from the gaze to the nearest place of the outline of the sculpture's picture: "
           "positive "
           "beside the sculpture, negative on it; n/a without gaze, when no frame was lit, or if the "
           "sculpture "
           "has no map. Right to within a pixel",
-          "deg",
-          {}},
-         [](auto& to, auto& row) {
-             const auto& distance = row.joined.outline_distance;
-             distance ? to.fixed(distance->value, silhouette_decimals) : to.missing();
+          "deg"},
+         [](auto& row) {
+             return of_maybe(row.joined.outline_distance, [](Degrees away) {
+                 return Fixed{away.value, silhouette_decimals};
+             });
          }},
     };
 }

@@ -1,6 +1,8 @@
 /// A sample that was joined with its frame and its surface, as cells of a row.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,12 +40,13 @@ JoinedColumns time_columns();
 JoinedColumns place_columns(const SessionHeader& header);
 
 // Cells of a sample itself.
-void write_gaze_x(TableCells& to, const GazeSample& sample);
-void write_gaze_y(TableCells& to, const GazeSample& sample);
-void write_pupil(TableCells& to, const GazeSample& sample);
+std::int64_t tracker_time_us(const JoinedRow& row);
+std::optional<Fixed> gaze_x(const JoinedRow& row);
+std::optional<Fixed> gaze_y(const JoinedRow& row);
+std::optional<Fixed> pupil_size(const JoinedRow& row);
 
-/// A frame's angle; n/a if the session knows no such pose.
-void write_angle(TableCells& to, const SessionHeader& header, PoseIndex pose);
+/// A frame's angle; nothing if the session knows no such pose.
+std::optional<Fixed> angle_of(const SessionHeader& header, PoseIndex pose);
 
 /// The parts of all sculptures, each name once.
 std::vector<std::string> all_part_names(const SessionHeader& header);

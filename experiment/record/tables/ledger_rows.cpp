@@ -9,44 +9,36 @@ RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHea
         "flips",
         "The ledger of the completed trials: one row for each refresh of the display, from the "
         "presentation's onset to the plan's end, or longer where pictures came later.",
-        {{shared.trial, [](auto& to, auto& row) { to.integer(row.trial); }},
-         {{"refresh", "Refresh of the display since the presentation's onset, from 0", "", {}},
-          [](auto& to, auto& row) { to.integer(row.refresh); }},
+        {{shared.trial, &LedgerRow::trial},
+         {{"refresh", "Refresh of the display since the presentation's onset, from 0"}, &LedgerRow::refresh},
          {{"state",
            "Whether a picture was handed over for this refresh",
            "",
            {{"flipped", "shown_frame began, or went on, by a flip"},
             {"missed", "it went by with the frame before"}}},
-          [](auto& to, auto& row) { to.word(row.flipped ? "flipped" : "missed"); }},
-         {{"planned_frame",
-           "Animation frame that the plan had for this refresh; n/a after the plan's end",
-           "",
-           {}},
-          [](auto& to, auto& row) {
-              row.planned == no_frame ? to.missing() : to.integer(row.planned.value);
-          }},
-         {{"shown_frame", "Animation frame that was lit", "", {}},
-          [](auto& to, auto& row) { to.integer(row.lit.shown.value); }},
-         {shared.angle, [&header](auto& to, auto& row) { write_angle(to, header, row.lit.pose); }},
+          [](auto& row) { return row.flipped ? "flipped" : "missed"; }},
+         {{"planned_frame", "Animation frame that the plan had for this refresh; n/a after the plan's end"},
+          [](auto& row) { return when(row.planned != no_frame, row.planned.value); }},
+         {{"shown_frame", "Animation frame that was lit"}, [](auto& row) { return row.lit.shown.value; }},
+         {shared.angle, [&header](auto& row) { return angle_of(header, row.lit.pose); }},
          {session_seconds("requested_s", "When the picture was asked for"),
-          [](auto& to, auto& row) { row.flipped ? to.seconds(row.flipped->requested) : to.missing(); }},
+          [](auto& row) { return of_maybe(row.flipped, &FlipReport::requested); }},
          {session_seconds("swapped_s", "When the buffer swap had been handed over"),
-          [](auto& to, auto& row) { row.flipped ? to.seconds(row.flipped->swapped) : to.missing(); }},
+          [](auto& row) { return of_maybe(row.flipped, &FlipReport::swapped); }},
          {session_seconds("vertical_blank_s", "When scan-out of this refresh began, by its own time stamp"),
-          [](auto& to, auto& row) { row.flipped ? to.seconds(row.flipped->vertical_blank) : to.missing(); }},
-         {{"vertical_blank_uncertainty_s", "How far off the source may be", "s", {}},
-          [](auto& to, auto& row) { row.flipped ? to.seconds(row.flipped->uncertainty) : to.missing(); }},
+          [](auto& row) { return of_maybe(row.flipped, &FlipReport::vertical_blank); }},
+         {{"vertical_blank_uncertainty_s", "How far off the source may be", "s"},
+          [](auto& row) { return of_maybe(row.flipped, &FlipReport::uncertainty); }},
          {session_seconds("onset_s",
                           "The same by the line through all time stamps of the presentation; of a missed "
                           "refresh, too"),
-          [](auto& to, auto& row) { to.seconds(row.onset.time); }},
+          [](auto& row) { return row.onset.time; }},
          {{"onset_uncertainty_s",
            "Two standard errors of the line; where time stamps scatter by less than 1 us they stand as "
            "they "
            "are, with their own uncertainty",
-           "s",
-           {}},
-          [](auto& to, auto& row) { to.seconds(row.onset.uncertainty); }},
+           "s"},
+          [](auto& row) { return row.onset.uncertainty; }},
          {{"source",
            "Where vertical_blank_s comes from",
            "",
@@ -67,15 +59,11 @@ RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHea
              "GLX_SGI_video_sync, which only counts, stamped by a thread that waits for each: the first "
              "refresh "
              "after the swap"}}},
-          [](auto& to, auto& row) { to.text(name_of(row.lit.report.source)); }},
+          [](auto& row) { return name_of(row.lit.report.source); }},
          {{"missed",
            "Refreshes that went by with the old picture before this one; n/a: the session's timing is "
-           "unproven",
-           "",
-           {}},
-          [&header](auto& to, auto& row) {
-              header.display.is_timing_unproven() ? to.missing() : to.integer(row.missed_before);
-          }},
+           "unproven"},
+          [&header](auto& row) { return when(!header.display.is_timing_unproven(), row.missed_before); }},
          {{"cause",
            "Why a refresh was missed",
            "",
@@ -84,7 +72,7 @@ RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHea
             {std::string(name_of(MissCause::drawn_late)), "it was asked for in time, but drawn too late"},
             {std::string(name_of(MissCause::shown_late)),
              "it was drawn in time, but the display took it later"}}},
-          [](auto& to, auto& row) { row.cause ? to.word(name_of(*row.cause)) : to.missing(); }}}};
+          [](auto& row) { return of_maybe(row.cause, [](MissCause cause) { return name_of(cause); }); }}}};
 }
 
 std::int64_t write_ledger(TableWriter& writer, const RowLayout<LedgerRow>& layout,

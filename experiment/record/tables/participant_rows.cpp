@@ -8,11 +8,11 @@ namespace overt {
 
 TableColumn participant_column(const std::string& name, const std::string& title) {
     if (name == "participant_id")
-        return {name, "Which observer", "", {}};
+        return {name, "Which observer"};
     if (name == "species")
-        return {name, "Species of the observer", "", {}};
+        return {name, "Species of the observer"};
     if (name == "age")
-        return {name, "Age of the observer", "year", {}};
+        return {name, "Age of the observer", "year"};
     if (name == "sex")
         return {name,
                 "Sex as the observer gave it",
@@ -23,7 +23,7 @@ TableColumn participant_column(const std::string& name, const std::string& title
                 "Handedness as the observer gave it",
                 "",
                 {{"left", "left"}, {"right", "right"}, {"ambidextrous", "both alike"}}};
-    return {name, title.empty() ? name : title, "", {}};
+    return {name, title.empty() ? name : title};
 }
 
 std::string ParticipantRow::id() const { return fmt::format("sub-{}", observer); }
@@ -45,12 +45,10 @@ RowLayout<ParticipantRow> participants_layout(const std::vector<ParticipantRow>&
         "Who took part: one row for each session, with what the observer filled in; n/a where a session did "
         "not ask.",
         {
-            {{"observer", "Label of the observer", "", {}},
-             [](auto& to, auto& row) { to.text(row.observer); }},
-            {{"session", "Which session of this observer, from 1", "", {}},
-             [](auto& to, auto& row) { to.integer(row.session); }},
-            {participant_column("participant_id", ""), [](auto& to, auto& row) { to.text(row.id()); }},
-            {participant_column("species", ""), [](auto& to, auto&) { to.text("homo sapiens"); }},
+            {{"observer", "Label of the observer"}, &ParticipantRow::observer},
+            {{"session", "Which session of this observer, from 1"}, &ParticipantRow::session},
+            {participant_column("participant_id", ""), &ParticipantRow::id},
+            {participant_column("species", ""), [](auto&) { return "homo sapiens"; }},
         }};
     // In the order of the forms, after what every dataset has.
     std::vector<TableColumn> columns{participant_column("age", ""), participant_column("sex", ""),
@@ -66,8 +64,7 @@ RowLayout<ParticipantRow> participants_layout(const std::vector<ParticipantRow>&
         const std::vector<TableColumn>& there = layout.table().columns;
         if (std::any_of(there.begin(), there.end(), [&](const auto& other) { return other.name == name; }))
             column.name = fmt::format("form_{}", name);
-        layout.add<ParticipantRow>(
-            {{std::move(column), [name](auto& to, auto& row) { to.text(row.value_of(name)); }}});
+        layout.add<ParticipantRow>({{std::move(column), [name](auto& row) { return row.value_of(name); }}});
     }
     return layout;
 }

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -11,11 +13,30 @@
 
 namespace overt {
 
+/// A value where there is one.
+template <class Value> std::optional<Value> when(bool is_there, Value value) {
+    return is_there ? std::optional<Value>(std::move(value)) : std::nullopt;
+}
+
+/// A member of something, or what a function makes of it; nothing where an optional or a pointer is empty.
+template <class Maybe, class Of> auto of_maybe(const Maybe& maybe, Of of) {
+    using Value = std::remove_cvref_t<std::invoke_result_t<Of, decltype(*maybe)>>;
+    return maybe ? std::optional<Value>(std::invoke(of, *maybe)) : std::nullopt;
+}
+
 template <class Row> class RowLayout {
   public:
     struct Column {
         TableColumn what;
         std::function<void(TableCells&, const Row&)> cell; ///< writes one cell
+
+        /// `of` gives a row's value (TableCells::put), or takes the cells and the row and writes one.
+        template <class Of> Column(TableColumn column, Of of) : what(std::move(column)) {
+            if constexpr (std::is_invocable_v<Of, TableCells&, const Row&>)
+                cell = std::move(of);
+            else
+                cell = [of = std::move(of)](TableCells& to, const Row& row) { to.put(std::invoke(of, row)); };
+        }
     };
 
     RowLayout(std::string name, std::string description, std::vector<Column> columns)

@@ -22,23 +22,18 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
         "between a trial's result and the next trial, joined with the frame that was lit on its row "
         "when it was taken. Pixels: origin at the top left corner, y down, pixel centres at 0.5.",
         {
-            {shared.trial, [](auto& to, auto& row) { row.trial ? to.integer(*row.trial) : to.missing(); }},
+            {shared.trial, &SampleCells::trial},
             {shared.task, [](auto& to, auto& row) { to.ready(row.task); }},
             {shared.sculpture, [](auto& to, auto& row) { to.ready(row.sculpture); }},
             {shared.material, [](auto& to, auto& row) { to.ready(row.material); }},
         }};
     layout.add<JoinedRow>(time_columns());
     layout.add<SampleCells>({
-        {{"tracker_time_us", "When the sample was taken, by the tracker's own clock", "us", {}},
-         [](auto& to, auto& row) { to.integer(row.sample.sampled_at.time_since_epoch().count()); }},
-        {{"eye", "Which eye", "", {{"left", "left eye"}, {"right", "right eye"}}},
-         [](auto& to, auto& row) { to.word(row.sample.eye == Eye::left ? "left" : "right"); }},
-        {{"x_px", "Gaze on the screen, to the right", "px", {}},
-         [](auto& to, auto& row) { write_gaze_x(to, row.sample); }},
-        {{"y_px", "Gaze on the screen, downwards", "px", {}},
-         [](auto& to, auto& row) { write_gaze_y(to, row.sample); }},
-        {{"pupil_area", "Pupil area", "the tracker's own unit", {}},
-         [](auto& to, auto& row) { write_pupil(to, row.sample); }},
+        {{"tracker_time_us", "When the sample was taken, by the tracker's own clock", "us"}, tracker_time_us},
+        {eye_column(), [](auto& to, auto& row) { to.word(word_of_eye(row.sample.eye)); }},
+        {{"x_px", "Gaze on the screen, to the right", "px"}, gaze_x},
+        {{"y_px", "Gaze on the screen, downwards", "px"}, gaze_y},
+        {{"pupil_area", "Pupil area", "the tracker's own unit"}, pupil_size},
     });
     layout.add<JoinedRow>(place_columns(header));
     if (!cone_accuracy)
@@ -49,13 +44,11 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
           fmt::format(
               "Probability that the gaze was on the sculpture, taking the tracker to be {} degrees off "
               "on average, normally distributed to all sides; n/a as in silhouette_distance_deg",
-              accuracy.value),
-          "",
-          {}},
-         [](auto& to, auto& row) {
-             row.shares && !row.shares->of_part.empty()
-                 ? to.fixed(row.shares->of_object, probability_decimals)
-                 : to.missing();
+              accuracy.value)},
+         [](auto& row) {
+             return of_maybe(row.shares, [](const GazeCone::Shares& shares) {
+                 return Fixed{shares.of_object, probability_decimals};
+             });
          }},
     });
     for (const std::string& part : all_part_names(header))
@@ -64,15 +57,13 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
               fmt::format(
                   "The same for the part \"{}\"; n/a, too, if the sculpture has no such part. All parts "
                   "together make p_object",
-                  part),
-              "",
-              {}},
-             [part](auto& to, auto& row) {
-                 const auto own = std::find(row.own_parts.begin(), row.own_parts.end(), part);
-                 row.shares && !row.shares->of_part.empty() && own != row.own_parts.end()
-                     ? to.fixed(row.shares->of_part[static_cast<std::size_t>(own - row.own_parts.begin())],
-                                probability_decimals)
-                     : to.missing();
+                  part)},
+             [part](auto& row) {
+                 const auto own = std::ranges::find(row.own_parts, part) - row.own_parts.begin();
+                 const auto index = static_cast<std::size_t>(own);
+                 return row.shares && index < row.own_parts.size()
+                            ? std::optional(Fixed{row.shares->of_part[index], probability_decimals})
+                            : std::nullopt;
              }},
         });
     return layout;
@@ -152,7 +143,7 @@ SampleCounts SampleRows::write_batch(TableText& to, const Piece& piece) const {
                            piece.sculpture,
                            piece.material,
                            piece.own_parts,
-                           shares.empty() ? nullptr : &shares[i]});
+                           shares.empty() || shares[i].of_part.empty() ? nullptr : &shares[i]});
         counts.without_gaze += !piece.samples[i].gaze;
         counts.on_object += joined[i].sight.surface.has_value();
         counts.off_plan += joined[i].off_plan;

@@ -25,7 +25,7 @@ struct SampleCells : JoinedRow {
     std::optional<int> trial;                       ///< from 1; nothing: of no trial
     const std::string &task, &sculpture, &material; ///< as cells
     const std::vector<std::string>& own_parts;      ///< of the sculpture, by PartIndex
-    const GazeCone::Shares* shares;                 ///< null without a cone; empty beside lit frames
+    const GazeCone::Shares* shares;                 ///< null without a cone, and beside lit frames
 };
 
 /// With the columns of a gaze cone if its accuracy is given. `header` must outlive it.

@@ -6,50 +6,51 @@ namespace {
 constexpr int rate_decimals = 3;  // a millihertz
 constexpr int drift_decimals = 3; // a thousandth of a millionth
 
+/// What the header has of a stimulus's sculpture.
+auto of_sculpture(const SessionHeader& header, std::string RecordedSculpture::*what) {
+    return [&header, what](const RecordedStimulus& row) {
+        return of_maybe(item_of(header.sculptures, row.condition.sculpture), what);
+    };
+}
+
+/// What the box itself said.
+auto of_box(std::string RecordedBox::*what) {
+    return [what](const DisplayBoxRow& row) { return row.box.*what; };
+}
+auto of_clock(auto what) {
+    return [what](const DisplayBoxRow& row) { return of_maybe(row.clock, what); };
+}
+
 } // namespace
 
 RowLayout<RecordedEvent> events_layout() {
-    return {
-        "events",
-        "What happened besides flips and samples, in all attempts and between trials.",
-        {
-            {session_seconds("time_s", "When it happened"), [](auto& to, auto& row) { to.seconds(row.at); }},
-            {{"trial", "Position of the trial in the observer's order, from 1", "", {}},
-             [](auto& to, auto& row) { row.trial < 0 ? to.missing() : to.integer(row.trial + 1); }},
-            {{"kind", "What happened", "", {}}, [](auto& to, auto& row) { to.text(row.kind); }},
-            {{"detail", "Particulars", "", {}}, [](auto& to, auto& row) { to.text(row.detail); }},
-        }};
+    return {"events",
+            "What happened besides flips and samples, in all attempts and between trials.",
+            {
+                {session_seconds("time_s", "When it happened"), &RecordedEvent::at},
+                {{"trial", "Position of the trial in the observer's order, from 1"},
+                 [](auto& row) { return when(row.trial >= 0, row.trial + 1); }},
+                {{"kind", "What happened"}, &RecordedEvent::kind},
+                {{"detail", "Particulars"}, &RecordedEvent::detail},
+            }};
 }
 
 RowLayout<RecordedStimulus> stimuli_layout(const SharedColumns& shared, const SessionHeader& header) {
-    return {"stimuli",
-            "What was shown: one row for each sculpture in each material.",
-            {
-                {shared.sculpture,
-                 [&header](auto& to, auto& row) {
-                     const auto* const found = item_of(header.sculptures, row.condition.sculpture);
-                     to.text(found ? found->id : "");
-                 }},
-                {shared.material,
-                 [&header](auto& to, auto& row) {
-                     const auto* const found = item_of(header.materials, row.condition.material);
-                     to.text(found ? found->id : "");
-                 }},
-                {{"source", "How the frames were made", "", {}},
-                 [](auto& to, auto& row) { to.text(row.source); }},
-                {{"frames_sha256", "SHA-256 of the frames", "", {}},
-                 [](auto& to, auto& row) { to.text(row.frames_sha256); }},
-                {{"mesh_file", "The sculpture's mesh, relative to the session's directory", "", {}},
-                 [&header](auto& to, auto& row) {
-                     const auto* const found = item_of(header.sculptures, row.condition.sculpture);
-                     to.text(found ? found->mesh_file : "");
-                 }},
-                {{"mesh_sha256", "SHA-256 of the mesh", "", {}},
-                 [&header](auto& to, auto& row) {
-                     const auto* const found = item_of(header.sculptures, row.condition.sculpture);
-                     to.text(found ? found->mesh_sha256 : "");
-                 }},
-            }};
+    return {
+        "stimuli",
+        "What was shown: one row for each sculpture in each material.",
+        {
+            {shared.sculpture, of_sculpture(header, &RecordedSculpture::id)},
+            {shared.material,
+             [&header](auto& row) {
+                 return of_maybe(item_of(header.materials, row.condition.material), &RecordedMaterial::id);
+             }},
+            {{"source", "How the frames were made"}, &RecordedStimulus::source},
+            {{"frames_sha256", "SHA-256 of the frames"}, &RecordedStimulus::frames_sha256},
+            {{"mesh_file", "The sculpture's mesh, relative to the session's directory"},
+             of_sculpture(header, &RecordedSculpture::mesh_file)},
+            {{"mesh_sha256", "SHA-256 of the mesh"}, of_sculpture(header, &RecordedSculpture::mesh_sha256)},
+        }};
 }
 
 RowLayout<DisplayBoxRow> display_box_layout() {
@@ -57,8 +58,8 @@ RowLayout<DisplayBoxRow> display_box_layout() {
         "display_box",
         "What the video signal went through: one row for each sitting.",
         {
-            {{"sitting", "Counts how often the session was begun or resumed, from 1", "", {}},
-             [](auto& to, auto& row) { to.integer(row.sitting); }},
+            {{"sitting", "Counts how often the session was begun or resumed, from 1"},
+             &DisplayBoxRow::sitting},
             {{"use",
               "Whether there was a display box",
               "",
@@ -66,44 +67,34 @@ RowLayout<DisplayBoxRow> display_box_layout() {
                {"declined", "The protocol says that there is none: its mode was not looked at"},
                {"simulated", "Nothing was shown on a real screen in real time"},
                {"not needed", "The output goes through no box"}}},
-             [](auto& to, auto& row) { to.word(name_of(row.box.use)); }},
-            {{"product", "Name of the box", "", {}}, [](auto& to, auto& row) { to.text(row.box.product); }},
-            {{"serial_number", "Its serial number", "", {}},
-             [](auto& to, auto& row) { to.text(row.box.serial_number); }},
-            {{"firmware_date", "Date of its firmware", "", {}},
-             [](auto& to, auto& row) { to.text(row.box.firmware_date); }},
-            {{"port", "Serial port at which it was found", "", {}},
-             [](auto& to, auto& row) { to.text(row.box.port); }},
-            {{"mode", "To which it was switched", "", {}},
-             [](auto& to, auto& row) { to.text(row.box.mode); }},
-            {{"gamma_table", "File on its disk that it was told to use", "", {}},
-             [](auto& to, auto& row) { to.text(row.box.gamma_table); }},
-            {{"settled_after_s", "From the command to two equal measurements of the video rate", "s", {}},
-             [](auto& to, auto& row) {
-                 row.box.use == RecordedBox::Use::box ? to.seconds(row.box.settled_after) : to.missing();
+             [](auto& row) { return name_of(row.box.use); }},
+            {{"product", "Name of the box"}, of_box(&RecordedBox::product)},
+            {{"serial_number", "Its serial number"}, of_box(&RecordedBox::serial_number)},
+            {{"firmware_date", "Date of its firmware"}, of_box(&RecordedBox::firmware_date)},
+            {{"port", "Serial port at which it was found"}, of_box(&RecordedBox::port)},
+            {{"mode", "To which it was switched"}, of_box(&RecordedBox::mode)},
+            {{"gamma_table", "File on its disk that it was told to use"}, of_box(&RecordedBox::gamma_table)},
+            {{"settled_after_s", "From the command to two equal measurements of the video rate", "s"},
+             [](auto& row) { return when(row.box.use == RecordedBox::Use::box, row.box.settled_after); }},
+            {{"video_rate_hz", "Rate of the video signal as the box measures it", "Hz"},
+             [](auto& row) {
+                 return when(row.box.use == RecordedBox::Use::box,
+                             Fixed{row.box.video_rate_hz, rate_decimals});
              }},
-            {{"video_rate_hz", "Rate of the video signal as the box measures it", "Hz", {}},
-             [](auto& to, auto& row) {
-                 row.box.use == RecordedBox::Use::box ? to.fixed(row.box.video_rate_hz, rate_decimals)
-                                                      : to.missing();
-             }},
-            {{"clock_readings", "Readings of its clock and the session's", "", {}},
-             [](auto& to, auto& row) { to.integer(row.clock ? row.clock->readings : 0); }},
+            {{"clock_readings", "Readings of its clock and the session's"},
+             [](auto& row) { return row.clock ? row.clock->readings : 0; }},
             {session_seconds("clock_zero_s", "When its clock showed 0, by the line through the readings"),
-             [](auto& to, auto& row) { row.clock ? to.seconds(row.clock->zero) : to.missing(); }},
-            {{"clock_uncertainty_s", "Bound on the error of times read off that line", "s", {}},
-             [](auto& to, auto& row) { row.clock ? to.seconds(row.clock->uncertainty) : to.missing(); }},
-            {{"clock_drift_ppm",
-              "By how much a second of the session exceeds a second of the box",
-              "ppm",
-              {}},
-             [](auto& to, auto& row) {
-                 row.clock ? to.fixed(row.clock->drift_ppm, drift_decimals) : to.missing();
-             }},
-            {{"clock_drift_uncertainty_ppm", "Bound on the error of clock_drift_ppm", "ppm", {}},
-             [](auto& to, auto& row) {
-                 row.clock ? to.fixed(row.clock->drift_uncertainty_ppm, drift_decimals) : to.missing();
-             }},
+             of_clock(&BoxClockFit::zero)},
+            {{"clock_uncertainty_s", "Bound on the error of times read off that line", "s"},
+             of_clock(&BoxClockFit::uncertainty)},
+            {{"clock_drift_ppm", "By how much a second of the session exceeds a second of the box", "ppm"},
+             of_clock([](auto& clock) {
+                 return Fixed{clock.drift_ppm, drift_decimals};
+             })},
+            {{"clock_drift_uncertainty_ppm", "Bound on the error of clock_drift_ppm", "ppm"},
+             of_clock([](auto& clock) {
+                 return Fixed{clock.drift_uncertainty_ppm, drift_decimals};
+             })},
         }};
 }
 

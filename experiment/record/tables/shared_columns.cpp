@@ -5,16 +5,11 @@
 namespace overt {
 
 SharedColumns::SharedColumns(const SessionHeader& header)
-    : trial{"trial", "Position of the trial in the observer's order, from 1", "", {}},
-      task{"task", "Which question was asked", "", {}},
-      sculpture{"sculpture", "Which sculpture was shown", "", {}}, material{"material",
-                                                                            "In which material it was shown",
-                                                                            "",
-                                                                            {}},
-      angle{"angle_deg",
-            "Turn of the sculpture in the frame shown, counter-clockwise seen from above",
-            "deg",
-            {}} {
+    : trial{"trial", "Position of the trial in the observer's order, from 1"},
+      task{"task", "Which question was asked"}, sculpture{"sculpture", "Which sculpture was shown"},
+      material{"material", "In which material it was shown"},
+      angle{"angle_deg", "Turn of the sculpture in the frame shown, counter-clockwise seen from above",
+            "deg"} {
     for (const RecordedTask& entry : header.tasks)
         task.levels.emplace_back(entry.id, entry.question);
     for (const RecordedSculpture& entry : header.sculptures)
@@ -24,7 +19,7 @@ SharedColumns::SharedColumns(const SessionHeader& header)
 }
 
 TableColumn session_seconds(std::string name, const std::string& meaning) {
-    return {std::move(name), meaning + "; session clock, nine decimals keep each nanosecond", "s", {}};
+    return {std::move(name), meaning + "; session clock, nine decimals keep each nanosecond", "s"};
 }
 
 } // namespace overt

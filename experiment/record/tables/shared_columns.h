@@ -1,7 +1,9 @@
 /// Columns that several tables share.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "experiment/record/session_header.h"
 #include "experiment/record/tables/row_layout.h"
@@ -24,6 +26,14 @@ struct SharedColumns {
 
     TableColumn trial, task, sculpture, material, angle;
 };
+
+inline TableColumn eye_column() {
+    return {"eye", "Which eye", "", {{"left", "left eye"}, {"right", "right eye"}}};
+}
+inline std::string_view word_of_eye(Eye eye) { return eye == Eye::left ? "left" : "right"; }
+
+/// Of a clock's time, as the tracker's and boxes' own have it.
+constexpr auto microseconds_of = [](auto time) -> std::int64_t { return time.time_since_epoch().count(); };
 
 /// A time by the session's clock.
 TableColumn session_seconds(std::string name, const std::string& meaning);

@@ -32,38 +32,36 @@ class TableExport {
           participant_(participant_row(record)),
           tables_(with_words(
               ExportTables(header_, options.cone_accuracy, record.event_origins(), {participant_}), words_)),
-          trials_(directory, tables_.trials.table(), format_),
-          flips_(directory, tables_.flips.table(), format_),
-          samples_(directory, tables_.samples.table(), format_),
-          gaze_events_(directory, tables_.gaze_events.table(), format_),
-          events_(directory, tables_.events.table(), format_),
-          responses_(directory, tables_.responses.table(), format_),
-          stimuli_(directory, tables_.stimuli.table(), format_),
-          display_box_(directory, tables_.display_box.table(), format_),
-          buttons_(directory, tables_.buttons.table(), format_),
-          markers_(directory, tables_.markers.table(), format_),
-          participants_(directory, tables_.participants.table(), format_), directory_(directory),
-          sample_rows_(tables_.samples, record, format_, options.cone_accuracy) {}
+          directory_(directory), sample_rows_(tables_.samples, record, format_, options.cone_accuracy) {
+        for (const Table* table : tables_.all())
+            writers_.try_emplace(table, directory, *table, format_);
+    }
 
     /// Puts the samples of the trial aside: those of trials of one sculpture come one after another.
     void join_samples(const TrialRecord& trial, const SurfaceLookup* lookup);
     /// With the samples that were put aside.
     void write_trial(const TrialRecord& trial);
     /// One that has no rows in the other tables.
-    void write_other_attempt(const TrialRecord& trial) { tables_.trials.write(trials_, {trial, nullptr}); }
+    void write_other_attempt(const TrialRecord& trial) { write(tables_.trials, TrialRow{trial, nullptr}); }
     void write_what_belongs_to_no_trial();
     void close();
     const TableExportCounts& counts() const { return counts_; }
 
   private:
+    template <class Row> TableWriter& writer(const RowLayout<Row>& layout) {
+        return writers_.at(&layout.table());
+    }
+    template <class Row> void write(const RowLayout<Row>& layout, const Row& row) {
+        layout.write(writer(layout), row);
+    }
+
     const SessionRecord& record_;
     const SessionHeader& header_;
     const TableFormat format_;
     const TrialWords words_;
     const ParticipantRow participant_;
     const ExportTables tables_;
-    TableWriter trials_, flips_, samples_, gaze_events_, events_, responses_, stimuli_, display_box_,
-        buttons_, markers_, participants_;
+    std::map<const Table*, TableWriter> writers_;
     const fs::path directory_;
     SampleRows sample_rows_;
     TableExportCounts counts_;
@@ -81,16 +79,18 @@ void TableExport::join_samples(const TrialRecord& trial, const SurfaceLookup* lo
 }
 
 void TableExport::write_trial(const TrialRecord& trial) {
-    counts_.flips += write_ledger(flips_, tables_.flips, header_, trial, record_.ledger(trial));
+    counts_.flips +=
+        write_ledger(writer(tables_.flips), tables_.flips, header_, trial, record_.ledger(trial));
     const SampleCounts of_trial = aside_.at(trial.id);
-    samples_.take(aside_file(trial), of_trial.samples);
+    TableWriter& samples = writer(tables_.samples);
+    samples.take(aside_file(trial), of_trial.samples);
     fs::remove(aside_file(trial));
-    const SampleCounts after = sample_rows_.write_after(samples_, trial);
+    const SampleCounts after = sample_rows_.write_after(samples, trial);
     counts_.samples += after.samples;
     counts_.samples_without_gaze += after.without_gaze;
-    write_gaze_events(gaze_events_, tables_.gaze_events, record_, trial);
-    tables_.responses.write(responses_, trial);
-    tables_.trials.write(trials_, {trial, &of_trial});
+    write_gaze_events(writer(tables_.gaze_events), tables_.gaze_events, record_, trial);
+    write(tables_.responses, trial);
+    write(tables_.trials, TrialRow{trial, &of_trial});
 
     ++counts_.trials;
     counts_.samples += of_trial.samples;
@@ -100,29 +100,28 @@ void TableExport::write_trial(const TrialRecord& trial) {
 }
 
 void TableExport::write_what_belongs_to_no_trial() {
-    write_gaze_events_outside(gaze_events_, tables_.gaze_events, record_);
-    record_.read_events([this](const RecordedEvent& event) { tables_.events.write(events_, event); });
-    tables_.participants.write(participants_, participant_);
+    write_gaze_events_outside(writer(tables_.gaze_events), tables_.gaze_events, record_);
+    record_.read_events([this](const RecordedEvent& event) { write(tables_.events, event); });
+    write(tables_.participants, participant_);
     for (const RecordedStimulus& stimulus : header_.stimuli)
-        tables_.stimuli.write(stimuli_, stimulus);
+        write(tables_.stimuli, stimulus);
     for (const RecordedButton& button : record_.button_changes())
-        tables_.buttons.write(buttons_, button);
+        write(tables_.buttons, button);
     for (const RecordedMarker& marker : record_.markers())
-        tables_.markers.write(markers_, marker);
+        write(tables_.markers, marker);
     for (const auto& [sitting, box] : record_.display_boxes()) {
         const auto readings = record_.box_clock_readings(sitting);
-        tables_.display_box.write(
-            display_box_,
-            {sitting, box, readings.empty() ? std::nullopt : std::optional(fit_box_clock(readings))});
+        write(tables_.display_box,
+              DisplayBoxRow{sitting, box,
+                            readings.empty() ? std::nullopt : std::optional(fit_box_clock(readings))});
     }
 }
 
 void TableExport::close() {
-    for (TableWriter* writer : {&trials_, &flips_, &samples_, &gaze_events_, &events_, &responses_, &stimuli_,
-                                &display_box_, &buttons_, &markers_, &participants_}) {
-        counts_.rows += writer->rows();
-        counts_.bytes += writer->bytes();
-        writer->close();
+    for (auto& [table, writer] : writers_) {
+        counts_.rows += writer.rows();
+        counts_.bytes += writer.bytes();
+        writer.close();
     }
     write_text_file(directory_ / dictionary_file, table_dictionary(tables_, format_));
 }
@@ -131,7 +130,7 @@ std::vector<std::string> file_names(const SessionHeader& header, TableFormat for
     std::vector<std::string> names{dictionary_file};
     const ExportTables tables(header);
     for (const Table* table : tables.all())
-        names.push_back(fmt::format("{}.{}", table->name, ending_of(format)));
+        names.push_back(file_name_of(*table, format));
     return names;
 }
 

@@ -92,6 +92,10 @@ std::string_view ending_of(TableFormat format) {
     return format == TableFormat::tsv ? "tsv" : format == TableFormat::csv ? "csv" : "jsonl";
 }
 
+std::string file_name_of(const Table& table, TableFormat format) {
+    return fmt::format("{}.{}", table.name, ending_of(format));
+}
+
 std::string text_cell(std::string_view text, TableFormat format) {
     if (text.empty())
         return std::string(missing_in(format));
@@ -178,8 +182,8 @@ void TableCells::end_row() {
 }
 
 TableWriter::TableWriter(const std::filesystem::path& directory, const Table& table, TableFormat format)
-    : TableWriter(directory / fmt::format("{}.{}", table.name, ending_of(format)), table, format,
-                  Packing::none, format == TableFormat::jsonl ? Header::none : Header::names) {}
+    : TableWriter(directory / file_name_of(table, format), table, format, Packing::none,
+                  format == TableFormat::jsonl ? Header::none : Header::names) {}
 
 TableWriter::TableWriter(const std::filesystem::path& file, const Table& table, TableFormat format,
                          Packing packing, Header header)

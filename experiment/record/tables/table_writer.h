@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -16,8 +18,14 @@ namespace overt {
 struct TableColumn {
     std::string name;
     std::string meaning;
-    std::string unit;                                        ///< empty: none
-    std::vector<std::pair<std::string, std::string>> levels; ///< value and what it means; empty: any value
+    std::string unit = {};                                        ///< empty: none
+    std::vector<std::pair<std::string, std::string>> levels = {}; ///< value and what it means; empty: any
+};
+
+/// A number with so many decimals; missing if there is none.
+struct Fixed {
+    std::optional<double> number;
+    int decimals;
 };
 
 /// A column at the left that has one value in all rows.
@@ -49,6 +57,9 @@ enum class TableFormat : std::uint8_t {
 /// What file names end with: "tsv", "csv" or "jsonl".
 std::string_view ending_of(TableFormat format);
 
+/// The table's name with that ending.
+std::string file_name_of(const Table& table, TableFormat format);
+
 /// A text as a cell: see TableWriter::ready().
 std::string text_cell(std::string_view text, TableFormat format);
 
@@ -70,6 +81,20 @@ class TableCells {
     TableCells& seconds(SessionDuration duration);
     TableCells& seconds(SessionTime time) { return seconds(time.time_since_epoch()); }
     TableCells& missing();
+
+    /// A value as its type has it: a Fixed, a whole number, a time, a text; nothing is missing.
+    template <class Value> TableCells& put(const Value& value) {
+        if constexpr (requires { value.has_value(); })
+            return value ? put(*value) : missing();
+        else if constexpr (std::is_same_v<Value, Fixed>)
+            return value.number ? fixed(*value.number, value.decimals) : missing();
+        else if constexpr (std::is_integral_v<Value>)
+            return integer(value);
+        else if constexpr (std::is_same_v<Value, SessionTime> || std::is_same_v<Value, SessionDuration>)
+            return seconds(value);
+        else
+            return text(value);
+    }
 
     /// Each column must have got its cell.
     void end_row();

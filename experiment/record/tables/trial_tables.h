@@ -15,6 +15,7 @@ namespace overt {
 struct TrialRow {
     const TrialRecord& trial;
     const SampleCounts* samples; ///< null: of an attempt that does not count
+    operator const TrialRecord&() const { return trial; }
 };
 
 /// `header` must outlive it, as the next.

@@ -72,24 +72,17 @@ class SealCheck {
 
     void learn_trials() {
         for (Query row(database_, "SELECT trial_id, trial, attempt FROM trial"); row.step();) {
-            const std::int64_t id = row.integer();
-            const int trial = row.small();
-            trials_[id] = {trial, row.small()};
+            std::pair<int, int>& trial = trials_[row.integer()];
+            row.read(trial.first, trial.second);
         }
     }
 
     void read_seals() {
-        for (Query row(database_, "SELECT seal, kind, sitting, COALESCE(trial_id, 0), previous, sha256 "
+        for (Query row(database_, "SELECT seal, kind, sitting, NULLIF(trial_id, 0), previous, sha256 "
                                   "FROM seal ORDER BY seal");
              row.step();) {
             Seal seal;
-            seal.number = row.integer();
-            seal.kind = row.text();
-            seal.sitting = row.integer();
-            if (const std::int64_t trial_id = row.integer(); trial_id != 0)
-                seal.trial_id = trial_id;
-            seal.previous = row.text();
-            seal.sha256 = row.text();
+            row.read(seal.number, seal.kind, seal.sitting, seal.trial_id, seal.previous, seal.sha256);
             seals_.push_back(std::move(seal));
         }
     }
@@ -98,16 +91,13 @@ class SealCheck {
         for (Query row(database_, "SELECT seal, name, columns, covers, after_id, to_id, row_count, sha256, "
                                   "locator FROM sealed_table ORDER BY seal, name");
              row.step();) {
-            const std::int64_t number = row.integer();
+            std::int64_t number = 0;
             TableSeal table;
-            table.name = row.text();
-            table.columns = row.text();
-            const auto rows = called<SealedRows, 4>(row.text());
-            table.after_id = row.integer();
-            table.to_id = row.integer();
-            table.row_count = row.integer();
-            table.sha256 = row.text();
+            std::string covers;
+            row.read(number, table.name, table.columns, covers, table.after_id, table.to_id, table.row_count,
+                     table.sha256);
             table.locator = row.bytes();
+            const auto rows = called<SealedRows, 4>(covers);
             const auto seal = std::lower_bound(
                 seals_.begin(), seals_.end(), number,
                 [](const Seal& other, std::int64_t wanted) { return other.number < wanted; });

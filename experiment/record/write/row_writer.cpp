@@ -37,6 +37,9 @@ std::int64_t number(const SQLite::Database& database, const char* sql, std::int6
     return query.step() ? query.integer() : 0;
 }
 
+/// As it stands in a table: NULL outside of trials.
+std::optional<int> number_of_trial(int trial) { return trial < 0 ? std::nullopt : std::optional(trial); }
+
 } // namespace
 
 RowWriter::RowWriter(const std::filesystem::path& session_file, const Sitting& sitting) try
@@ -90,25 +93,23 @@ void RowWriter::begin_sitting(const Sitting& sitting) {
         seals_.seal_trial(sitting_, trial_id);
 
     const std::optional<Resumption>& resumed = sitting.resumption;
-    SQLite::Statement insert_sitting(
-        database_, "INSERT INTO sitting (sitting, started_utc, closed, resumed, program_version, "
-                   "program_sha256) VALUES (?,?,0,?,?,?)");
-    run_statement(insert_sitting, sitting_, sitting.started_utc,
-                  resumed ? std::optional(std::string(name_of(resumed->policy))) : std::nullopt,
-                  sitting.program_version, sitting.program_sha256);
+    insert_values(
+        database_, "INTO sitting (sitting, started_utc, closed, resumed, program_version, program_sha256)",
+        sitting_, sitting.started_utc, 0, resumed ? std::optional(name_of(resumed->policy)) : std::nullopt,
+        sitting.program_version, sitting.program_sha256);
     write_options(sitting.options);
     if (sitting.detection)
         events_.emplace(gaze_rows_, sitting_, *sitting.detection);
     if (resumed) {
-        SQLite::Statement supersede(database_, "INSERT OR IGNORE INTO superseded VALUES (?,?,?)");
         for (const std::int64_t attempt_id : resumed->superseded)
-            run_statement(supersede, attempt_id, sitting_, "the block was restarted");
+            insert_values(database_, "OR IGNORE INTO superseded", attempt_id, sitting_,
+                          "the block was restarted");
         SQLite::Statement take_back(database_, "DELETE FROM given_up WHERE trial = ?");
         for (const int trial : resumed->restarted)
             run_statement(take_back, trial);
-        SQLite::Statement give_up(database_, "INSERT OR REPLACE INTO given_up VALUES (?,?,?)");
         if (resumed->skipped)
-            run_statement(give_up, *resumed->skipped, sitting_, "interrupted, and skipped");
+            insert_values(database_, "OR REPLACE INTO given_up", *resumed->skipped, sitting_,
+                          "interrupted, and skipped");
     }
     forget_file_hash(database_);
     seals_.seal_rest(SealKind::sitting, sitting_);
@@ -117,10 +118,10 @@ void RowWriter::begin_sitting(const Sitting& sitting) {
 
 void RowWriter::write_options(const std::vector<RecordedOption>& options) {
     database_.exec(option_tables_sql);
-    SQLite::Statement insert(database_, "INSERT INTO run_option (sitting, n, name, value) VALUES (?,?,?,?)");
     int n = 0;
     for (const RecordedOption& option : options)
-        run_statement(insert, sitting_, ++n, option.name, option.value);
+        insert_values(database_, "INTO run_option (sitting, n, name, value)", sitting_, ++n, option.name,
+                      option.value);
 }
 
 void RowWriter::begin() {
@@ -159,14 +160,14 @@ void RowWriter::write(const FlipRecord& flip) {
     run_statement(insert_flip_, counts.trial_id, counts.flips++, flip.refresh_in_trial, report.refresh.value,
                   flip.planned.value, flip.shown.value, flip.pose.value, report.requested, report.swapped,
                   report.vertical_blank, static_cast<int>(report.source), flip.missed_refreshes,
-                  static_cast<std::int64_t>(report.uncertainty.count()));
+                  report.uncertainty);
 }
 
 void RowWriter::write(const MissedRefresh& refresh) {
     begin();
     run_statement(insert_missed_, counts_of(refresh.trial).trial_id, refresh.refresh_in_trial,
                   refresh.refresh.value, refresh.planned.value, refresh.shown.value, refresh.pose.value,
-                  refresh.vertical_blank, static_cast<std::int64_t>(refresh.uncertainty.count()));
+                  refresh.vertical_blank, refresh.uncertainty);
 }
 
 void RowWriter::write(const SampleRow& row) {
@@ -174,8 +175,7 @@ void RowWriter::write(const SampleRow& row) {
     const GazeSample& sample = row.sample;
     Counts& counts = counts_of(row.trial);
     using Pixels = std::optional<double>;
-    run_statement(insert_sample_, counts.trial_id, counts.samples++,
-                  static_cast<std::int64_t>(sample.sampled_at.time_since_epoch().count()),
+    run_statement(insert_sample_, counts.trial_id, counts.samples++, sample.sampled_at,
                   static_cast<int>(sample.eye), sample.gaze ? Pixels(sample.gaze->x_px) : std::nullopt,
                   sample.gaze ? Pixels(sample.gaze->y_px) : std::nullopt,
                   shortest_decimal(sample.pupil_area));
@@ -213,46 +213,35 @@ std::optional<std::int64_t> RowWriter::attempt_at(int trial, SessionTime at) con
 void RowWriter::write(const std::vector<RecordedButton>& buttons) {
     begin();
     database_.exec(device_tables_sql);
-    SQLite::Statement insert(
-        database_, "INSERT INTO button_change (sitting, at_ns, uncertainty_ns, trial, attempt_id, box, "
-                   "used_by, button, name, is_down, device_us, meaning) "
-                   "VALUES (?,?,?,?,?,?,?,?,?,?,?,?)");
     for (const RecordedButton& button : buttons)
-        run_statement(insert, sitting_, button.at, static_cast<std::int64_t>(button.uncertainty.count()),
-                      button.trial < 0 ? std::nullopt : std::optional(button.trial), attempt_of(button.trial),
-                      button.box, std::string(button.is_operators ? "operator" : "observer"), button.button,
-                      button.name, button.is_down ? 1 : 0,
-                      button.device_time
-                          ? std::optional<std::int64_t>(button.device_time->time_since_epoch().count())
-                          : std::nullopt,
-                      button.meaning);
+        insert_values(database_,
+                      "INTO button_change (sitting, at_ns, uncertainty_ns, trial, attempt_id, box, used_by, "
+                      "button, name, is_down, device_us, meaning)",
+                      sitting_, button.at, button.uncertainty, number_of_trial(button.trial),
+                      attempt_of(button.trial), button.box, button.is_operators ? "operator" : "observer",
+                      button.button, button.name, button.is_down, button.device_time, button.meaning);
 }
 
 void RowWriter::write(const std::vector<RecordedMarker>& markers) {
     begin();
     database_.exec(device_tables_sql);
-    SQLite::Statement insert(
-        database_, "INSERT INTO marker (sitting, at_ns, trial, attempt_id, output, text, code, is_sent, "
-                   "not_before_ns, not_after_ns, planned_refresh, shown_refresh) "
-                   "VALUES (?,?,?,?,?,?,?,?,?,?,?,?)");
     for (const RecordedMarker& marker : markers)
-        run_statement(insert, sitting_, marker.at,
-                      marker.trial < 0 ? std::nullopt : std::optional(marker.trial),
-                      attempt_at(marker.trial, marker.at), marker.output, marker.text, marker.code,
-                      marker.is_sent ? 1 : 0, marker.not_before, marker.not_after, marker.planned_refresh,
-                      marker.shown_refresh);
+        insert_values(database_,
+                      "INTO marker (sitting, at_ns, trial, attempt_id, output, text, code, is_sent, "
+                      "not_before_ns, not_after_ns, planned_refresh, shown_refresh)",
+                      sitting_, marker.at, number_of_trial(marker.trial), attempt_at(marker.trial, marker.at),
+                      marker.output, marker.text, marker.code, marker.is_sent, marker.not_before,
+                      marker.not_after, marker.planned_refresh, marker.shown_refresh);
 }
 
 void RowWriter::write(const ClockPair& pair) {
     begin();
-    run_statement(insert_clock_pair_, sitting_, pair.before,
-                  static_cast<std::int64_t>(pair.other.time_since_epoch().count()), pair.after);
+    run_statement(insert_clock_pair_, sitting_, pair.before, pair.other, pair.after);
 }
 
 void RowWriter::write(const EventRow& event) {
     begin();
-    run_statement(insert_event_, sitting_, event.at,
-                  event.trial < 0 ? std::nullopt : std::optional(event.trial), event.kind, event.detail);
+    run_statement(insert_event_, sitting_, event.at, number_of_trial(event.trial), event.kind, event.detail);
 }
 
 void RowWriter::write(const RecordedMap& map) {
@@ -264,62 +253,52 @@ void RowWriter::write(const RecordedMap& map) {
 void RowWriter::write(const RecordedBox& box) {
     begin_sealed();
     database_.exec(box_tables_sql);
-    SQLite::Statement insert(
-        database_, "INSERT OR REPLACE INTO display_box (sitting, use, port, product, serial_number, "
-                   "firmware_date, mode, gamma_table, settled_after_ns, video_rate_hz) "
-                   "VALUES (?,?,?,?,?,?,?,?,?,?)");
     const bool is_there = box.use == RecordedBox::Use::box;
-    run_statement(insert, sitting_, std::string(name_of(box.use)), box.port, box.product, box.serial_number,
-                  box.firmware_date, box.mode, box.gamma_table,
-                  is_there ? std::optional<std::int64_t>(box.settled_after.count()) : std::nullopt,
+    insert_values(database_,
+                  "OR REPLACE INTO display_box (sitting, use, port, product, serial_number, firmware_date, "
+                  "mode, gamma_table, settled_after_ns, video_rate_hz)",
+                  sitting_, name_of(box.use), box.port, box.product, box.serial_number, box.firmware_date,
+                  box.mode, box.gamma_table, is_there ? std::optional(box.settled_after) : std::nullopt,
                   is_there ? std::optional(box.video_rate_hz) : std::nullopt);
 }
 
 void RowWriter::write(const std::vector<BoxClockPair>& readings) {
     begin();
     database_.exec(box_tables_sql);
-    SQLite::Statement insert(
-        database_, "INSERT INTO box_clock_pair (sitting, before_ns, box_us, after_ns) VALUES (?,?,?,?)");
     for (const BoxClockPair& reading : readings)
-        run_statement(insert, sitting_, reading.before,
-                      static_cast<std::int64_t>(reading.other.time_since_epoch().count()), reading.after);
+        insert_values(database_, "INTO box_clock_pair (sitting, before_ns, box_us, after_ns)", sitting_,
+                      reading.before, reading.other, reading.after);
 }
 
 void RowWriter::write(const RecordedConsent& consent) {
     begin_sealed();
     database_.exec(observer_tables_sql);
-    SQLite::Statement insert(database_, "INSERT INTO consent (sitting, observer, accepted, at_ns, at_utc, "
-                                        "text_sha256) VALUES (?,?,?,?,?,?)");
-    run_statement(insert, sitting_, consent.observer, consent.accepted ? 1 : 0, consent.at, consent.utc,
-                  consent.text_sha256);
+    insert_values(database_, "INTO consent (sitting, observer, accepted, at_ns, at_utc, text_sha256)",
+                  sitting_, consent.observer, consent.accepted, consent.at, consent.utc, consent.text_sha256);
 }
 
 void RowWriter::write(const RecordedAnswer& answer) {
     begin();
     database_.exec(observer_tables_sql);
-    SQLite::Statement insert(
-        database_, "INSERT OR REPLACE INTO answer_recording (trial_id, file, sha256, device, sample_rate_hz, "
-                   "measured_rate_hz, bits, input_latency_ns, samples, onset_sample, onset_uncertainty_ns, "
-                   "overruns, lost_samples, peak_dbfs, noise_dbfs, clipped_samples, voice_onset_ns, "
-                   "voice_end_ns, fault) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
-    const auto ns = [](const std::optional<SessionDuration>& time) {
-        return time ? std::optional<std::int64_t>(time->count()) : std::nullopt;
-    };
-    run_statement(insert, trial_counts_.trial_id, answer.file, answer.sha256, answer.device,
-                  answer.sample_rate_hz, answer.measured_rate_hz, answer.bits,
-                  static_cast<std::int64_t>(answer.input_latency.count()), answer.samples,
-                  answer.onset_sample, static_cast<std::int64_t>(answer.onset_uncertainty.count()),
-                  answer.overruns, answer.lost_samples, answer.peak_dbfs, answer.noise_dbfs,
-                  answer.clipped_samples, ns(answer.voice_onset), ns(answer.voice_end), answer.fault);
+    insert_values(database_,
+                  "OR REPLACE INTO answer_recording (trial_id, file, sha256, device, sample_rate_hz, "
+                  "measured_rate_hz, bits, input_latency_ns, samples, onset_sample, onset_uncertainty_ns, "
+                  "overruns, lost_samples, peak_dbfs, noise_dbfs, clipped_samples, voice_onset_ns, "
+                  "voice_end_ns, fault)",
+                  trial_counts_.trial_id, answer.file, answer.sha256, answer.device, answer.sample_rate_hz,
+                  answer.measured_rate_hz, answer.bits, answer.input_latency, answer.samples,
+                  answer.onset_sample, answer.onset_uncertainty, answer.overruns, answer.lost_samples,
+                  answer.peak_dbfs, answer.noise_dbfs, answer.clipped_samples, answer.voice_onset,
+                  answer.voice_end, answer.fault);
 }
 
 void RowWriter::write(const std::vector<RecordedObserverField>& fields) {
     begin_sealed();
     database_.exec(observer_tables_sql);
     database_.exec("DELETE FROM observer_field");
-    SQLite::Statement insert(database_, "INSERT INTO observer_field (id, title, value) VALUES (?,?,?)");
     for (const RecordedObserverField& field : fields)
-        run_statement(insert, field.id, field.title, field.value);
+        insert_values(database_, "INTO observer_field (id, title, value)", field.id, field.title,
+                      field.value);
 }
 
 void RowWriter::write(const TrialStart& start) {
@@ -346,26 +325,20 @@ void RowWriter::write(const TrialFinish& finish) {
     if (events_)
         events_->finish_trial();
     const std::string_view afterwards = name_of(outcome.afterwards);
-    run_statement(
-        finish_trial_, outcome.status == TrialOutcome::Status::completed ? "completed" : "aborted",
-        outcome.task_screen_onset, outcome.presentation_onset, outcome.presentation_end,
-        outcome.response_screen_onset, outcome.responded_at, outcome.shown_refreshes,
-        outcome.missed_refreshes, outcome.drift ? std::optional(outcome.drift->value) : std::nullopt,
-        outcome.answer, finish.lost_flips, finish.lost_samples,
-        outcome.failure.empty() ? std::nullopt : std::optional(outcome.failure),
-        afterwards.empty() ? std::nullopt : std::optional(std::string(afterwards)), trial_counts_.trial_id);
-    if (outcome.responded_uncertainty) {
-        SQLite::Statement insert(database_,
-                                 "INSERT INTO response_press (trial_id, uncertainty_ns) VALUES (?,?)");
-        run_statement(insert, trial_counts_.trial_id, outcome.responded_uncertainty->count());
-    }
-    if (const std::optional<SwapModes>& swaps = outcome.swaps) {
-        SQLite::Statement insert(database_,
-                                 "INSERT INTO swap_modes (trial_id, flipped, copied, suboptimal_copied, "
-                                 "skipped) VALUES (?,?,?,?,?)");
-        run_statement(insert, trial_counts_.trial_id, swaps->flipped, swaps->copied, swaps->suboptimal_copied,
+    run_statement(finish_trial_, outcome.status == TrialOutcome::Status::completed ? "completed" : "aborted",
+                  outcome.task_screen_onset, outcome.presentation_onset, outcome.presentation_end,
+                  outcome.response_screen_onset, outcome.responded_at, outcome.shown_refreshes,
+                  outcome.missed_refreshes, outcome.drift, outcome.answer, finish.lost_flips,
+                  finish.lost_samples,
+                  outcome.failure.empty() ? std::nullopt : std::optional(outcome.failure),
+                  afterwards.empty() ? std::nullopt : std::optional(afterwards), trial_counts_.trial_id);
+    if (outcome.responded_uncertainty)
+        insert_values(database_, "INTO response_press (trial_id, uncertainty_ns)", trial_counts_.trial_id,
+                      outcome.responded_uncertainty);
+    if (const std::optional<SwapModes>& swaps = outcome.swaps)
+        insert_values(database_, "INTO swap_modes (trial_id, flipped, copied, suboptimal_copied, skipped)",
+                      trial_counts_.trial_id, swaps->flipped, swaps->copied, swaps->suboptimal_copied,
                       swaps->skipped);
-    }
     seals_.seal_trial(sitting_, trial_counts_.trial_id);
     forget_file_hash(database_);
     commit_to_disk();

@@ -1,5 +1,5 @@
 /// What is found of planted head shares after a tracker's error, without drawing anything.
-#include "experiment/study/part_evidence.h"
+#include "experiment/study/read/part_evidence.h"
 
 #include <cmath>
 #include <memory>

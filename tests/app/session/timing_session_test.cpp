@@ -11,6 +11,7 @@
 #include "experiment/ports/event_kinds.h"
 #include "experiment/record/read/timing_report.h"
 #include "tests/app/small_experiment.h"
+#include "tests/support/missed_rows.h"
 #include "tests/support/tsv_file.h"
 
 using namespace overt;
@@ -71,7 +72,7 @@ TEST_CASE("a session with faults has exactly these in its ledger, its report and
     CHECK((second[1].refresh_in_trial == 80 && second[1].count == 1 &&
            second[1].cause == MissCause::asked_late));
     CHECK(report.trials[2].missed_runs.empty());
-    CHECK(record.missed_refreshes(record.trials()[1]).size() == 5);
+    CHECK(missed_rows(experiment.session(), record.trials()[1].id).size() == 5);
     CHECK(report.samples_off_plan > 0);
 
     const std::string session = experiment.session().string();

@@ -17,6 +17,7 @@
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/session_schema.h"
 #include "tests/experiment/record/session_fixture.h"
+#include "tests/support/missed_rows.h"
 
 namespace overt::testing {
 
@@ -100,7 +101,8 @@ inline void write_killed_session(const std::filesystem::path& session) {
         write_rows(store, header.schedule.trials[2], 300);
         wait_until([&] {
             const SessionRecord record(session);
-            return record.trials().size() == 3 && record.missed_refreshes(record.trials()[2]).size() == 1;
+            return record.trials().size() == 3 &&
+                   test::missed_rows(session, record.trials()[2].id).size() == 1;
         });
         ::raise(SIGKILL);
     }

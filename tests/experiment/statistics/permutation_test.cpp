@@ -13,19 +13,12 @@ namespace {
 using namespace overt;
 using Values = std::vector<double>;
 
-TEST_CASE("exact tests are those of scipy.stats.permutation_test", "[unit]") {
+TEST_CASE("the exact test is that of scipy.stats.permutation_test", "[unit]") {
     const Values differences{0.3, -0.1, 0.8, 0.5, 1.1, -0.4, 0.9, 0.2};
     const TestResult flips = *sign_flip_test(differences);
     CHECK(flips.p == Approx(0.078125));
     CHECK(flips.is_exact);
     CHECK(flips.permutations == 256);
-    const Values a{1.2, 0.7, 2.3, 1.9, 1.1}, b{0.4, 0.9, 0.2, 1.0, 0.3, 0.8};
-    // scipy doubles the smaller tail; both tails together hold 10 of the 462 choices.
-    const TestResult labels = *label_permutation_test(a, b);
-    CHECK(labels.is_exact);
-    CHECK(labels.permutations == 462);
-    CHECK(labels.p <= 0.0303030304);
-    CHECK(labels.p >= 0.0303030303 / 2.0);
 }
 
 TEST_CASE("random flips come to the exact p, and never to 0", "[unit]") {
@@ -36,9 +29,6 @@ TEST_CASE("random flips come to the exact p, and never to 0", "[unit]") {
     CHECK(sign_flip_test(Values(40, 1.0), {99, 10, 3})->p == Approx(0.01));
     CHECK_FALSE(sign_flip_test({}));
     CHECK(sign_flip_test(Values{0.7})->p == 1.0);
-    const Values a{1.2, 0.7, 2.3, 1.9, 1.1}, b{0.4, 0.9, 0.2, 1.0, 0.3, 0.8};
-    CHECK(label_permutation_test(a, b, {20000, 10, 3})->p ==
-          Approx(label_permutation_test(a, b)->p).margin(0.005));
 }
 
 TEST_CASE("sign flips find a true effect of 0 in 5 % of studies", "[unit]") {
@@ -53,15 +43,12 @@ TEST_CASE("sign flips find a true effect of 0 in 5 % of studies", "[unit]") {
     CHECK(found == Approx(50).margin(21)); // three standard deviations of 1000 throws
 }
 
-TEST_CASE("p values for several tests are corrected after Holm, and Benjamini and Hochberg", "[unit]") {
-    // R: p.adjust(c(.01, .04, .03, .005, .2), "holm") and "BH".
+TEST_CASE("p values for several tests are corrected after Holm", "[unit]") {
+    // R: p.adjust(c(.01, .04, .03, .005, .2), "holm").
     const Values p{0.01, 0.04, 0.03, 0.005, 0.2};
-    const Values by_holm = holm(p), by_rate = benjamini_hochberg(p);
-    const Values holm_expected{0.04, 0.09, 0.09, 0.025, 0.2}, rate_expected{0.025, 0.05, 0.05, 0.025, 0.2};
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        CHECK(by_holm[i] == Approx(holm_expected[i]));
-        CHECK(by_rate[i] == Approx(rate_expected[i]));
-    }
+    const Values corrected = holm(p), expected{0.04, 0.09, 0.09, 0.025, 0.2};
+    for (std::size_t i = 0; i < p.size(); ++i)
+        CHECK(corrected[i] == Approx(expected[i]));
     CHECK(p_of_least(0.3, Values{0.1, 0.2, 0.4, 0.5}) == Approx(0.6));
 }
 

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "experiment/base/random.h"
-#include "experiment/study/study_groups.h"
-#include "experiment/study/study_options.h"
+#include "experiment/study/results/study_groups.h"
+#include "experiment/study/results/study_options.h"
 
 namespace overt::test {
 

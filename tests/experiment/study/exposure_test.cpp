@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "experiment/study/error_budget.h"
-#include "experiment/study/exposure.h"
+#include "experiment/study/read/exposure.h"
 #include "experiment/study/study_maps.h"
 #include "experiment/surface/euclidean_kernel.h"
 #include "tests/experiment/study/painted_study.h"

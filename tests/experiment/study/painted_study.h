@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "experiment/base/random.h"
-#include "experiment/study/study_groups.h"
-#include "experiment/study/study_reader.h"
+#include "experiment/study/read/study_reader.h"
+#include "experiment/study/results/study_groups.h"
 #include "tests/experiment/surface/flat_and_round.h"
 
 namespace overt::test {

@@ -110,4 +110,29 @@ inline double mass_of(const std::vector<double>& density, const SurfaceGeometry&
     return mass;
 }
 
+/// Pieces of a surface that hang together by edges, numbered by their first node.
+struct Pieces {
+    std::vector<std::size_t> of_node;
+    std::size_t count = 0;
+};
+inline Pieces pieces_of(const SurfaceGeometry& geometry) {
+    constexpr auto none = ~std::size_t{0};
+    Pieces pieces{std::vector(geometry.node_count(), none), 0};
+    for (std::uint32_t first = 0; first < geometry.node_count(); ++first) {
+        if (pieces.of_node[first] != none)
+            continue;
+        std::vector<std::uint32_t> open{first};
+        while (!open.empty()) {
+            const std::uint32_t node = open.back();
+            open.pop_back();
+            pieces.of_node[node] = pieces.count;
+            for (const std::uint32_t next : geometry.neighbours(node))
+                if (pieces.of_node[next] == none)
+                    open.push_back(next);
+        }
+        ++pieces.count;
+    }
+    return pieces;
+}
+
 } // namespace overt::test

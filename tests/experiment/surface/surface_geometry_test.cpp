@@ -6,6 +6,8 @@
 using namespace overt;
 using overt::test::flat_square;
 using overt::test::icosphere;
+using overt::test::Pieces;
+using overt::test::pieces_of;
 
 TEST_CASE("the areas of vertices sum to the area of the surface, in millimetres", "[unit]") {
     const Mesh mesh = flat_square(0.5, 10);
@@ -15,14 +17,14 @@ TEST_CASE("the areas of vertices sum to the area of the surface, in millimetres"
     CHECK(std::accumulate(areas.begin(), areas.end(), 0.0) == Approx(400.0));
     // An inner vertex of this mesh has six triangles of half a square: 4 mm^2 in all, of which a third is 4.
     CHECK(areas[5 * 11 + 5] == Approx(4.0));
-    CHECK(geometry.component_count() == 1);
+    CHECK(pieces_of(geometry).count == 1);
 }
 
 TEST_CASE("a seam of duplicate vertices does not cut a surface", "[unit]") {
     const Mesh mesh = flat_square(1.0, 4), loose = with_loose_triangles(mesh);
     const SurfaceGeometry whole(mesh), pieces(loose);
     CHECK(pieces.node_count() == whole.node_count());
-    CHECK(pieces.component_count() == 1);
+    CHECK(pieces_of(pieces).count == 1);
     CHECK(pieces.total_area_mm2() == Approx(whole.total_area_mm2()));
     const std::vector<double> areas = pieces.vertex_areas_mm2();
     CHECK(areas.size() == loose.positions.size());
@@ -43,7 +45,7 @@ TEST_CASE("triangles that are no surface do not count, and triangles without are
     joint.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 1, 0}, {0.5, 2, 0}};
     joint.triangles = {{0, 1, 2}, {0, 2, 3}, {3, 4, 5}, {4, 2, 5}, {3, 2, 4}};
     const SurfaceGeometry geometry(joint);
-    CHECK(geometry.component_count() == 1);
+    CHECK(pieces_of(geometry).count == 1);
     for (const auto& [a, b, weight] : geometry.triangulation().edge_weights())
         CHECK(std::isfinite(weight));
 }
@@ -53,9 +55,10 @@ TEST_CASE("pieces that do not hang together are told apart, and lone vertices ar
     test::add_part(mesh, flat_square(1.0, 3, 0.5), "lid");
     mesh.positions.emplace_back(7.0f, 7.0f, 7.0f);
     const SurfaceGeometry geometry(mesh);
-    CHECK(geometry.component_count() == 3);
-    CHECK(geometry.component_of(0) == geometry.component_of(15));
-    CHECK(geometry.component_of(0) != geometry.component_of(16));
+    const Pieces pieces = pieces_of(geometry);
+    CHECK(pieces.count == 3);
+    CHECK(pieces.of_node[0] == pieces.of_node[15]);
+    CHECK(pieces.of_node[0] != pieces.of_node[16]);
     CHECK(geometry.vertex_areas_mm2().back() == 0.0);
 }
 

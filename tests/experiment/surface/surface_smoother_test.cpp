@@ -99,7 +99,8 @@ TEST_CASE("on rough meshes no density is negative, and each piece keeps its mass
     mesh.triangles.emplace_back(0, 1, 2);
     std::swap(mesh.triangles[37].x, mesh.triangles[37].y);
     const SurfaceGeometry geometry(mesh);
-    REQUIRE(geometry.component_count() == 2);
+    const Pieces pieces = pieces_of(geometry);
+    REQUIRE(pieces.count == 2);
     const SurfaceSmoother smoother(geometry, 5.0);
     std::vector<SurfaceWeight> weights;
     for (std::uint32_t t = 5; t < 790; t += 17)
@@ -114,7 +115,7 @@ TEST_CASE("on rough meshes no density is negative, and each piece keeps its mass
     const std::vector<double> areas = geometry.vertex_areas_mm2();
     double masses[2] = {0.0, 0.0};
     for (std::uint32_t v = 0; v < density.size(); ++v)
-        masses[geometry.component_of(geometry.node_of(v))] += density[v] * areas[v];
+        masses[pieces.of_node[geometry.node_of(v)]] += density[v] * areas[v];
     CHECK(masses[0] == Approx(below).epsilon(1e-9));
     CHECK(masses[1] == Approx(7.0).epsilon(1e-9));
 }

@@ -5,6 +5,7 @@
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/session_schema.h"
 #include "tests/experiment/record/session_fixture.h"
+#include "tests/support/missed_rows.h"
 
 using namespace overt;
 using namespace overt::testing;
@@ -41,7 +42,7 @@ TEST_CASE("what the ledger says of flips and misses is read as it was written", 
     REQUIRE(record.trials().size() == 1);
     for (const FlipRecord& flip : record.flips(record.trials()[0]))
         CHECK(flip.report.uncertainty == std::chrono::microseconds(7));
-    const std::vector<MissedRefresh> missed = record.missed_refreshes(record.trials()[0]);
+    const std::vector<MissedRefresh> missed = test::missed_rows(session, record.trials()[0].id);
     REQUIRE(missed.size() == 1);
     CHECK(missed[0] == MissedRefresh{0, 3, {1000}, {2}, {1}, {0}, at_ms(500), std::chrono::microseconds(9)});
 }
@@ -60,11 +61,11 @@ TEST_CASE("a session begun before misses had rows is read, and goes on with them
         CHECK(record.header().animation.when_late == WhenLate::drop);
         CHECK(record.flips(record.trials()[0]).size() == 3);
         CHECK(record.flips(record.trials()[0])[0].report.uncertainty == SessionDuration::zero());
-        CHECK(record.missed_refreshes(record.trials()[0]).empty());
+        CHECK(test::missed_rows(session, record.trials()[0].id).empty());
     }
     write_some(session, 0);
     const SessionRecord record(session);
     REQUIRE(record.trials().size() == 2);
     CHECK(record.flips(record.trials()[1])[0].report.uncertainty == std::chrono::microseconds(7));
-    CHECK(record.missed_refreshes(record.trials()[1]).size() == 1);
+    CHECK(test::missed_rows(session, record.trials()[1].id).size() == 1);
 }

@@ -1,0 +1,71 @@
+/// Cells of an attempt at a trial, for the tables whose rows are of one, or become one.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "experiment/record/read/session_record.h"
+#include "experiment/record/tables/joined_cells.h"
+#include "experiment/record/tables/shared_columns.h"
+
+namespace overt {
+
+inline int number_of_trial(const TrialRecord& attempt) { return attempt.trial.index + 1; }
+inline int attempt_number(const TrialRecord& attempt) { return attempt.attempt; }
+inline std::string_view attempt_status(const TrialRecord& attempt) { return name_of(attempt.status); }
+inline std::string_view attempt_counts(const TrialRecord& attempt) { return attempt.counts ? "yes" : "no"; }
+inline std::optional<Fixed> attempt_drift(const TrialRecord& attempt) {
+    const std::optional<Degrees>& drift = attempt.outcome.drift;
+    return attempt.has_outcome() && drift ? std::optional(Fixed{drift->value, angle_decimals}) : std::nullopt;
+}
+
+// `header` must outlive what these give.
+inline auto block_of(const SessionHeader& header) {
+    return [&header](const TrialRecord& attempt) -> std::string_view {
+        const std::string* const block = item_of(header.blocks, attempt.trial.block);
+        return block ? std::string_view(*block) : std::string_view();
+    };
+}
+inline auto task_of(const SessionHeader& header) {
+    return [&header](const TrialRecord& attempt) -> std::string_view {
+        return item(header.tasks, attempt.trial.task).id;
+    };
+}
+inline auto question_of(const SessionHeader& header) {
+    return [&header](const TrialRecord& attempt) -> std::string_view {
+        return item(header.tasks, attempt.trial.task).question;
+    };
+}
+inline auto sculpture_of(const SessionHeader& header) {
+    return [&header](const TrialRecord& attempt) -> std::string_view {
+        return item(header.sculptures, attempt.trial.condition.sculpture).id;
+    };
+}
+inline auto material_of(const SessionHeader& header) {
+    return [&header](const TrialRecord& attempt) -> std::string_view {
+        return item(header.materials, attempt.trial.condition.material).id;
+    };
+}
+/// Nothing where no vertical blanks prove which refreshes were missed.
+inline auto missed_refreshes_of(const SessionHeader& header) {
+    return [&header](const TrialRecord& attempt) {
+        return when(attempt.has_outcome() && !header.display.is_timing_unproven(),
+                    attempt.outcome.missed_refreshes);
+    };
+}
+
+/// What proves the times of flips: the same in all rows.
+inline TableColumn timing_column() {
+    return {"timing",
+            "What proves the times of flips, and with them missed refreshes; n/a: not recorded",
+            "",
+            {{"proven", "real vertical blanks of the display"},
+             {"unproven", "nothing: which refreshes were missed is not known"},
+             {"none", "time was virtual, or there was no display"}}};
+}
+inline auto timing_of(const SessionHeader& header) {
+    return [&header](auto&) -> std::string_view { return header.display.timing; };
+}
+
+} // namespace overt

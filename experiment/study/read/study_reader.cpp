@@ -1,0 +1,517 @@
+#include "experiment/study/read/study_reader.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/base/parallel.h"
+#include "experiment/maps/coordinate_maps.h"
+#include "experiment/record/preview_file.h"
+#include "experiment/record/read/recorded_validation.h"
+#include "experiment/study/read/exposure.h"
+#include "experiment/study/read/gaze_quality.h"
+#include "experiment/study/read/part_evidence.h"
+#include "experiment/study/read/reporting.h"
+
+namespace overt {
+
+namespace {
+
+/// A session with as many readers as may work on it at once.
+struct OpenSession {
+    std::filesystem::path path; ///< absolute
+    std::vector<std::unique_ptr<SessionRecord>> readers;
+    std::vector<std::unique_ptr<TrialKeys>> keys; ///< by reader
+    std::vector<RecordedAccuracy> validations;
+    std::vector<int> sculptures; ///< of the study, by the session's own index
+    const SessionRecord& record() const { return *readers.front(); }
+};
+
+/// Whether two sessions' sculptures are one: the same picture of the same mesh.
+bool is_same_sculpture(const SessionHeader& a, int in_a, const SessionHeader& b, int in_b) {
+    const RecordedSculpture &one = a.sculptures[static_cast<std::size_t>(in_a)],
+                            &other = b.sculptures[static_cast<std::size_t>(in_b)];
+    const auto maps_of = [](const SessionHeader& header, int sculpture) {
+        std::vector<std::pair<int, ContentHash>> maps;
+        for (const RecordedMap& map : header.maps) {
+            if (map.sculpture == sculpture)
+                maps.emplace_back(map.pose.value, map.sha256);
+        }
+        std::sort(maps.begin(), maps.end());
+        return maps;
+    };
+    const ScreenGeometry &screen = a.display.screen, &other_screen = b.display.screen;
+    // Maps are looked up by the number of the pose.
+    const auto same_angle = [](Degrees one_angle, Degrees other_angle) {
+        return one_angle.value == other_angle.value;
+    };
+    return std::ranges::equal(a.poses.angles, b.poses.angles, same_angle) && one.id == other.id &&
+           one.mesh_file.empty() == other.mesh_file.empty() && one.mesh_sha256 == other.mesh_sha256 &&
+           one.camera.position == other.camera.position && one.camera.target == other.camera.target &&
+           one.camera.vertical_fov == other.camera.vertical_fov && screen.image_px == other_screen.image_px &&
+           screen.screen_px == other_screen.screen_px && screen.screen_mm == other_screen.screen_mm &&
+           screen.viewing_distance_mm == other_screen.viewing_distance_mm &&
+           (!one.mesh_file.empty() || maps_of(a, in_a) == maps_of(b, in_b));
+}
+
+/// Who resumes a session adds to both.
+std::string state_of(const SessionRecord& record) {
+    return fmt::format("{} trials, last time {} ns", record.trials().size(),
+                       record.last_time().time_since_epoch().count());
+}
+
+std::string folder_name(const std::filesystem::path& session) {
+    std::filesystem::path path = std::filesystem::absolute(session).lexically_normal();
+    if (!path.has_filename() || path.filename() == "session.sqlite")
+        path = path.parent_path();
+    return path.filename().string();
+}
+
+class StudyReader {
+  public:
+    StudyReader(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
+                const StudyOptions& options, const StudyProgress& progress)
+        : surface_for_(surface_for), options_(options), progress_(progress) {
+        open(sessions);
+        for (std::size_t i = 0; i < open_.size(); ++i)
+            add_session(i, sessions[i]);
+        study_.surfaces.resize(results().sculptures.size());
+    }
+
+    ReadStudy read() {
+        begin_reading();
+        for (int sculpture = 0; sculpture < static_cast<int>(study_.surfaces.size()); ++sculpture) {
+            const SurfaceLookup* lookup = load_surface(sculpture);
+            find_exposure(sculpture, lookup);
+            read_trials(sculpture, lookup);
+            add_evidence(sculpture);
+        }
+        collect();
+        return std::move(study_);
+    }
+
+    std::vector<ReadSession> read_alone() {
+        begin_reading();
+        for (int sculpture = 0; sculpture < static_cast<int>(study_.surfaces.size()); ++sculpture) {
+            read_trials(sculpture, load_surface(sculpture));
+            study_.surfaces[static_cast<std::size_t>(sculpture)] = {};
+        }
+        return std::move(read_);
+    }
+
+    ReadStudy join(std::vector<ReadSession> read) {
+        read_ = std::move(read);
+        for (std::size_t i = 0; i < open_.size(); ++i) {
+            if (read_[i].state != state_of(open_[i].record()))
+                throw InputError(fmt::format("{}: this session has changed since it was read: read it again",
+                                             read_[i].session.string()));
+            results().sessions[i].events = read_[i].events;
+        }
+        for (int sculpture = 0; sculpture < static_cast<int>(study_.surfaces.size()); ++sculpture) {
+            find_exposure(sculpture, load_surface(sculpture));
+            add_evidence(sculpture);
+        }
+        collect();
+        return std::move(study_);
+    }
+
+  private:
+    StudyResults& results() { return study_.results; }
+
+    void begin_reading() {
+        for (std::size_t i = 0; i < open_.size(); ++i) {
+            const SessionRecord& record = open_[i].record();
+            results().sessions[i].events = record.event_origins();
+            read_.push_back({open_[i].path, state_of(record), results().sessions[i].events,
+                             std::vector<ReadTrial>(record.trials().size())});
+        }
+    }
+
+    void open(std::span<const std::filesystem::path> sessions) {
+        const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
+        const std::size_t readers = (processors + sessions.size() - 1) / sessions.size();
+        std::set<std::filesystem::path> seen;
+        for (const std::filesystem::path& session : sessions) {
+            if (!seen.insert(std::filesystem::weakly_canonical(session)).second)
+                throw InputError(fmt::format("{}: this session was named twice.", session.string()));
+            OpenSession& one = open_.emplace_back();
+            one.path = std::filesystem::weakly_canonical(session);
+            for (std::size_t i = 0; i < readers; ++i) {
+                one.readers.push_back(std::make_unique<SessionRecord>(session));
+                one.readers.back()->detect_events_of_imports();
+                one.keys.push_back(std::make_unique<TrialKeys>(*one.readers.back()));
+            }
+        }
+    }
+
+    void add_session(std::size_t index, const std::filesystem::path& path) {
+        OpenSession& open = open_[index];
+        const SessionRecord& record = open.record();
+        const SessionHeader& header = record.header();
+        StudySession session;
+        session.folder = folder_name(path);
+        session.observer = header.schedule.observer.label;
+        session.number = header.session_number;
+        session.protocol = header.protocol.title.empty() ? header.protocol.name : header.protocol.title;
+        session.tracker = header.tracker.name;
+        session.is_simulated = header.tracker.name.find("simulated") != std::string::npos;
+        for (const RecordedObserverField& field : record.observer_fields())
+            session.form.push_back({field.id, field.value});
+        session.is_complete = record.is_complete();
+        session.setup = setup_of(record);
+        for (const TrialRecord& trial : record.trials())
+            session.trials += trial.counts;
+        record.read_events([&](const RecordedEvent& event) {
+            if (const std::optional<ValidationResult> result = validation_of(event))
+                open.validations.push_back({event.at, result->mean_error.value, result->max_error.value});
+        });
+        const auto take_levels = [&](const std::string& column, const auto& items, const auto& id) {
+            std::vector<std::string>& levels = study_.levels[column];
+            for (const auto& item : items) {
+                if (std::find(levels.begin(), levels.end(), id(item)) == levels.end())
+                    levels.push_back(id(item));
+            }
+        };
+        const auto id_of = [](const auto& item) { return item.id; };
+        take_levels("task", header.tasks, id_of);
+        take_levels("sculpture", header.sculptures, id_of);
+        take_levels("material", header.materials, id_of);
+        take_levels("block", header.blocks, [](const std::string& block) { return block; });
+        for (int i = 0; i < static_cast<int>(header.sculptures.size()); ++i)
+            open.sculptures.push_back(sculpture_of(index, i));
+        results().sessions.push_back(std::move(session));
+    }
+
+    /// The study's index of a session's sculpture, which is new or was in a session before.
+    int sculpture_of(std::size_t session, int own) {
+        const SessionHeader& header = open_[session].record().header();
+        for (std::size_t i = 0; i < shown_in_.size(); ++i) {
+            const auto [other, index] = shown_in_[i];
+            if (is_same_sculpture(open_[other].record().header(), index, header, own))
+                return static_cast<int>(i);
+        }
+        shown_in_.emplace_back(session, own);
+        const RecordedSculpture& recorded = header.sculptures[static_cast<std::size_t>(own)];
+        StudySculpture sculpture;
+        sculpture.id = recorded.id;
+        sculpture.title = recorded.title;
+        sculpture.part_names = recorded.part_names;
+        for (std::size_t part = 0; part < recorded.part_names.size(); ++part) {
+            if (recorded.part_names[part] == "head")
+                sculpture.head = static_cast<PartIndex>(part);
+        }
+        sculpture.camera = recorded.camera;
+        sculpture.axis_point = recorded.axis_point;
+        sculpture.screen = header.display.screen;
+        results().sculptures.push_back(std::move(sculpture));
+        return static_cast<int>(results().sculptures.size()) - 1;
+    }
+
+    void read_trials(int index, const SurfaceLookup* lookup) {
+        const std::string what =
+            fmt::format("reading gaze on {}", results().sculptures[static_cast<std::size_t>(index)].id);
+        const SculptureSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
+        const LightOfStimuli light = load_light(index, lookup);
+        struct Job {
+            std::size_t session, reader;
+        };
+        std::vector<Job> jobs;
+        int trials = 0;
+        for (std::size_t session = 0; session < open_.size(); ++session) {
+            for (std::size_t reader = 0; reader < open_[session].readers.size(); ++reader)
+                jobs.push_back({session, reader});
+            for (const TrialRecord& trial : open_[session].record().trials())
+                trials += is_of(session, trial, index);
+        }
+        std::atomic<int> done{0};
+        std::mutex progress_mutex;
+        parallel_for(static_cast<int>(jobs.size()), [&](int i) {
+            const auto [session, reader] = jobs[static_cast<std::size_t>(i)];
+            OpenSession& open = open_[session];
+            std::optional<GeodesicField> field;
+            if (surface.coarse)
+                field.emplace(*surface.coarse_geometry);
+            const SessionRecord& record = *open.readers[reader];
+            for (std::size_t t = reader; t < record.trials().size(); t += open.readers.size()) {
+                const TrialRecord& trial = record.trials()[t];
+                if (!is_of(session, trial, index))
+                    continue;
+                read_[session].trials[t] = read_trial(record, trial, *open.keys[reader], open.validations,
+                                                      {lookup, surface.geometry.get(), surface.coarse.get(),
+                                                       field ? &*field : nullptr, surface.scale,
+                                                       light_of(light, record.header(), trial)},
+                                                      options_, t < 1);
+                const std::scoped_lock lock(progress_mutex);
+                progress_(what, ++done, trials);
+            }
+        });
+    }
+
+    /// Of a sculpture's stimuli by the hash of their frames.
+    using LightOfStimuli = std::map<ContentHash, LightScores>;
+
+    /// Each from the first session that has it. A file that cannot be read is as good as none.
+    LightOfStimuli load_light(int index, const SurfaceLookup* lookup) {
+        LightOfStimuli light;
+        for (std::size_t session = 0; session < open_.size() && lookup; ++session) {
+            const SessionRecord& record = open_[session].record();
+            const SessionHeader& header = record.header();
+            for (const RecordedStimulus& stimulus : header.stimuli) {
+                const auto own = static_cast<std::size_t>(stimulus.condition.sculpture);
+                const std::filesystem::path file =
+                    record.directory() / light_file(header, stimulus.condition);
+                if (open_[session].sculptures[own] != index || light.contains(stimulus.frames_sha256) ||
+                    !std::filesystem::exists(file))
+                    continue;
+                try {
+                    light.emplace(stimulus.frames_sha256, LightScores(read_light_pictures(
+                                                              file, header.display.screen.image_px,
+                                                              static_cast<int>(header.poses.angles.size()))));
+                } catch (const InputError& error) {
+                    results().remarks.push_back(
+                        fmt::format("The light of a stimulus is left out: {}", error.what()));
+                }
+            }
+        }
+        return light;
+    }
+
+    static const LightScores* light_of(const LightOfStimuli& light, const SessionHeader& header,
+                                       const TrialRecord& trial) {
+        const RecordedStimulus* const stimulus = stimulus_of(header, trial.trial.condition);
+        const auto found = stimulus ? light.find(stimulus->frames_sha256) : light.end();
+        return found == light.end() ? nullptr : &found->second;
+    }
+
+    /// Fixations of all sessions together tell where on the sculpture gaze was.
+    void add_evidence(int index) {
+        const StudySculpture& sculpture = results().sculptures[static_cast<std::size_t>(index)];
+        const SculptureSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
+        if (!sculpture.mesh || !sculpture.head || !surface.scale)
+            return;
+        std::vector<StudyFixation*> fixations;
+        std::vector<MeasuredPlace> places;
+        const SessionHeader* header = nullptr;
+        for (std::size_t session = 0; session < open_.size(); ++session) {
+            for (std::size_t t = 0; t < read_[session].trials.size(); ++t) {
+                if (!is_of(session, open_[session].record().trials()[t], index))
+                    continue;
+                header = &open_[session].record().header();
+                const std::optional<double>& accuracy = read_[session].trials[t].trial.quality.accuracy_deg;
+                const double sigma_deg =
+                    GazeCone(sculpture.screen, Degrees{accuracy.value_or(0.0)}, 1).sigma().value;
+                if (!(sigma_deg > 0.0))
+                    continue;
+                const glm::dvec2 px_per_deg = surface.scale->mm_per_deg *
+                                              glm::dvec2(sculpture.screen.screen_px) /
+                                              sculpture.screen.screen_mm;
+                for (StudyFixation& fixation : read_[session].trials[t].fixations) {
+                    if (!fixation.counted() && fixation.why != NotCounted::not_on_surface)
+                        continue;
+                    fixations.push_back(&fixation);
+                    places.push_back({fixation.mid_pose,
+                                      sculpture.screen.image_from_screen(fixation.mid_gaze),
+                                      sigma_deg * px_per_deg});
+                }
+            }
+        }
+        if (fixations.empty())
+            return;
+        const SceneView scene{{sculpture.camera, sculpture.screen.image_px}, sculpture.mesh->bounds()};
+        const auto evidence =
+            part_evidence(*sculpture.mesh, *sculpture.head, scene, header->poses.angles, places);
+        for (std::size_t i = 0; i < fixations.size(); ++i)
+            fixations[i]->evidence = evidence[i];
+    }
+
+    bool is_of(std::size_t session, const TrialRecord& trial, int sculpture) const {
+        const auto own = static_cast<std::size_t>(trial.trial.condition.sculpture);
+        return trial.counts && own < open_[session].sculptures.size() &&
+               open_[session].sculptures[own] == sculpture;
+    }
+
+    /// From the first session that has it whole.
+    const SurfaceLookup* load_surface(int index) {
+        StudySculpture& sculpture = results().sculptures[static_cast<std::size_t>(index)];
+        SculptureSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
+        surface.scale = surface_scale(sculpture.camera, sculpture.axis_point, sculpture.screen);
+        const SurfaceLookup* lookup = nullptr;
+        std::string fault;
+        for (std::size_t session = 0; session < open_.size() && !lookup; ++session) {
+            const std::vector<int>& own = open_[session].sculptures;
+            const auto found = std::find(own.begin(), own.end(), index);
+            if (found == own.end())
+                continue;
+            try {
+                lookup =
+                    surface_for_(open_[session].record(), session, static_cast<int>(found - own.begin()));
+            } catch (const Error& error) {
+                if (fault.empty())
+                    fault = error.what();
+            }
+        }
+        const auto* maps = dynamic_cast<const CoordinateMaps*>(lookup);
+        if (!lookup)
+            sculpture.remark =
+                fault.empty() ? fmt::format("The sessions have no maps of {}: gaze on it has no place on "
+                                            "a surface, and is not counted.",
+                                            sculpture.id)
+                              : fmt::format("The maps of {} cannot be used, so its gaze is not counted: {}",
+                                            sculpture.id, fault);
+        else if (!maps)
+            sculpture.remark =
+                fmt::format("Of {} there are ready-made maps and no mesh: fixations have places "
+                            "but there are no maps on the surface.",
+                            sculpture.id);
+        else if (!surface.scale)
+            sculpture.remark = fmt::format("The camera or the screen of {} is not known: there are no "
+                                           "millimetres, and no maps.",
+                                           sculpture.id);
+        if (surface.scale) {
+            sculpture.mm_per_unit = surface.scale->mm_per_unit;
+            sculpture.mm_per_deg = surface.scale->mm_per_deg;
+        }
+        if (maps) {
+            sculpture.mesh = std::make_shared<const Mesh>(maps->mesh());
+            sculpture.part_names = maps->mesh().part_names;
+            if (surface.scale)
+                surface.geometry =
+                    std::make_unique<SurfaceGeometry>(*sculpture.mesh, surface.scale->mm_per_unit);
+            else
+                surface.geometry = std::make_unique<SurfaceGeometry>(*sculpture.mesh);
+            if (surface.scale) {
+                surface.coarse = std::make_unique<CoarseSurface>(*surface.geometry, coarse_nodes);
+                surface.coarse_geometry = std::make_unique<SurfaceGeometry>(surface.coarse->mesh());
+            }
+            surface.areas_mm2 = surface.geometry->vertex_areas_mm2();
+        }
+        if (sculpture.remark.empty() && !sculpture.head)
+            sculpture.remark =
+                fmt::format("{} has no part \"head\": there is no fraction of it.", sculpture.id);
+        return lookup;
+    }
+
+    void find_exposure(int index, const SurfaceLookup* lookup) {
+        StudySculpture& sculpture = results().sculptures[static_cast<std::size_t>(index)];
+        SculptureSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
+        const auto* maps = dynamic_cast<const CoordinateMaps*>(lookup);
+        if (!maps)
+            return;
+        const SessionHeader& header =
+            open_[shown_in_[static_cast<std::size_t>(index)].first].record().header();
+        progress_(fmt::format("exposure of {}", sculpture.id), 0, 1);
+        Exposure exposure = exposure_of(*maps, header.animation, header.poses);
+        if (surface.scale) {
+            const ScreenGeometry& screen = sculpture.screen;
+            const double px_mm = screen.screen_mm.y / screen.screen_px.y;
+            for (ExposureRow& row :
+                 exposure_rows({exposure, *sculpture.mesh, surface.scale->mm_per_unit, px_mm * px_mm}, index,
+                               sculpture.part_names))
+                results().exposures.push_back(std::move(row));
+        }
+        sculpture.seconds_visible = std::move(exposure.seconds_visible);
+        surface.pixel_seconds = std::move(exposure.pixel_seconds);
+        progress_(fmt::format("exposure of {}", sculpture.id), 1, 1);
+    }
+
+    /// Everything in the order of sessions and trials, however it was read.
+    void collect() {
+        bool any_both_eyes = false;
+        for (std::size_t session = 0; session < open_.size(); ++session) {
+            const std::vector<TrialRecord>& trials = open_[session].record().trials();
+            for (std::size_t t = 0; t < trials.size(); ++t) {
+                if (!trials[t].counts)
+                    continue;
+                ReadTrial& read = read_[session].trials[t];
+                const int index = static_cast<int>(results().trials.size());
+                read.trial.session = static_cast<int>(session);
+                read.trial.sculpture =
+                    open_[session].sculptures[static_cast<std::size_t>(trials[t].trial.condition.sculpture)];
+                read.trial.first_fixation = results().fixations.size();
+                read.trial.fixations = read.fixations.size();
+                for (StudyFixation& fixation : read.fixations) {
+                    fixation.trial = index;
+                    results().fixations.push_back(std::move(fixation));
+                }
+                if (!read.trace.points.empty()) {
+                    read.trace.trial = index;
+                    results().traces.push_back(std::move(read.trace));
+                }
+                any_both_eyes |= read.had_both_eyes;
+                results().glance.samples += read.samples;
+                results().trials.push_back(std::move(read.trial));
+            }
+        }
+        for (int session = 0; session < static_cast<int>(open_.size()); ++session) {
+            std::vector<const StudyQuality*> own;
+            for (const StudyTrial& trial : results().trials) {
+                if (trial.session == session)
+                    own.push_back(&trial.quality);
+            }
+            results().session_quality.push_back(quality_of_all(own));
+        }
+        if (any_both_eyes)
+            results().remarks.push_back("Of binocular recordings the eye that the session names is taken.");
+        for (const StudySculpture& sculpture : results().sculptures) {
+            if (!sculpture.remark.empty())
+                results().remarks.push_back(sculpture.remark);
+        }
+    }
+
+    const SurfaceFor& surface_for_;
+    const StudyOptions& options_;
+    const StudyProgress& progress_;
+    std::vector<OpenSession> open_;
+    std::vector<std::pair<std::size_t, int>>
+        shown_in_;                  ///< by sculpture: a session that has it, and its index
+    std::vector<ReadSession> read_; ///< by session
+    ReadStudy study_;
+};
+
+} // namespace
+
+std::optional<SurfaceScale> surface_scale(const Camera& camera, const glm::dvec3& axis_point,
+                                          const ScreenGeometry& screen) {
+    const double fov = to_radians(camera.vertical_fov).value;
+    if (!(fov > 0.0) || !(screen.viewing_distance_mm > 0.0) || screen.screen_px.y <= 0 ||
+        !(screen.screen_mm.y > 0.0))
+        return std::nullopt;
+    SurfaceScale scale;
+    const View view{camera, screen.image_px};
+    scale.axis_depth = view.depth_of({axis_point.x, axis_point.y, camera.target.z});
+    if (!(scale.axis_depth > 0.0))
+        return std::nullopt;
+    // The height of the image is 2 tan(fov / 2) depths, and image_px.y pixels of the screen.
+    const double mm_per_px = screen.screen_mm.y / screen.screen_px.y;
+    scale.mm_per_unit = screen.image_px.y * mm_per_px / (2.0 * std::tan(0.5 * fov) * scale.axis_depth);
+    scale.mm_per_deg = screen.viewing_distance_mm * std::tan(to_radians(Degrees{1.0}).value);
+    return scale;
+}
+
+std::vector<ReadSession> read_sessions(std::span<const std::filesystem::path> sessions,
+                                       const SurfaceFor& surface_for, const StudyOptions& options,
+                                       const StudyProgress& progress) {
+    return StudyReader(sessions, surface_for, options, progress).read_alone();
+}
+
+ReadStudy join_sessions(std::vector<ReadSession> read, const SurfaceFor& surface_for,
+                        const StudyOptions& options, const StudyProgress& progress) {
+    std::vector<std::filesystem::path> sessions;
+    for (const ReadSession& one : read)
+        sessions.push_back(one.session);
+    return StudyReader(sessions, surface_for, options, progress).join(std::move(read));
+}
+
+ReadStudy read_study(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
+                     const StudyOptions& options, const StudyProgress& progress) {
+    return StudyReader(sessions, surface_for, options, progress).read();
+}
+
+} // namespace overt

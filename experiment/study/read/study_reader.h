@@ -1,0 +1,84 @@
+/// Sessions read into one study: trials, fixations on the surface, data quality.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "experiment/maps/surface_point.h"
+#include "experiment/record/read/session_record.h"
+#include "experiment/study/read/surface_fixations.h"
+#include "experiment/study/read/trial_reader.h"
+#include "experiment/study/results/study_groups.h"
+#include "experiment/study/results/study_options.h"
+#include "experiment/surface/hat_smoother.h"
+#include "experiment/surface/surface_geometry.h"
+
+namespace overt {
+
+/// The lookup of a session's sculpture, or null if it has no surface; with a mesh it is a CoordinateMaps.
+/// `session` counts the study's sessions. What it gave is used until the next call. Throws InputError or
+/// RecordError if files are missing or damaged, which the study then says.
+using SurfaceFor =
+    std::function<const SurfaceLookup*(const SessionRecord& record, std::size_t session, int sculpture)>;
+
+/// Told what is being done and how much of it is: work is in pieces of unequal length.
+using StudyProgress = std::function<void(std::string_view what, int done, int total)>;
+
+/// What maps of a sculpture are made with.
+struct SculptureSurface {
+    std::unique_ptr<SurfaceGeometry> geometry; ///< null without a mesh, or without a known camera
+    std::vector<double> areas_mm2;             ///< by vertex
+    std::optional<SurfaceScale> scale;
+    /// For statistics over many maps, and ways along the surface; null without a geometry or a scale.
+    std::unique_ptr<CoarseSurface> coarse;
+    std::unique_ptr<SurfaceGeometry> coarse_geometry;
+    /// Heat on the surface with the kernels of the counted fixations; null where all nodes are as good.
+    std::unique_ptr<HatSmoother> hats;
+    std::vector<double> pixel_seconds; ///< see Exposure
+};
+
+/// Of the surface for statistics over many maps: a quarter of a usual kernel between neighbours.
+inline constexpr std::size_t coarse_nodes = 4000;
+
+/// The scale of a sculpture that turns about the vertical through a point of the mesh's unit; nothing if
+/// camera or screen are not known.
+std::optional<SurfaceScale> surface_scale(const Camera& camera, const glm::dvec3& axis_point,
+                                          const ScreenGeometry& screen);
+
+struct ReadStudy {
+    StudyResults results; ///< sessions, sculptures, trials, fixations, quality, traces, remarks
+    std::vector<SculptureSurface> surfaces; ///< by sculpture
+    LevelLists levels; ///< tasks, sculptures, materials and blocks as protocols have them
+};
+
+/// What is read from a session's samples: nearly all the work of a study, and none of it concerns others.
+struct ReadSession {
+    std::filesystem::path session; ///< absolute
+    std::string state;             ///< of the recording: another text if it went on since
+    std::string events;            ///< see StudySession
+    std::vector<ReadTrial> trials; ///< as the session has them; those that do not count are empty
+};
+
+/// Reads the samples of some of a study's sessions, for join_sessions(). Throws as read_study does.
+std::vector<ReadSession> read_sessions(std::span<const std::filesystem::path> sessions,
+                                       const SurfaceFor& surface_for, const StudyOptions& options,
+                                       const StudyProgress& progress);
+
+/// The study of sessions that were read by read_sessions() with the same options, here or elsewhere: the same
+/// as read_study() of them, to the bit. They must lie where they lay. Throws InputError if one has gone on
+/// since, and as read_study does.
+ReadStudy join_sessions(std::vector<ReadSession> read, const SurfaceFor& surface_for,
+                        const StudyOptions& options, const StudyProgress& progress);
+
+/// Reads all trials that count. Sculpture after sculpture, so that only one's maps are in memory; within one,
+/// sessions on all processors. The result does not depend on how many. Throws InputError if a folder is no
+/// session or is given twice, RecordError for a damaged one.
+ReadStudy read_study(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
+                     const StudyOptions& options, const StudyProgress& progress);
+
+} // namespace overt

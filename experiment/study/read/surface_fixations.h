@@ -1,0 +1,59 @@
+/// Fixations of a trial on the surface: each re-projected sample by sample through the frames lit meanwhile.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "experiment/analysis/gaze_cone.h"
+#include "experiment/clock_map.h"
+#include "experiment/gaze_event.h"
+#include "experiment/maps/light_pictures.h"
+#include "experiment/study/read/placed_samples.h"
+#include "experiment/study/results/study_options.h"
+#include "experiment/surface/coarse_surface.h"
+#include "experiment/surface/geodesic_field.h"
+
+namespace overt {
+
+/// What a sculpture's fixations need to know of it. Lengths: see StudySculpture.
+struct SurfaceScale {
+    double mm_per_unit = 0.0;
+    double axis_depth = 0.0; ///< of the axis of its turn from the camera, in the mesh's unit
+    double mm_per_deg = 0.0; ///< on the surface in that depth
+    /// Of a kernel, at a place of this depth: what is farther away is seen smaller.
+    double sigma_mm(const KernelWidth& width, double depth) const {
+        return width.is_mm ? width.value : width.value * mm_per_deg * depth / axis_depth;
+    }
+};
+
+/// Where a trial's fixations are to be found.
+struct FixationContext {
+    const StudyOptions& options;
+    std::span<const PlacedSample> samples; ///< of one eye, by time
+    const std::optional<ClockMap>& clock_map;
+    SessionTime onset;
+    double presentation_s = 0.0;
+    std::span<const Degrees> angles;          ///< by PoseIndex
+    const std::optional<SurfaceScale>& scale; ///< nothing without a known camera
+    bool has_surface = false;
+    const SurfaceGeometry* fine = nullptr;  ///< the sculpture's mesh; null without one
+    const CoarseSurface* coarse = nullptr;  ///< of that; null without a scale
+    GeodesicField* field = nullptr;         ///< on the coarse surface; the same
+    const SurfaceLookup* lookup = nullptr;  ///< for the gaze cone; may be null
+    const GazeCone* cone = nullptr;         ///< the same
+    const ScreenGeometry* screen = nullptr; ///< for the error of the look-up; null: it is not reckoned
+    const LightScores* light = nullptr;     ///< of the stimulus; null: not known
+    std::span<const double> pose_seconds{}; ///< how long a presentation shows each pose, by PoseIndex
+};
+
+/// A fixation of the events with the samples that are its own. Those that ended before the onset, or began
+/// after the presentation's end, are not the presentation's: nothing.
+std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const FixationContext& context);
+
+/// Index range of the samples from one time to another, both in it.
+std::pair<std::size_t, std::size_t> samples_between(std::span<const PlacedSample> samples, TrackerTime from,
+                                                    TrackerTime to);
+
+} // namespace overt

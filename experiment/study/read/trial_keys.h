@@ -1,0 +1,29 @@
+/// What is known of a trial, column by column, as the exported tables have it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiment/record/read/session_record.h"
+#include "experiment/record/tables/trial_tables.h"
+#include "experiment/study/results/study_results.h"
+
+namespace overt {
+
+/// Of one session. Any column of the table of trials can make groups, and whatever is added to that table
+/// joins by being there; so do observer and session, the fields of the observer's form, and the words of an
+/// imported recording's TRIALID.
+class TrialKeys {
+  public:
+    /// `record` must outlive it. Throws RecordError.
+    explicit TrialKeys(const SessionRecord& record);
+
+    std::vector<StudyKey> of(const TrialRecord& trial, const SampleCounts& samples) const;
+
+  private:
+    TrialWords words_;
+    RowLayout<TrialRow> layout_;
+    std::vector<StudyKey> of_session_;
+};
+
+} // namespace overt

@@ -1,0 +1,171 @@
+#include "experiment/study/read/trial_reader.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "experiment/study/read/gaze_quality.h"
+
+namespace overt {
+
+namespace {
+
+std::vector<StudyTurn> turns_of(const TrialLedger& ledger, SessionTime onset,
+                                const std::vector<Degrees>& angles) {
+    std::vector<StudyTurn> turns;
+    for (const FlipRecord& flip : ledger.fit.flips()) {
+        if (!turns.empty() && turns.back().frame == flip.shown.value)
+            continue;
+        turns.push_back({to_seconds(flip.report.vertical_blank - onset),
+                         angles[static_cast<std::size_t>(flip.pose.value)].value, flip.shown.value});
+    }
+    return turns;
+}
+
+/// Every n-th sample, but the first of each loss of the eye too, so that blinks stay visible.
+StudyTrace trace_of(std::span<const PlacedSample> samples, std::span<const GazeEvent> events,
+                    const std::optional<ClockMap>& clock_map, SessionTime onset, double presentation_s,
+                    double rate_hz) {
+    StudyTrace trace;
+    const auto step = static_cast<std::size_t>(std::max(1.0, std::ceil(rate_hz / 250.0 - 1e-6)));
+    bool had_gaze = true;
+    std::size_t since = step;
+    for (const PlacedSample& sample : samples) {
+        if (!sample.has_time || sample.time_s < 0.0 || sample.time_s > presentation_s)
+            continue;
+        ++since;
+        if (since >= step || sample.has_gaze != had_gaze) {
+            trace.points.push_back(
+                {sample.time_s, sample.has_gaze ? std::optional(sample.gaze) : std::nullopt, sample.pupil});
+            since = 0;
+        }
+        had_gaze = sample.has_gaze;
+    }
+    if (clock_map) {
+        for (const GazeEvent& event : events) {
+            const double begin = to_seconds(clock_map->to_session(event.start).time - onset);
+            const double duration = std::chrono::duration<double>(event.duration).count();
+            if (begin + duration > 0.0 && begin < presentation_s)
+                trace.events.push_back({event.kind, begin, duration});
+        }
+    }
+    return trace;
+}
+
+/// The first rule that a trial breaks, as a sentence; empty: none.
+std::string exclusion_of(const StudyQuality& quality, const ExclusionRules& rules) {
+    if (rules.most_lost_share && quality.lost_share() > *rules.most_lost_share)
+        return fmt::format("{:.1f} % of the samples were lost outside of blinks.",
+                           100.0 * quality.lost_share());
+    if (rules.most_accuracy_deg && quality.accuracy_deg && *quality.accuracy_deg > *rules.most_accuracy_deg)
+        return fmt::format("The validation before it had a mean error of {:.2f} deg.", *quality.accuracy_deg);
+    if (rules.most_drift_deg && quality.drift_deg && *quality.drift_deg > *rules.most_drift_deg)
+        return fmt::format("The drift check found an error of {:.2f} deg.", *quality.drift_deg);
+    // A rule that cannot be looked at is not kept.
+    if (rules.most_missed_refreshes && !quality.missed_refreshes)
+        return "How many refreshes were missed is unproven.";
+    if (rules.most_missed_refreshes && *quality.missed_refreshes > *rules.most_missed_refreshes)
+        return fmt::format("{} refreshes were missed.", *quality.missed_refreshes);
+    return {};
+}
+
+} // namespace
+
+ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, const TrialKeys& keys,
+                     std::span<const RecordedAccuracy> validations, const TrialSurface& surface,
+                     const StudyOptions& options, bool with_trace) {
+    const SessionHeader& header = record.header();
+    const std::optional<TrialLedger> ledger = record.ledger(trial);
+    const bool has_onset = trial.reached(trial.outcome.presentation_onset);
+    const SessionTime onset = has_onset ? trial.outcome.presentation_onset : trial.started;
+    ReadTrial read;
+    StudyTrial& of = read.trial;
+    of.number = trial.trial.index + 1;
+    of.label = fmt::format("observer {}, trial {}", header.schedule.observer.label, of.number);
+    if (has_onset && trial.reached(trial.outcome.presentation_end))
+        of.presentation_s = to_seconds(trial.outcome.presentation_end - onset);
+    else if (trial.has_outcome() && trial.outcome.responded_at > onset)
+        of.presentation_s = to_seconds(trial.outcome.responded_at - onset);
+    else
+        of.presentation_s = header.animation.duration_s;
+
+    const auto validation = std::find_if(validations.rbegin(), validations.rend(),
+                                         [&](const auto& one) { return one.at <= trial.started; });
+    const double accuracy_deg = validation != validations.rend() ? validation->mean_deg : 0.0;
+    const PlacedSamples placed =
+        placed_samples(record, trial, ledger, surface.lookup, onset, header.tracker.eye,
+                       Degrees{options.reach_deg.value_or(accuracy_deg)});
+    read.samples = placed.counts.samples;
+    read.had_both_eyes = placed.had_both_eyes;
+    of.clock_uncertainty_s = placed.clock_uncertainty_s;
+    of.keys = keys.of(trial, placed.counts);
+    std::vector<GazeEvent> events;
+    record.read_gaze_events(trial, [&](const GazeEvent& event) {
+        if (is_eye_event(event.kind) && (!event.eye || *event.eye == placed.eye))
+            events.push_back(event);
+    });
+    std::stable_sort(events.begin(), events.end(),
+                     [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
+
+    of.quality = gaze_quality(placed.samples, events, header.display.screen);
+    if (validation != validations.rend()) {
+        of.quality.accuracy_deg = validation->mean_deg;
+        of.quality.worst_accuracy_deg = validation->worst_deg;
+    }
+    if (trial.outcome.drift)
+        of.quality.drift_deg = trial.outcome.drift->value;
+    if (header.display.is_timing_unproven())
+        of.quality.missed_refreshes.reset();
+    else
+        of.quality.missed_refreshes = trial.outcome.missed_refreshes;
+    of.quality.refreshes = trial.outcome.shown_refreshes + trial.outcome.missed_refreshes;
+    of.quality.off_plan = static_cast<double>(placed.counts.off_plan);
+    of.why_excluded = exclusion_of(of.quality, options.exclude);
+    of.excluded = !of.why_excluded.empty();
+
+    if (ledger)
+        of.turns = turns_of(*ledger, onset, header.poses.angles);
+    const std::optional<ClockMap> clock_map = record.clock_map(trial);
+    if (with_trace)
+        read.trace = trace_of(placed.samples, events, clock_map, onset, of.presentation_s,
+                              of.quality.rate_hz.value_or(0.0));
+
+    // The cone is as wide as the validation says; few directions do for a share of some per cent.
+    constexpr int cone_directions = 64;
+    std::optional<GazeCone> cone;
+    if (surface.lookup && surface.scale)
+        cone.emplace(header.display.screen,
+                     Degrees{of.quality.accuracy_deg.value_or(GazeCone::usual_accuracy.value)},
+                     cone_directions);
+    const std::vector<double> pose_seconds = seconds_of_poses(header.animation, header.poses);
+    const FixationContext context{options,
+                                  placed.samples,
+                                  clock_map,
+                                  onset,
+                                  of.presentation_s,
+                                  header.poses.angles,
+                                  surface.scale,
+                                  surface.lookup != nullptr,
+                                  surface.fine,
+                                  surface.coarse,
+                                  surface.field,
+                                  surface.lookup,
+                                  cone ? &*cone : nullptr,
+                                  &header.display.screen,
+                                  surface.light,
+                                  pose_seconds};
+    for (const GazeEvent& event : events) {
+        if (event.kind != GazeEvent::Kind::fixation)
+            continue;
+        std::optional<StudyFixation> fixation = surface_fixation(event, context);
+        if (!fixation)
+            continue;
+        if (of.excluded && fixation->counted())
+            fixation->why = NotCounted::trial_excluded;
+        read.fixations.push_back(std::move(*fixation));
+    }
+    return read;
+}
+
+} // namespace overt

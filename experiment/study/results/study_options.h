@@ -1,0 +1,60 @@
+/// What decides the numbers of a study besides its sessions.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment/base/enum_names.h"
+#include "experiment/statistics/bootstrap.h"
+#include "experiment/statistics/permutation.h"
+#include "experiment/study/results/study_results.h"
+
+namespace overt {
+
+/// What maps are blurred with: heat along the surface, a Gaussian in space on the vertices, or the paper's on
+/// a grid of voxels.
+enum class MapKernel : std::uint8_t { geodesic, euclidean, voxel };
+template <>
+inline constexpr auto names_of<MapKernel> = enum_names<MapKernel>("geodesic", "euclidean", "voxel");
+
+/// The standard deviation of the kernel.
+struct KernelWidth {
+    double value = 1.0;
+    bool is_mm = false; ///< apparent mm on the surface; else degrees of the observer's eye
+};
+
+/// Trials beyond a limit are excluded; nothing: none are for that reason.
+struct ExclusionRules {
+    std::optional<double> most_lost_share;   ///< of samples, blinks apart, 0 … 1
+    std::optional<double> most_accuracy_deg; ///< mean error of the validation before the trial
+    std::optional<double> most_drift_deg;    ///< at the drift check
+    std::optional<int> most_missed_refreshes;
+};
+
+struct StudyOptions {
+    std::vector<std::string> by{"task", "sculpture", "material"};
+    std::string compare = "material"; ///< the column whose levels are compared within observers
+    KernelWidth sigma;
+    MapKernel kernel = MapKernel::geodesic;
+    double shortest_fixation_s = 0.0;
+    double least_on_surface = 0.5; ///< share of a fixation's samples that must meet the sculpture
+    /// A sample that misses the sculpture by no more than this counts at the nearest place of its outline.
+    /// Nothing: the mean error of the validation before the trial, and 0 if there was none.
+    std::optional<double> reach_deg;
+    ExclusionRules exclude;
+    double time_step_s = 1.0; ///< of the time course
+    double confidence = 0.95;
+    int resamples = 2000;    ///< of the bootstrap
+    int permutations = 1000; ///< where all are too many
+    int splits = 20;         ///< into random halves
+    std::uint64_t seed = 1;  ///< of everything that is drawn
+    BootstrapSettings bootstrap() const { return {resamples, confidence, seed}; }
+    PermutationSettings permutation() const { return {5 * permutations, 100000, seed}; }
+};
+
+/// As the report and the tables have them, so that they tell what was done without the command line.
+std::vector<StudyParameter> parameters_of(const StudyOptions& options);
+
+} // namespace overt

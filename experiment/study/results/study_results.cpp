@@ -1,0 +1,50 @@
+#include "experiment/study/results/study_results.h"
+
+#include <algorithm>
+
+namespace overt {
+
+std::string_view name_of(NotCounted why) {
+    switch (why) {
+    case NotCounted::counted:
+        return "counted";
+    case NotCounted::began_before_onset:
+        return "began before onset";
+    case NotCounted::too_short:
+        return "too short";
+    case NotCounted::no_frame_lit:
+        return "no frame lit";
+    case NotCounted::not_on_surface:
+        return "not on the surface";
+    case NotCounted::no_surface:
+        return "no maps of the surface";
+    case NotCounted::trial_excluded:
+        return "trial excluded";
+    }
+    return "";
+}
+
+std::string_view name_of(MapWeighting weighting) {
+    return weighting == MapWeighting::duration ? "duration" : "count";
+}
+
+std::string_view name_of(MapPredictor predictor) {
+    switch (predictor) {
+    case MapPredictor::same_level:
+        return "same level";
+    case MapPredictor::other_level:
+        return "other level";
+    case MapPredictor::exposure:
+        return "exposure";
+    }
+    return "";
+}
+
+const std::string& StudyTrial::key(const std::string& column) const {
+    static const std::string nothing = "n/a";
+    const auto found =
+        std::find_if(keys.begin(), keys.end(), [&](const StudyKey& key) { return key.column == column; });
+    return found == keys.end() ? nothing : found->value;
+}
+
+} // namespace overt

@@ -1,0 +1,16 @@
+/// A study's mixed models, as a script of R that runs on the exported tables.
+#pragma once
+
+#include <filesystem>
+
+#include "experiment/record/tables/table_writer.h"
+#include "experiment/study/results/study_results.h"
+
+namespace overt {
+
+/// Writes mixed_models.R into the folder of the study's tables: a binomial model of fixations on the head and
+/// a linear one of the logarithm of WSS, with lme4, by the columns of `--by` that are neither observer nor
+/// sculpture. Throws RecordError.
+void write_mixed_models(const StudyResults& results, const std::filesystem::path& folder, TableFormat format);
+
+} // namespace overt

@@ -1,0 +1,168 @@
+#include "experiment/study/tables/study_tables.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "experiment/base/json_text.h"
+#include "experiment/base/whole_file.h"
+#include "experiment/record/tables/export_tables.h"
+#include "experiment/study/tables/mixed_models.h"
+#include "experiment/study/tables/study_layout.h"
+#include "experiment/study/tables/study_layouts.h"
+
+namespace overt {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Calls visit(layout, is_needed, rows) for each table, in which rows(take) gives take each row: one that is
+/// not needed is left out without a row, for it would look like a result.
+template <class Visit> void for_each_table(const StudyResults& results, const Visit& visit) {
+    const auto all = [&](const auto& layout, const auto& rows, bool is_needed) {
+        visit(layout, is_needed || !rows.empty(),
+              [&](const auto& take) { std::ranges::for_each(rows, take); });
+    };
+    visit(study_fixations_layout(results), true, [&](const auto& take) {
+        for (const StudyFixation& fixation : results.fixations)
+            take(FixationRow{fixation, item(results.trials, fixation.trial)});
+    });
+    visit(study_trials_layout(results), true, [&](const auto& take) {
+        for (const StudyTrial& trial : results.trials)
+            take(trial_summary(results, trial));
+    });
+    all(head_fractions_layout(results), results.head_fractions, true);
+    all(distributions_layout(results), results.distributions, true);
+    all(pairs_layout(results), results.pairs, true);
+    all(time_course_layout(results), results.time_course, true);
+    all(study_maps_layout(results), results.maps, true);
+    all(factor_effects_layout(), results.effects, false);
+    all(gaze_motion_layout(results), results.motions, false);
+    all(light_at_gaze_layout(results), results.lights, false);
+    all(exposure_layout(results), results.exposures, false);
+    all(map_predictions_layout(results), results.predictions, false);
+    all(map_reliability_layout(results), results.reliabilities, false);
+    visit(clusters_layout(results), !results.differences.empty(), [&](const auto& take) {
+        for (const DifferenceMap& map : results.differences) {
+            int number = 0;
+            for (const DifferenceMap::Cluster& cluster : map.clusters)
+                take(ClusterRow{map, &cluster, ++number});
+            if (number == 0)
+                take(ClusterRow{map, nullptr, 0});
+        }
+    });
+    visit(quality_layout(), true, [&](const auto& take) {
+        for (std::size_t i = 0; i < results.sessions.size(); ++i) {
+            for (const StudyTrial& trial : results.trials) {
+                if (trial.session == static_cast<int>(i))
+                    take(QualityRow{results.sessions[i], &trial, trial.quality});
+            }
+            take(QualityRow{results.sessions[i], nullptr, results.session_quality[i]});
+        }
+    });
+    all(reporting_layout(), results.reporting, true);
+}
+
+Json keys_json(const std::vector<StudyKey>& keys) {
+    Json json = Json::object();
+    for (const StudyKey& key : keys)
+        json[key.column] = key.value;
+    return json;
+}
+
+} // namespace
+
+std::string study_json(const StudyResults& results) {
+    const StudyGlance& glance = results.glance;
+    Json json{{"title", glance.title},
+              {"observers", glance.observers},
+              {"sessions", Json::array()},
+              {"trials", glance.trials},
+              {"excluded_trials", glance.excluded_trials},
+              {"samples", glance.samples},
+              {"fixations", glance.fixations},
+              {"counted_fixations", glance.counted},
+              {"only_by_reach", glance.only_by_reach},
+              {"counted_s", glance.counted_s},
+              {"not_counted", Json::object()},
+              {"simulated", glance.any_simulated},
+              {"by", results.by},
+              {"parameters", Json::array()},
+              {"remarks", results.remarks},
+              {"sculptures", Json::array()},
+              {"head_fractions", Json::array()}};
+    for (const auto& [why, count] : glance.not_counted)
+        json["not_counted"][std::string(name_of(why))] = count;
+    for (const StudySession& session : results.sessions)
+        json["sessions"].push_back({{"folder", session.folder},
+                                    {"observer", session.observer},
+                                    {"session", session.number},
+                                    {"protocol", session.protocol},
+                                    {"tracker", session.tracker},
+                                    {"simulated", session.is_simulated},
+                                    {"form", keys_json(session.form)},
+                                    {"events", session.events},
+                                    {"complete", session.is_complete},
+                                    {"trials", session.trials}});
+    for (const StudyParameter& parameter : results.parameters)
+        json["parameters"].push_back({{"name", parameter.name},
+                                      {"value", parameter.value},
+                                      {"unit", parameter.unit},
+                                      {"meaning", parameter.meaning}});
+    for (const StudySculpture& sculpture : results.sculptures) {
+        Json one{{"id", sculpture.id}, {"title", sculpture.title}};
+        if (sculpture.mm_per_unit)
+            one["mm_per_unit"] = *sculpture.mm_per_unit;
+        if (sculpture.mm_per_deg)
+            one["mm_per_deg"] = *sculpture.mm_per_deg;
+        if (!sculpture.remark.empty())
+            one["remark"] = sculpture.remark;
+        json["sculptures"].push_back(std::move(one));
+    }
+    for (const HeadFractionRow& row : results.head_fractions) {
+        Json one{{"keys", keys_json(row.keys)}, {"fixations", row.fixations}, {"observers", row.observers}};
+        if (row.by_count.value)
+            one["by_count"] = *row.by_count.value;
+        if (row.by_count.interval)
+            one["interval"] = {row.by_count.interval->low, row.by_count.interval->high};
+        if (row.corrected.value)
+            one["corrected"] = *row.corrected.value;
+        if (row.corrected.interval)
+            one["corrected_interval"] = {row.corrected.interval->low, row.corrected.interval->high};
+        if (row.pooled)
+            one["pooled"] = *row.pooled;
+        json["head_fractions"].push_back(std::move(one));
+    }
+    return json_text(json);
+}
+
+void write_study_tables(const StudyResults& results, const std::filesystem::path& folder,
+                        TableFormat format) {
+    Json dictionary = Json::object();
+    for_each_table(results, [&](const auto& layout, bool is_needed, const auto& rows) {
+        if (!is_needed)
+            return;
+        TableWriter writer(folder, layout.table(), format);
+        rows([&](const auto& row) { layout.write(writer, row); });
+        writer.close();
+        describe_table(dictionary, layout.table(), format);
+    });
+    write_mixed_models(results, folder, format);
+    write_whole_file(folder / "dictionary.json", json_text(dictionary));
+    write_whole_file(folder / "study.json", study_json(results));
+}
+
+bool is_study_table(const std::string& file) {
+    if (file == "dictionary.json" || file == "study.json" || file == "mixed_models.R" ||
+        file == "mixed_models_coefficients.csv" || file == "mixed_models_tests.csv")
+        return true;
+    const std::size_t dot = file.find('.');
+    bool is_table = false;
+    for_each_table(StudyResults(), [&](const auto& layout, bool, const auto&) {
+        is_table |= dot != file.npos && layout.table().name == file.substr(0, dot);
+    });
+    return is_table;
+}
+
+} // namespace overt

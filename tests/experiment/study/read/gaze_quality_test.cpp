@@ -1,0 +1,140 @@
+/// Data quality from samples whose noise is known.
+#include "experiment/study/read/gaze_quality.h"
+
+#include <array>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "experiment/base/random.h"
+
+using namespace overt;
+using namespace std::chrono_literals;
+
+namespace {
+
+const ScreenGeometry screen;
+
+std::vector<PlacedSample> samples_at(double rate_hz, int count) {
+    std::vector<PlacedSample> samples(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) {
+        PlacedSample& sample = samples[static_cast<std::size_t>(i)];
+        sample.sampled_at = TrackerTime(std::chrono::microseconds(std::llround(1e6 * i / rate_hz)));
+        sample.gaze = screen.centre();
+        sample.has_gaze = sample.has_time = true;
+    }
+    return samples;
+}
+
+GazeEvent event_of(GazeEvent::Kind kind, const std::vector<PlacedSample>& samples, int first, int last) {
+    GazeEvent event;
+    event.kind = kind;
+    event.start = samples[static_cast<std::size_t>(first)].sampled_at;
+    event.end = samples[static_cast<std::size_t>(last)].sampled_at;
+    return event;
+}
+
+} // namespace
+
+TEST_CASE("white noise of s degrees along each axis has an RMS-S2S of 2 s and an SD of root 2 s", "[unit]") {
+    std::vector<PlacedSample> samples = samples_at(1000.0, 20'000);
+    RandomStream random(4, "gaze noise");
+    constexpr double noise_deg = 0.1;
+    for (PlacedSample& sample : samples) {
+        sample.gaze.x_px += noise_deg * screen.px_per_deg_at_centre() * random.normal();
+        sample.gaze.y_px += noise_deg * screen.px_per_deg_at_centre() * random.normal();
+    }
+    const std::array events{event_of(GazeEvent::Kind::fixation, samples, 0, 19'999)};
+    const StudyQuality quality = gaze_quality(samples, events, screen);
+    // Pixels of this screen are 0.02 % wider than high.
+    CHECK(*quality.rms_s2s_deg == Approx(2.0 * noise_deg).epsilon(0.02));
+    CHECK(*quality.sd_deg == Approx(std::sqrt(2.0) * noise_deg).epsilon(0.02));
+    CHECK(*quality.rate_hz == Approx(1000.0));
+    CHECK(quality.samples == 20'000);
+    CHECK(quality.lost == 0.0);
+}
+
+TEST_CASE("precision is the median over fixations of five samples and more, and not of the way between them",
+          "[unit]") {
+    std::vector<PlacedSample> samples = samples_at(500.0, 60);
+    const double px = screen.px_per_deg_at_centre();
+    // To and fro by 0.1, 0.3 and 0.2 degrees, 5 degrees apart; four samples at the end go 3 degrees each.
+    const std::array steps_deg{0.1, 0.3, 0.2};
+    for (int i = 0; i < 60; ++i) {
+        double& x = samples[static_cast<std::size_t>(i)].gaze.x_px;
+        x += i < 48 ? px * (5.0 * (i / 16 - 1) + (i % 2) * steps_deg[static_cast<std::size_t>(i / 16)])
+                    : px * 3.0 * (i % 2);
+    }
+    const std::array events{event_of(GazeEvent::Kind::fixation, samples, 0, 15),
+                            event_of(GazeEvent::Kind::fixation, samples, 16, 31),
+                            event_of(GazeEvent::Kind::fixation, samples, 32, 47),
+                            event_of(GazeEvent::Kind::fixation, samples, 50, 53),
+                            event_of(GazeEvent::Kind::saccade, samples, 15, 16)};
+    const StudyQuality quality = gaze_quality(samples, events, screen);
+    CHECK(*quality.rms_s2s_deg == Approx(0.2).epsilon(0.01));
+    CHECK(*quality.sd_deg == Approx(0.1).epsilon(0.01)); // half of the way to and fro
+}
+
+TEST_CASE("lost samples are counted within blinks and apart from them", "[unit]") {
+    std::vector<PlacedSample> samples = samples_at(1000.0, 1000);
+    for (int i = 0; i < 1000; ++i)
+        samples[static_cast<std::size_t>(i)].has_gaze = !((i >= 200 && i < 260) || (i >= 700 && i < 715));
+    const std::array events{event_of(GazeEvent::Kind::blink, samples, 195, 265)};
+    const StudyQuality quality = gaze_quality(samples, events, screen);
+    CHECK(quality.blinks == 1);
+    CHECK(quality.lost_in_blinks == 60);
+    CHECK(quality.lost == 15);
+    CHECK(quality.lost_share() == Approx(0.015));
+    CHECK(quality.blink_share() == Approx(0.06));
+    CHECK_FALSE(quality.rms_s2s_deg); // there is no fixation
+}
+
+TEST_CASE("what gaze does while samples are lost is no step from one sample to the next", "[unit]") {
+    std::vector<PlacedSample> samples = samples_at(1000.0, 30);
+    for (int i = 0; i < 30; ++i) {
+        PlacedSample& sample = samples[static_cast<std::size_t>(i)];
+        sample.has_gaze = i < 12 || i >= 15;
+        sample.gaze.x_px += i < 15 ? 0.0 : 2.0 * screen.px_per_deg_at_centre();
+    }
+    const std::array events{event_of(GazeEvent::Kind::fixation, samples, 0, 29)};
+    CHECK(*gaze_quality(samples, events, screen).rms_s2s_deg == Approx(0.0).margin(1e-9));
+}
+
+TEST_CASE("without a known distance there are no degrees, and without samples nothing", "[unit]") {
+    std::vector<PlacedSample> samples = samples_at(250.0, 100);
+    const std::array events{event_of(GazeEvent::Kind::fixation, samples, 0, 99)};
+    ScreenGeometry unknown = screen;
+    unknown.viewing_distance_mm = 0.0;
+    const StudyQuality quality = gaze_quality(samples, events, unknown);
+    CHECK_FALSE(quality.rms_s2s_deg);
+    CHECK_FALSE(quality.sd_deg);
+    CHECK(*quality.rate_hz == Approx(250.0));
+    CHECK_FALSE(gaze_quality({}, {}, screen).rate_hz);
+}
+
+TEST_CASE("of several trials numbers add up, precisions have medians, accuracies a mean and a worst",
+          "[unit]") {
+    StudyQuality a, b, c;
+    a.accuracy_deg = 0.3, a.worst_accuracy_deg = 0.6, a.rms_s2s_deg = 0.02, a.rate_hz = 1000.0;
+    b.accuracy_deg = 0.6, b.worst_accuracy_deg = 0.9, b.rms_s2s_deg = 0.05, b.rate_hz = 500.0;
+    c.rms_s2s_deg = 0.03, c.rate_hz = 1000.0, c.drift_deg = 0.4;
+    a.samples = 100, a.lost = 3, a.lost_in_blinks = 5, a.blinks = 1, a.refreshes = 960,
+    a.missed_refreshes = 1;
+    b.samples = 200, b.lost = 4, b.blinks = 2, b.refreshes = 960, b.off_plan = 7.0;
+    const std::array trials{static_cast<const StudyQuality*>(&a), static_cast<const StudyQuality*>(&b),
+                            static_cast<const StudyQuality*>(&c)};
+    const StudyQuality all = quality_of_all(trials);
+    CHECK(*all.accuracy_deg == Approx(0.45));
+    CHECK(*all.worst_accuracy_deg == 0.9);
+    CHECK(*all.rms_s2s_deg == 0.03);
+    CHECK(*all.rate_hz == 1000.0);
+    CHECK(*all.drift_deg == 0.4);
+    CHECK_FALSE(all.sd_deg);
+    CHECK(all.samples == 300);
+    CHECK(all.lost == 7);
+    CHECK(all.lost_in_blinks == 5);
+    CHECK(all.blinks == 3);
+    CHECK(all.refreshes == 1920);
+    CHECK(all.missed_refreshes == 1);
+    CHECK(all.off_plan == 7.0);
+}
