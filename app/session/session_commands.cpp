@@ -80,7 +80,8 @@ void add_run(CLI::App& app, ChosenCommand& chosen) {
     command
         .add_option("--tracker", options.tracker,
                     "Kind of eye tracker, instead of the protocol's [tracker] kind")
-        ->check(CLI::IsMember(std::vector<std::string>(tracker_names.begin(), tracker_names.end())))
+        ->check(CLI::IsMember(
+            std::vector<std::string>(names_of<TrackerKind>.begin(), names_of<TrackerKind>.end())))
         ->type_name("KIND");
     command
         .add_option("--tracker-address", options.tracker_address,

@@ -30,7 +30,8 @@ void add_test(CLI::App& app, ChosenCommand& chosen) {
     command.add_option("PROTOCOL", options.protocol, "Whose [tracker] is tested (default: a simulated one)");
     add_further(command, options.further);
     command.add_option("--tracker", options.kind, "Kind of eye tracker, instead of the protocol's")
-        ->check(CLI::IsMember(std::vector<std::string>(tracker_names.begin(), tracker_names.end())));
+        ->check(CLI::IsMember(
+            std::vector<std::string>(names_of<TrackerKind>.begin(), names_of<TrackerKind>.end())));
     command.add_option("--address", options.address, "Where it is, as [tracker] address")->type_name("TEXT");
     command.add_option("--library", options.library, "Of its maker, as [tracker] library")->type_name("FILE");
     command.add_option("--rate", options.rate_hz, "Wished samples per second")
@@ -56,7 +57,8 @@ void add_calibrate(CLI::App& app, ChosenCommand& chosen) {
     command.add_option("PROTOCOL", options.protocol, "Whose screen and tracker")->required();
     add_further(command, options.further);
     command.add_option("--tracker", options.kind, "Kind of eye tracker, instead of the protocol's")
-        ->check(CLI::IsMember(std::vector<std::string>(tracker_names.begin(), tracker_names.end())));
+        ->check(CLI::IsMember(
+            std::vector<std::string>(names_of<TrackerKind>.begin(), names_of<TrackerKind>.end())));
     command.add_flag("--by-overt", options.by_overt,
                      "Calibrate by the program, as [calibration] by = \"overt\"");
     command.add_option("--simulate-observer", options.simulate_observer, "Let a simulated observer look")
