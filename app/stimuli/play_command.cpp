@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/cli/cache_folder.h"
+#include "app/cli/own_folders.h"
 #include "app/cli/progress_bar.h"
 #include "app/inputs/protocol_file.h"
 #include "app/inputs/protocol_inputs.h"
@@ -86,9 +86,7 @@ int run_play(const PlayOptions& options) {
     OpenDisplay display(request);
     StimulusLibrary library(display.context(), protocol, sculptures, cache_folder());
     ProgressBar bar;
-    library.prepare_frames(stimulus, [&](std::string_view what, int done, int total, double share) {
-        bar.update(what, done, total, share);
-    });
+    library.prepare_frames(stimulus, std::ref(bar));
     bar.finish();
     if (in_window) {
         play_in_window(display, library, stimulus, protocol, options.repeat_s);
