@@ -39,8 +39,7 @@ const char* const exit_codes =
 std::optional<int> answer_to_no_command(const CLI::App& app, int argc, char** argv) {
     const std::vector<const CLI::App*> commands = app.get_subcommands({});
     const auto called = [&](std::string_view word) {
-        const auto found = std::find_if(commands.begin(), commands.end(),
-                                        [&](const CLI::App* command) { return command->get_name() == word; });
+        const auto found = std::ranges::find(commands, word, &CLI::App::get_name);
         return found == commands.end() ? nullptr : *found;
     };
     if (argc < 2 || argv[1][0] == '-' || called(argv[1]))

@@ -59,6 +59,14 @@ function(overt_room room)
     set_property(GLOBAL APPEND_STRING PROPERTY OVERT_ROOMS "${room}: ${ROOM_USES}\n")
 endfunction()
 
+# The rooms in `folder` that were declared so far.
+function(overt_rooms_in folder result)
+    get_property(rooms GLOBAL PROPERTY OVERT_ROOMS)
+    string(REGEX MATCHALL "${folder}/[a-z_/]+:" found "${rooms}")
+    list(TRANSFORM found REPLACE ":" "")
+    set(${result} ${found} PARENT_SCOPE)
+endfunction()
+
 # Writes the rooms and what they use, a line each, to `file`.
 function(overt_write_rooms file)
     get_property(rooms GLOBAL PROPERTY OVERT_ROOMS)

@@ -157,120 +157,78 @@ int run_analyze(AnalyzeOptions options) {
 
 void add_study_options(CLI::App& command, AnalyzeOptions& options) {
     StudyOptions& study = options.study;
-    command
-        .add_option(
-            "--by", options.by,
-            "Columns that make groups, with commas: any of the table of trials, observer, session, or "
-            "a field of the observer's form")
-        ->default_str("task,sculpture,material")
-        ->type_name("COLUMNS");
-    command
-        .add_option("--compare", options.compare, "Column of --by whose levels are compared within observers")
-        ->type_name("COLUMN")
+    option(command, "--by", options.by, "COLUMNS",
+           "Columns that make groups, with commas: any of the table of trials, observer, session, or a field "
+           "of the observer's form")
+        ->default_str("task,sculpture,material");
+    option(command, "--compare", options.compare, "COLUMN",
+           "Column of --by whose levels are compared within observers")
         ->default_str(study.compare);
-    command
-        .add_option("--sigma", options.sigma,
-                    "Standard deviation of the maps' kernel, such as 1deg (converted at the depth of each "
-                    "fixation) or 30mm")
-        ->type_name("WIDTH")
-        ->capture_default_str();
-    command
-        .add_option(
-            "--kernel", options.kernel,
-            "How maps are blurred: geodesic along the surface, euclidean in space, voxel as in the paper")
-        ->check(CLI::IsMember({"geodesic", "euclidean", "voxel"}))
-        ->capture_default_str();
-    command.add_option("--seed", study.seed, "Of the bootstrap, the permutations and the halves")
-        ->check(seed_number())
-        ->type_name("N")
-        ->capture_default_str();
-    command.add_option("--shortest-fixation", study.shortest_fixation_s, "Fixations below are not counted")
-        ->check(not_negative())
-        ->type_name("S")
-        ->capture_default_str();
-    command
-        .add_option("--least-on-surface", study.least_on_surface,
-                    "Share of a fixation's samples that must meet the sculpture, or miss it within the reach")
-        ->check(CLI::Range(0.0, 1.0))
-        ->capture_default_str();
-    command
-        .add_option(
-            "--reach", study.reach_deg,
-            "A sample that misses the sculpture by no more counts at the nearest place of its outline; "
-            "0: only what meets it")
-        ->check(not_negative())
-        ->default_str("the accuracy of the validation")
-        ->type_name("DEG");
-    command
-        .add_option("--most-lost", study.exclude.most_lost_share,
-                    "Exclude trials that lost a larger share of samples, blinks apart")
-        ->check(CLI::Range(0.0, 1.0))
-        ->type_name("SHARE");
-    command
-        .add_option("--most-accuracy", study.exclude.most_accuracy_deg,
-                    "Exclude trials after a validation with a larger mean error")
-        ->check(not_negative())
-        ->type_name("DEG");
-    command
-        .add_option("--most-drift", study.exclude.most_drift_deg,
-                    "Exclude trials with a larger error at the drift check")
-        ->check(not_negative())
-        ->type_name("DEG");
-    command
-        .add_option("--most-missed", study.exclude.most_missed_refreshes,
-                    "Exclude trials with more missed refreshes")
-        ->check(CLI::NonNegativeNumber)
-        ->type_name("N");
-    command.add_option("--time-step", study.time_step_s, "Stretches of the time course")
-        ->check(above_zero())
-        ->type_name("S")
-        ->capture_default_str();
-    command.add_option("--confidence", study.confidence, "Level of intervals")
-        ->check(CLI::Range(0.5, 0.999))
-        ->capture_default_str();
-    command.add_option("--resamples", study.resamples, "Draws of the bootstrap over observers")
-        ->check(CLI::Range(100, 1000000))
-        ->capture_default_str();
-    command.add_option("--permutations", study.permutations, "Random permutations of tests")
-        ->check(CLI::Range(100, 1000000))
-        ->capture_default_str();
+    option(command, "--sigma", options.sigma, "WIDTH",
+           "Standard deviation of the maps' kernel, such as 1deg (converted at the depth of each fixation) "
+           "or 30mm",
+           shown_default);
+    option(command, "--kernel", options.kernel, "",
+           "How maps are blurred: geodesic along the surface, euclidean in space, voxel as in the paper",
+           CLI::IsMember({"geodesic", "euclidean", "voxel"}), shown_default);
+    option(command, "--seed", study.seed, "N", "Of the bootstrap, the permutations and the halves",
+           seed_number(), shown_default);
+    option(command, "--shortest-fixation", study.shortest_fixation_s, "S", "Fixations below are not counted",
+           not_negative(), shown_default);
+    option(command, "--least-on-surface", study.least_on_surface, "",
+           "Share of a fixation's samples that must meet the sculpture, or miss it within the reach",
+           CLI::Range(0.0, 1.0), shown_default);
+    option(command, "--reach", study.reach_deg, "DEG",
+           "A sample that misses the sculpture by no more counts at the nearest place of its outline; 0: "
+           "only what meets it",
+           not_negative())
+        ->default_str("the accuracy of the validation");
+    option(command, "--most-lost", study.exclude.most_lost_share, "SHARE",
+           "Exclude trials that lost a larger share of samples, blinks apart", CLI::Range(0.0, 1.0));
+    option(command, "--most-accuracy", study.exclude.most_accuracy_deg, "DEG",
+           "Exclude trials after a validation with a larger mean error", not_negative());
+    option(command, "--most-drift", study.exclude.most_drift_deg, "DEG",
+           "Exclude trials with a larger error at the drift check", not_negative());
+    option(command, "--most-missed", study.exclude.most_missed_refreshes, "N",
+           "Exclude trials with more missed refreshes", CLI::NonNegativeNumber);
+    option(command, "--time-step", study.time_step_s, "S", "Stretches of the time course", above_zero(),
+           shown_default);
+    option(command, "--confidence", study.confidence, "", "Level of intervals", CLI::Range(0.5, 0.999),
+           shown_default);
+    option(command, "--resamples", study.resamples, "", "Draws of the bootstrap over observers",
+           CLI::Range(100, 1000000), shown_default);
+    option(command, "--permutations", study.permutations, "", "Random permutations of tests",
+           CLI::Range(100, 1000000), shown_default);
 }
 
 } // namespace
 
 void add_analyze_command(CLI::App& app, ChosenCommand& chosen) {
-    const auto given = std::make_shared<AnalyzeOptions>();
-    AnalyzeOptions& options = *given;
-    options.by = fmt::format("{}", fmt::join(options.study.by, ","));
-    CLI::App& command = add_command(
-        app, "analyze", "Fixations on the surface, maps, and the statistics of a study",
+    const auto [command, options] = add_command(
+        app, chosen, run_analyze, "analyze", "Fixations on the surface, maps, and the statistics of a study",
         "overt analyze sessions/overt_2019/* --out analysis\n"
         "  overt analyze sessions/overt_2019/* --by task,handedness --sigma 30mm --out by_hand\n"
         "  overt analyze sessions/overt_2019/sub-07_ses-01 --most-lost 0.2 --json --out one_observer\n"
         "  overt analyze sessions/overt_2019/* --shard 3/16     on the third of 16 machines, then\n"
         "  overt analyze shards/* --out analysis\n"
         "Exit codes: 0 done, 1 failed, 2 bad input.");
+    options.by = fmt::format("{}", fmt::join(options.study.by, ","));
     command.add_option("SESSION", options.sessions, "Folders of sessions, or of all shards of a study")
         ->required();
-    command.add_option("--out", options.out, "Folder to write to; with --shard, the folder of all shards")
-        ->type_name("DIR")
+    option(command, "--out", options.out, "DIR", "Folder to write to; with --shard, the folder of all shards")
         ->default_str("analysis; with --shard: shards");
-    command
-        .add_option("--shard", options.shard,
-                    "Only read the part of machine I of N, I from 1, of these sessions; giving all shards in "
-                    "place of the sessions joins them")
-        ->type_name("I/N");
+    option(command, "--shard", options.shard, "I/N",
+           "Only read the part of machine I of N, I from 1, of these sessions; giving all shards in place of "
+           "the sessions joins them");
     add_study_options(command, options);
-    command.add_option("--format", options.format, "Of the tables")
-        ->check(CLI::IsMember({"csv", "tsv", "jsonl"}))
-        ->capture_default_str();
+    option(command, "--format", options.format, "", "Of the tables", CLI::IsMember({"csv", "tsv", "jsonl"}),
+           shown_default);
     command.add_flag("--meshes", options.extras.meshes,
                      "Write each map as a coloured mesh, too (GLB and PLY)");
     command.add_flag("--volumes", options.extras.volumes,
                      "Write each map in space, too, as voxels (NRRD) and as a table of coordinates (.cube)");
     command.add_flag("--overwrite", options.overwrite, "Replace an analysis that is there");
     command.add_flag("--json", options.json, "Print the study as JSON");
-    run_when_chosen(command, chosen, [given] { return run_analyze(*given); });
 }
 
 } // namespace overt

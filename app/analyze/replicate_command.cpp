@@ -10,10 +10,10 @@
 #include "app/analyze/analyze_commands.h"
 #include "app/analyze/planted_truth.h"
 #include "app/analyze/study_folder.h"
-#include "app/cli/cache_folder.h"
 #include "app/cli/command_options.h"
 #include "app/cli/interruption.h"
 #include "app/cli/own_command.h"
+#include "app/cli/own_folders.h"
 #include "app/cli/progress_bar.h"
 #include "app/inputs/prepared_stimuli.h"
 #include "experiment/base/counted.h"
@@ -265,10 +265,8 @@ int run_replicate(const ReplicateOptions& options) {
 } // namespace
 
 void add_replicate_command(CLI::App& app, ChosenCommand& chosen) {
-    const auto given = std::make_shared<ReplicateOptions>();
-    ReplicateOptions& options = *given;
-    CLI::App& command = add_command(
-        app, "replicate",
+    const auto [command, options] = add_command(
+        app, chosen, run_replicate, "replicate",
         "Simulates a whole study through the real pipeline and analyses it beside the truth that was planted",
         "overt replicate protocols/overt_2019.toml --observers 12 --out replication\n"
         "What observers look at is planted by simulated_head_share and [[simulated_effect]] in the protocol. "
@@ -276,30 +274,17 @@ void add_replicate_command(CLI::App& app, ChosenCommand& chosen) {
         "interrupted call goes on where it ended.\n"
         "Exit codes: 0 done, 1 failed, 2 bad input.");
     command.add_option("PROTOCOL", options.protocol, "Protocol file")->required()->type_name("FILE");
-    command.add_option("--observers", options.observers, "How many observers")
-        ->check(CLI::Range(1, 999))
-        ->type_name("N")
-        ->capture_default_str();
-    command.add_option("--out", options.out, "Folder for sessions and analysis")
-        ->type_name("DIR")
-        ->capture_default_str();
-    command
-        .add_option("--seed", options.seed, "Of the first observer, and of the analysis; the others' follow")
-        ->check(seed_number())
-        ->type_name("N")
-        ->capture_default_str();
-    command
-        .add_option("--trials", options.trials, "Only the first N trials of each observer, for a rehearsal")
-        ->check(above_zero())
-        ->type_name("N");
-    command.add_option("--jobs", options.jobs, "Sessions at once")
-        ->check(above_zero())
-        ->type_name("N")
-        ->capture_default_str();
+    option(command, "--observers", options.observers, "N", "How many observers", CLI::Range(1, 999),
+           shown_default);
+    option(command, "--out", options.out, "DIR", "Folder for sessions and analysis", shown_default);
+    option(command, "--seed", options.seed, "N",
+           "Of the first observer, and of the analysis; the others' follow", seed_number(), shown_default);
+    option(command, "--trials", options.trials, "N",
+           "Only the first N trials of each observer, for a rehearsal", above_zero());
+    option(command, "--jobs", options.jobs, "N", "Sessions at once", above_zero(), shown_default);
     add_context_option(command, options.context);
     command.add_flag("--overwrite", options.overwrite, "Replace an analysis that is there");
     command.add_flag("--json", options.json, "Print the study as JSON");
-    run_when_chosen(command, chosen, [given] { return run_replicate(*given); });
 }
 
 } // namespace overt

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/cache_folder.h"
 #include "app/cli/command_options.h"
+#include "app/cli/own_folders.h"
 #include "experiment/base/error.h"
 #include "experiment/scene/sculptures/sculptures.h"
 

@@ -10,7 +10,7 @@
 #include "app/check/screen_pictures.h"
 #include "app/check/silhouette_check.h"
 #include "app/check/text_check.h"
-#include "app/cli/cache_folder.h"
+#include "app/cli/own_folders.h"
 #include "app/inputs/protocol_file.h"
 #include "app/inputs/protocol_inputs.h"
 #include "app/rig/answer_equipment.h"

@@ -1,5 +1,4 @@
-/// The commands before an observer sits down: check, new, schema. Each takes its options and gives the exit
-/// code, 0 done, 1 failed. Bad input is thrown as InputError, which main turns into exit code 2.
+/// The commands before an observer sits down: check, new, schema.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +10,6 @@
 
 namespace overt {
 
-/// Adds them to the command line.
 void add_check_commands(CLI::App& app, ChosenCommand& chosen);
 
 struct CheckOptions {

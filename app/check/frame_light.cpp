@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/cache_folder.h"
+#include "app/cli/own_folders.h"
 #include "app/cli/progress_bar.h"
 #include "experiment/base/parallel.h"
 #include "render/gl/headless_context.h"
@@ -18,9 +18,6 @@ std::vector<StimulusLight> measure_light(const Experiment& experiment) {
     const auto context = make_headless_context(std::nullopt);
     StimulusLibrary library(*context, protocol, experiment.sculptures, cache_folder());
     ProgressBar bar;
-    const Progress show = [&](std::string_view what, int done, int total, double share) {
-        bar.update(what, done, total, share);
-    };
     std::vector<StimulusLight> stimuli;
     const int materials = static_cast<int>(protocol.materials.size()),
               count = materials * static_cast<int>(protocol.sculptures.size());
@@ -29,7 +26,7 @@ std::vector<StimulusLight> measure_light(const Experiment& experiment) {
         library.take_frames(*quality);
     } else {
         for (int i = 0; i < count; ++i)
-            library.prepare_frames({i / materials, i % materials}, show);
+            library.prepare_frames({i / materials, i % materials}, std::ref(bar));
     }
     for (int i = 0; i < count; ++i) {
         bar.update("light of stimuli", i, count);

@@ -161,9 +161,6 @@ std::vector<SequenceSilhouette> check_silhouettes(const Experiment& experiment, 
     const Protocol& protocol = experiment.protocol;
     std::vector<SequenceSilhouette> sequences;
     ProgressBar bar;
-    const Progress show = [&](std::string_view what, int done, int total, double share) {
-        bar.update(what, done, total, share);
-    };
     const int count = static_cast<int>(protocol.frames.size());
     for (int i = 0; i < count; ++i) {
         const FrameSequenceSettings& sequence = protocol.frames[static_cast<std::size_t>(i)];
@@ -172,9 +169,9 @@ std::vector<SequenceSilhouette> check_silhouettes(const Experiment& experiment, 
         if (!has_mesh && !library.cache().has_given_maps(sculpture))
             continue;
         if (has_mesh)
-            library.maps().prepare_maps(sculpture, show);
+            library.maps().prepare_maps(sculpture, std::ref(bar));
         else
-            library.maps().prepare_given_maps(show);
+            library.maps().prepare_given_maps(std::ref(bar));
         bar.update("comparing silhouettes", i, count);
         const MatchedFrames matched = match_sequence(experiment, sequence, sculpture, library);
         const std::string key = fmt::format("frames[{}].files", i);

@@ -1,4 +1,6 @@
-/// How a command on the line comes to be run.
+/// How a command on the line comes to be run. add_…_commands() puts commands on the line. What one does,
+/// run_…(), takes its options and gives the exit code, 0 done, 1 failed; bad input is thrown as InputError,
+/// which main turns into exit code 2.
 #pragma once
 
 #include <functional>

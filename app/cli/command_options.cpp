@@ -1,26 +1,16 @@
 #include "app/cli/command_options.h"
 
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "experiment/base/text_number.h"
+
 namespace overt {
 
 namespace {
-
-const std::map<std::string, ContextChoice> context_names{{"auto", std::nullopt},
-                                                         {"window", ContextKind::window},
-                                                         {"egl", ContextKind::egl},
-                                                         {"osmesa", ContextKind::osmesa}};
-
-const std::map<std::string, BakeQuality> qualities{{"live", BakeQuality::live},
-                                                   {"preview", BakeQuality::preview},
-                                                   {"draft", BakeQuality::draft},
-                                                   {"standard", BakeQuality::standard},
-                                                   {"reference", BakeQuality::reference}};
 
 /// CLI11's own checks of these name the largest double there is.
 CLI::Validator number_check(const char* name, const char* wish, bool (*holds)(double)) {
@@ -45,9 +35,7 @@ CLI::Validator not_negative() {
 
 CLI::Validator seed_number() {
     return {[](const std::string& given) {
-                std::uint64_t seed = 0;
-                const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), seed);
-                return error == std::errc() && end == given.data() + given.size()
+                return number_in<std::uint64_t>(given)
                            ? std::string()
                            : fmt::format("'{}' is not a whole number from 0 to {}", given, UINT64_MAX);
             },
@@ -59,23 +47,27 @@ CLI::Validator seconds_up_to_an_hour() {
                         [](double value) { return value >= 0.0 && value <= 3600.0; });
 }
 
-CLI::Option* add_quality_option(CLI::App& command, std::optional<BakeQuality>& quality,
-                                const std::string& what, const std::vector<std::string>& names) {
-    return command
-        .add_option_function<std::string>(
-            "--quality", [&quality](const std::string& name) { quality = qualities.at(name); }, what)
-        ->check(CLI::IsMember(names))
-        ->type_name("QUALITY");
+CLI::Validator one_of_names(std::span<const std::string_view> names) {
+    return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
+}
+
+void add_quality_option(CLI::App& command, std::optional<BakeQuality>& quality, const std::string& what,
+                        BakeQuality least) {
+    std::vector<std::pair<std::string, BakeQuality>> qualities;
+    for (auto i = static_cast<std::size_t>(least); i < names_of<BakeQuality>.size(); ++i)
+        qualities.emplace_back(names_of<BakeQuality>[i], static_cast<BakeQuality>(i));
+    choice(command, "--quality", quality, "QUALITY", what, qualities);
 }
 
 void add_context_option(CLI::App& command, ContextChoice& context) {
-    command
-        .add_option_function<std::string>(
-            "--context", [&context](const std::string& name) { context = context_names.at(name); },
-            "OpenGL through auto (a window where there is a display, else EGL with a graphics processor, "
-            "else OSMesa), window, egl or osmesa")
-        ->check(CLI::IsMember({"auto", "window", "egl", "osmesa"}))
-        ->type_name("KIND");
+    choice<ContextChoice>(
+        command, "--context", context, "KIND",
+        "OpenGL through auto (a window where there is a display, else EGL with a graphics processor, "
+        "else OSMesa), window, egl or osmesa",
+        {{"auto", std::nullopt},
+         {"window", ContextKind::window},
+         {"egl", ContextKind::egl},
+         {"osmesa", ContextKind::osmesa}});
 }
 
 CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& what,

@@ -16,8 +16,7 @@ BenchFigure at_least(std::string figure, double value, std::string unit, double 
 }
 
 bool all_hold(const BenchFigures& figures) {
-    return std::all_of(figures.begin(), figures.end(),
-                       [](const BenchFigure& figure) { return figure.holds.value_or(true); });
+    return std::ranges::none_of(figures, [](const BenchFigure& figure) { return figure.holds == false; });
 }
 
 nlohmann::ordered_json to_json(const BenchFigures& figures) {

@@ -21,6 +21,10 @@ class ProgressBar {
 
     /// The same for pieces that take unequal times: `share` of all the time is over, 0 … 1.
     void update(std::string_view what, int done, int total, double share);
+    /// The same, for those who are given std::ref of it.
+    void operator()(std::string_view what, int done, int total, double share) {
+        update(what, done, total, share);
+    }
 
     /// What stands behind the bar on a terminal, as far as there is room; drawn at once.
     void remark(std::string text);

@@ -1,19 +1,15 @@
 #include "app/cli/shard.h"
 
-#include <charconv>
-
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/text_number.h"
 
 namespace overt {
 
 std::optional<int> digits_in(std::string_view text) {
-    int number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size() || text.size() > 6 || number < 0)
-        return std::nullopt;
-    return number;
+    const auto number = number_in<int>(text);
+    return number && text.size() <= 6 && *number >= 0 ? number : std::nullopt;
 }
 
 Shard shard_called(const std::string& text) {

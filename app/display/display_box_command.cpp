@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/state_folder.h"
+#include "app/cli/own_folders.h"
 #include "app/display/display_commands.h"
 #include "devices/display_box/display_plus_plus_search.h"
 #include "devices/display_box/switch_record.h"

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/cache_folder.h"
 #include "app/cli/figures.h"
+#include "app/cli/own_folders.h"
 #include "app/cli/progress_bar.h"
 #include "app/display/display_commands.h"
 #include "app/inputs/protocol_file.h"
@@ -209,9 +209,6 @@ void verify_stimuli(ContextKind kind, const Experiment& experiment, const Displa
     const OpenDisplay opened = open_display(kind, geometry.screen_px, protocol.display.output);
     StimulusLibrary library(opened.context(), protocol, experiment.sculptures, cache_folder());
     ProgressBar bar;
-    const Progress show = [&](std::string_view what, int done, int total, double share) {
-        bar.update(what, done, total, share);
-    };
     std::vector<Condition> stimuli;
     if (!options.stimulus.empty()) {
         stimuli.push_back(stimulus_called(protocol, options.stimulus));
@@ -224,7 +221,7 @@ void verify_stimuli(ContextKind kind, const Experiment& experiment, const Displa
                             protocol.screens);
     int done = 0;
     for (const Condition& stimulus : stimuli) {
-        library.prepare_frames(stimulus, show);
+        library.prepare_frames(stimulus, std::ref(bar));
         bar.update("verifying", done++, static_cast<int>(stimuli.size()));
         SignalFindings all;
         for (const PageVerification& page :

@@ -1,6 +1,4 @@
-/// The commands for the display and the rest of the machine: display, doctor. Each takes its options and
-/// gives the exit code, 0 done, 1 failed. Bad input is thrown as InputError, which main turns into exit
-/// code 2.
+/// The commands for the display and the rest of the machine: display, doctor.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +12,6 @@
 
 namespace overt {
 
-/// Adds them to the command line.
 void add_display_commands(CLI::App& app, ChosenCommand& chosen);
 
 struct DoctorOptions {

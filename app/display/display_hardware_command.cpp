@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/figures.h"
-#include "app/cli/state_folder.h"
+#include "app/cli/own_folders.h"
 #include "app/cli/this_program.h"
 #include "app/display/display_commands.h"
 #include "app/rig/open_display.h"

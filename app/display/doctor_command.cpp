@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/state_folder.h"
+#include "app/cli/own_folders.h"
 #include "app/display/display_commands.h"
 #include "app/display/doctor_report.h"
 #include "app/display/machine_doctor.h"

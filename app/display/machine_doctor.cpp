@@ -12,7 +12,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "app/cli/cache_folder.h"
+#include "app/cli/own_folders.h"
 #include "devices/host/thread_priority.h"
 
 namespace overt {

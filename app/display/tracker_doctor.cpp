@@ -43,10 +43,11 @@ std::string eyelink_network(std::span<const NetworkCard> cards) {
 
 std::vector<DoctorFinding> examine_trackers() {
     std::vector<DoctorFinding> findings;
-    for (const TrackerDevice& device : tracker_devices())
-        if (device.is_hardware)
-            findings.push_back({fmt::format("eye tracker, {}", device.name),
-                                fmt::format("{}; {}", device.look_for(), device.can_do)});
+    for (const TrackerKind kind : all_kinds<TrackerKind>)
+        if (row_of(kind).is_hardware())
+            findings.push_back(
+                {fmt::format("eye tracker, {}", name_of(kind)),
+                 fmt::format("{}; {}", tracker_found(kind), tracker_device(kind, false).can_do)});
     findings.push_back({"  network for an EyeLink", eyelink_network(network_cards())});
     findings.push_back({"  how fast one samples",
                         "`overt tracker test --tracker KIND` measures rate, loss, round "

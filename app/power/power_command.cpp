@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "app/analyze/kernel_width.h"
-#include "app/cli/cache_folder.h"
 #include "app/cli/command_options.h"
 #include "app/cli/interruption.h"
+#include "app/cli/own_folders.h"
 #include "app/cli/progress_bar.h"
 #include "app/power/power_simulation.h"
 #include "experiment/base/counted.h"
@@ -89,12 +89,9 @@ int run_power(PowerOptions options) {
 } // namespace
 
 void add_power_command(CLI::App& app, ChosenCommand& chosen) {
-    const auto given = std::make_shared<PowerOptions>();
-    PowerOptions& options = *given;
-    PowerSettings& settings = options.settings;
-    settings.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    CLI::App& command = add_command(
-        app, "power", "The chance that a planned study finds an effect, by simulated studies",
+    const auto [command, options] = add_command(
+        app, chosen, run_power, "power",
+        "The chance that a planned study finds an effect, by simulated studies",
         "overt power protocols/overt_2019.toml --effect head:material=rough:odds=1.5 --observers 6:24\n"
         "  overt power protocols/overt_2019.toml --effect wss:material=rough:ratio=1.2:sd=0.1 "
         "--head-share-sd 0.4\n"
@@ -107,58 +104,40 @@ void add_power_command(CLI::App& app, ChosenCommand& chosen) {
         "an\n"
         "effect. docs/power.md says what is simulated, and what is not.\n"
         "Exit codes: 0 done, 1 failed, 2 bad input.");
+    PowerSettings& settings = options.settings;
+    settings.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     command.add_option("PROTOCOL", options.protocol, "Protocol file")->required()->type_name("FILE");
-    command.add_option("--effect", options.effects, "An effect, several times for several, or none")
-        ->required()
-        ->type_name("EFFECT")
-        ->take_all()
-        ->allow_extra_args(false);
-    command.add_option("--observers", options.observers, "Numbers of observers: 12, 6:24, 6:24:3 or 6,12,18")
-        ->type_name("N")
-        ->capture_default_str();
-    command.add_option("--studies", settings.studies, "Studies to simulate")
-        ->check(CLI::Range(10, 100000))
-        ->capture_default_str();
-    command.add_option("--alpha", settings.alpha, "A study has found the effect if p is at most this")
-        ->check(CLI::Range(0.0001, 0.5))
-        ->capture_default_str();
-    command.add_option("--power", settings.target, "Share of studies that is asked for")
-        ->check(CLI::Range(0.05, 0.999))
-        ->capture_default_str();
-    command
-        .add_option("--head-share-sd", options.head_share_sd,
-                    "Standard deviation over observers of the logit of their shares on the head")
-        ->check(CLI::Range(0.0, 5.0))
+    option(command, "--effect", options.effects, "EFFECT", "An effect, several times for several, or none",
+           required, one_each_time)
+        ->take_all();
+    option(command, "--observers", options.observers, "N",
+           "Numbers of observers: 12, 6:24, 6:24:3 or 6,12,18", shown_default);
+    option(command, "--studies", settings.studies, "", "Studies to simulate", CLI::Range(10, 100000),
+           shown_default);
+    option(command, "--alpha", settings.alpha, "", "A study has found the effect if p is at most this",
+           CLI::Range(0.0001, 0.5), shown_default);
+    option(command, "--power", settings.target, "", "Share of studies that is asked for",
+           CLI::Range(0.05, 0.999), shown_default);
+    option(command, "--head-share-sd", options.head_share_sd, "",
+           "Standard deviation over observers of the logit of their shares on the head", CLI::Range(0.0, 5.0))
         ->default_str("the protocol's");
-    command
-        .add_option("--accuracy", options.accuracy_deg,
-                    "Standard deviation along each axis of the tracker's constant error in a trial")
-        ->check(CLI::Range(0.0, 5.0))
-        ->default_str("the protocol's")
-        ->type_name("DEG");
-    command
-        .add_option("--sigma", options.sigma, "Standard deviation of the maps' kernel, such as 1deg or 30mm")
-        ->type_name("WIDTH")
-        ->capture_default_str();
-    command
-        .add_option("--permutations", settings.permutations, "Random ones, where there are too many for all")
-        ->check(CLI::Range(100, 1000000))
-        ->capture_default_str();
-    command.add_option("--seed", settings.seed, "Of all that is drawn at random")
-        ->check(seed_number())
-        ->type_name("N")
-        ->capture_default_str();
-    command.add_option("--jobs", settings.jobs, "Threads; the result is the same with any number")
-        ->check(above_zero())
-        ->type_name("N")
-        ->capture_default_str();
-    command.add_option("--out", options.out, "Folder to write to")->type_name("DIR")->capture_default_str();
-    command.add_option("--format", options.format, "Of the tables")
-        ->check(CLI::IsMember({"csv", "tsv", "jsonl"}))
-        ->capture_default_str();
+    option(command, "--accuracy", options.accuracy_deg, "DEG",
+           "Standard deviation along each axis of the tracker's constant error in a trial",
+           CLI::Range(0.0, 5.0))
+        ->default_str("the protocol's");
+    option(command, "--sigma", options.sigma, "WIDTH",
+           "Standard deviation of the maps' kernel, such as 1deg or 30mm", shown_default);
+    option(command, "--permutations", settings.permutations, "",
+           "Random ones, where there are too many for all", CLI::Range(100, 1000000), shown_default);
+    option(command, "--seed", settings.seed, "N", "Of all that is drawn at random", seed_number(),
+           shown_default);
+    option(command, "--jobs", settings.jobs, "N", "Threads; the result is the same with any number",
+           above_zero(), shown_default);
+    option(command, "--out", options.out, "DIR", "Folder to write to", shown_default);
+    option(command, "--format", options.format, "", "Of the tables", CLI::IsMember({"csv", "tsv", "jsonl"}),
+           shown_default);
     command.add_flag("--overwrite", options.overwrite, "Replace results that are there");
     command.add_flag("--json", options.json, "Print the results as JSON");
-    run_when_chosen(command, chosen, [given] { return run_power(*given); });
 }
 
 } // namespace overt

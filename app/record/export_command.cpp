@@ -85,10 +85,8 @@ int run_export(const ExportOptions& options) {
 } // namespace
 
 void add_export(CLI::App& app, ChosenCommand& chosen) {
-    const auto given = std::make_shared<ExportOptions>();
-    ExportOptions& options = *given;
-    CLI::App& command =
-        add_command(app, "export", "Writes sessions as tables or files for other tools",
+    const auto [command, options] =
+        add_command(app, chosen, run_export, "export", "Writes sessions as tables or files for other tools",
                     "overt export sessions/overt_2019/sub-07_ses-01 --format tsv --out tables\n"
                     "  overt export sessions/overt_2019/* --format bids --out dataset\n"
                     "  overt export sessions/overt_2019/sub-07_ses-01 --format asc --out asc");
@@ -105,15 +103,12 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
                 joining.push_back("--format " + name);
         }
     }
-    command.add_option("--format", options.format, fmt::format("{}", fmt::join(explained, "; ")))
-        ->check(CLI::IsMember(names))
-        ->capture_default_str();
-    command
-        .add_option("--out", options.out,
-                    fmt::format("Folder to write to (default: export_FORMAT in the session; for several "
-                                "sessions a folder each is made in it, but one dataset of all with {})",
-                                fmt::join(joining, " and ")))
-        ->type_name("DIR");
+    option(command, "--format", options.format, "", fmt::format("{}", fmt::join(explained, "; ")),
+           CLI::IsMember(names), shown_default);
+    option(command, "--out", options.out, "DIR",
+           fmt::format("Folder to write to (default: export_FORMAT in the session; for several "
+                       "sessions a folder each is made in it, but one dataset of all with {})",
+                       fmt::join(joining, " and ")));
     for (const auto& format : formats)
         format->add_options(command);
     command.add_flag(
@@ -121,7 +116,6 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
         "Find fixations, saccades and blinks also in recordings that were imported without any; sessions of "
         "the program have them anyway");
     command.add_flag("--overwrite", options.overwrite, "Replace an export that is there");
-    run_when_chosen(command, chosen, [given] { return run_export(*given); });
 }
 
 } // namespace overt

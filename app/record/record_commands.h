@@ -1,5 +1,4 @@
-/// The commands for recorded sessions: export, import, show, verify. Each takes its options and gives the
-/// exit code, 0 done, 1 failed. Bad input is thrown as InputError, which main turns into exit code 2.
+/// The commands for recorded sessions: export, import, show, verify.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +10,6 @@
 
 namespace overt {
 
-/// Adds them to the command line.
 void add_record_commands(CLI::App& app, ChosenCommand& chosen);
 
 /// `export`, whose options come from its formats.

@@ -61,8 +61,8 @@ Experiment recorded_experiment(const SessionRecord& record, const fs::path& file
         read_recorded_experiment(record.header().protocol, place, cache, diagnostics);
     if (experiment) {
         const auto& sculptures = experiment->protocol.sculptures;
-        const bool has_meshes = std::any_of(sculptures.begin(), sculptures.end(),
-                                            [](const auto& sculpture) { return !sculpture.mesh.empty(); });
+        const bool has_meshes =
+            std::ranges::any_of(sculptures, [](const auto& sculpture) { return !sculpture.mesh.empty(); });
         // The meshes in the session's folder are those that were made of the protocol's.
         if (has_meshes && files.empty() && record.run_options(1).empty())
             throw InputError(

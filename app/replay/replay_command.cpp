@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/cache_folder.h"
 #include "app/cli/interruption.h"
+#include "app/cli/own_folders.h"
 #include "app/cli/progress_bar.h"
 #include "app/cli/this_program.h"
 #include "app/replay/recorded_experiment.h"

@@ -1,5 +1,4 @@
-/// `overt replay`: a recorded session presented again. Takes its options and gives the exit code, 0 done, 1
-/// failed. Bad input is thrown as InputError, which main turns into exit code 2.
+/// `overt replay`: a recorded session presented again.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +9,6 @@
 
 namespace overt {
 
-/// Adds it to the command line.
 void add_replay_commands(CLI::App& app, ChosenCommand& chosen);
 
 struct ReplayOptions {

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/cache_folder.h"
 #include "app/cli/interruption.h"
+#include "app/cli/own_folders.h"
 #include "app/cli/progress_bar.h"
 #include "app/record/recorded_surface.h"
 #include "app/replay/movie_file.h"

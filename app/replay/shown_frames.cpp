@@ -44,8 +44,7 @@ ShownFrames::ShownFrames(const SessionRecord& record, const TrialRecord& trial, 
                 gaze_.push_back({to_seconds(joined.at->time - first_light_), joined.image_px});
         }
     });
-    std::stable_sort(gaze_.begin(), gaze_.end(),
-                     [](const TimedGaze& a, const TimedGaze& b) { return a.at_s < b.at_s; });
+    std::ranges::stable_sort(gaze_, {}, &TimedGaze::at_s);
 }
 
 ShownFrame ShownFrames::frame(int number) const {
@@ -62,8 +61,7 @@ ShownFrame ShownFrames::frame(int number) const {
         from_seconds(row_px / screen.screen_px.y / record_.header().display.refresh_hz);
     frame.lit = history_.frame_shown_at(middle, row_px);
     frame.planned = history_.frame_planned_at(middle, row_px);
-    const auto before = [](const TimedGaze& gaze, double at_s) { return gaze.at_s < at_s; };
-    auto gaze = std::lower_bound(gaze_.begin(), gaze_.end(), frame.begin_s, before);
+    auto gaze = std::ranges::lower_bound(gaze_, frame.begin_s, {}, &TimedGaze::at_s);
     glm::dvec2 sum{0.0};
     for (; gaze != gaze_.end() && gaze->at_s < frame.end_s; ++gaze) {
         ++frame.samples;

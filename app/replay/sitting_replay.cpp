@@ -86,9 +86,7 @@ void put_back(const SessionRecord& record, int sitting, const fs::path& folder) 
 }
 
 int attempts_in(const SessionRecord& record, int sitting) {
-    return static_cast<int>(
-        std::count_if(record.trials().begin(), record.trials().end(),
-                      [&](const TrialRecord& attempt) { return attempt.sitting == sitting; }));
+    return static_cast<int>(std::ranges::count(record.trials(), sitting, &TrialRecord::sitting));
 }
 
 /// What is left of a session that failed where the recorded one did not.

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "app/cli/state_folder.h"
+#include "app/cli/own_folders.h"
 #include "devices/display_box/display_plus_plus_search.h"
 #include "devices/host/clocks.h"
 #include "devices/link/serial_port.h"

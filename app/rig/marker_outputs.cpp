@@ -1,45 +1,34 @@
 #include "app/rig/marker_outputs.h"
 
-#include <filesystem>
-
 #include <fmt/format.h>
 
-#include "devices/link/serial_port_search.h"
-#include "devices/lsl/lsl_outlet.h"
-#include "devices/triggers/parallel_trigger.h"
-#include "devices/triggers/serial_trigger.h"
+#include "devices/triggers/marker_device.h"
 #include "devices/triggers/threaded_marker_sink.h"
-#include "devices/usb/serial_line.h"
 #include "experiment/base/error.h"
 
 namespace overt {
 namespace {
 
-constexpr const char* first_parallel_port = "/dev/parport0";
 /// Each frame of half a minute at 120 Hz, and the rest.
 constexpr std::size_t held_markers = 4096;
 
-std::unique_ptr<MarkerSink> open_output(const MarkerOutputSettings& output, Clock& clock,
-                                        const std::string& session) {
+/// In the order of their kinds.
+const auto marker_devices = for_each_kind<MarkerOutputKind>([]<MarkerOutputKind kind> {
+    if constexpr (row_of(kind).rides_on_picture)
+        return MarkerDevice();
+    else
+        return marker_device_of<kind>();
+});
+
+std::unique_ptr<MarkerSink> open_output(const MarkerParts& parts) {
     MarkerPulse pulse;
-    pulse.length = from_seconds(1e-3 * output.pulse_ms);
-    std::unique_ptr<MarkerOutput> opened;
-    switch (output.kind) {
-    case MarkerOutputKind::serial:
-        opened = std::make_unique<SerialTrigger>(open_serial_line(output.address, clock, output.baud), clock);
-        break;
-    case MarkerOutputKind::parallel:
-        opened =
-            std::make_unique<ParallelTrigger>(output.address.empty() ? first_parallel_port : output.address);
-        break;
-    case MarkerOutputKind::lsl:
+    if (row_of(parts.settings.kind).tells_texts)
         pulse.length = {};
-        opened = std::make_unique<LslMarkerOutlet>(load_lsl(output.library), session, clock);
-        break;
-    case MarkerOutputKind::t_lock:
-        return nullptr;
-    }
-    return std::make_unique<ThreadedMarkerSink>(std::move(opened), clock, pulse, held_markers);
+    else
+        pulse.length = from_seconds(1e-3 * parts.settings.pulse_ms);
+    return std::make_unique<ThreadedMarkerSink>(
+        marker_devices[static_cast<std::size_t>(parts.settings.kind)].open(parts), parts.clock, pulse,
+        held_markers);
 }
 
 } // namespace
@@ -49,7 +38,7 @@ MarkerEquipment::MarkerEquipment(const Protocol& protocol, Clock& clock, bool vi
                                  const std::function<void(const std::string&)>& tell) {
     for (const MarkerOutputSettings& output : protocol.marker_outputs) {
         std::unique_ptr<MarkerSink>& sink = sinks_.emplace_back();
-        if (output.kind == MarkerOutputKind::t_lock) {
+        if (row_of(output.kind).rides_on_picture) {
             descriptions_.push_back(
                 fmt::format("{}: digital outputs of the display box, by the picture", output.id));
             continue;
@@ -59,7 +48,7 @@ MarkerEquipment::MarkerEquipment(const Protocol& protocol, Clock& clock, bool vi
             continue;
         }
         try {
-            sink = open_output(output, clock, session);
+            sink = open_output({output, clock, session});
             descriptions_.push_back(fmt::format("{}: {}", output.id, sink->name()));
         } catch (const DeviceError& error) {
             if (output.required)
@@ -82,20 +71,10 @@ std::vector<MarkerSink*> MarkerEquipment::sinks() const {
 
 std::vector<std::string> marker_overview() {
     std::vector<std::string> lines;
-    for (int i = 0; i < 4; ++i) {
-        std::error_code absent;
-        const std::string port = fmt::format("/dev/parport{}", i);
-        if (std::filesystem::exists(port, absent))
-            lines.push_back(fmt::format("{}: kind parallel", port));
-    }
-    for (const SerialPortInfo& port : serial_ports("/dev", "/sys", "ttyUSB"))
-        lines.push_back(fmt::format("{}: kind serial", describe(port)));
-    try {
-        load_lsl({});
-        lines.emplace_back("Lab Streaming Layer: its library is there, kind lsl");
-    } catch (const Error& error) {
-        lines.push_back(fmt::format("Lab Streaming Layer: {}", error.what()));
-    }
+    for (const MarkerDevice& device : marker_devices)
+        if (device.look_for)
+            for (std::string& line : device.look_for())
+                lines.push_back(std::move(line));
     return lines;
 }
 

@@ -29,7 +29,8 @@ class SimulatedObserver;
 struct ScriptedOperatorKey;
 
 /// When the hidden maps are drawn: before the session, or while their frames are shown.
-enum class MapTime { automatic, prepared, live };
+enum class MapTime : std::uint8_t { automatic, prepared, live };
+template <> inline constexpr auto names_of<MapTime> = enum_names<MapTime>("auto", "prepared", "live");
 
 struct RigRequest {
     ContextChoice context;

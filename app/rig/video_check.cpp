@@ -10,7 +10,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/state_folder.h"
+#include "app/cli/own_folders.h"
 #include "experiment/base/error.h"
 #include "experiment/base/folder_lock.h"
 #include "experiment/base/json_text.h"

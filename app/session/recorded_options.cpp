@@ -1,20 +1,17 @@
 #include "app/session/recorded_options.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/text_number.h"
 
 namespace overt {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::pair<MapTime, std::string_view> names_of_map_times[] = {
-    {MapTime::automatic, "auto"}, {MapTime::live, "live"}, {MapTime::prepared, "prepared"}};
 
 [[noreturn]] void refuse(const RecordedOption& option) {
     throw RecordError(fmt::format(
@@ -24,12 +21,17 @@ constexpr std::pair<MapTime, std::string_view> names_of_map_times[] = {
 }
 
 template <class Number> Number number_of(const RecordedOption& option) {
-    Number number{};
-    const char* const end = option.value.data() + option.value.size();
-    const auto [rest, error] = std::from_chars(option.value.data(), end, number);
-    if (error != std::errc() || rest != end)
+    const auto number = number_in<Number>(option.value);
+    if (!number)
         refuse(option);
-    return number;
+    return *number;
+}
+
+template <NamedEnum Enum> Enum one_called(const RecordedOption& option) {
+    const auto found = std::ranges::find(names_of<Enum>, option.value);
+    if (found == names_of<Enum>.end())
+        refuse(option);
+    return static_cast<Enum>(found - names_of<Enum>.begin());
 }
 
 fs::path way_to(const fs::path& file, const fs::path& folder) {
@@ -59,9 +61,7 @@ std::vector<RecordedOption> recorded_options(const RunOptions& options, const fs
         add("no-pictures");
     if (options.trials)
         add("trials", std::to_string(*options.trials));
-    for (const auto& [time, name] : names_of_map_times)
-        if (time == options.maps)
-            add("maps", std::string(name));
+    add("maps", std::string(name_of(options.maps)));
     if (options.verify_output)
         add("verify-output");
     if (options.quality)
@@ -91,28 +91,17 @@ void take_recorded_options(const std::vector<RecordedOption>& recorded, RunOptio
             options.trials = number_of<int>(option);
         else if (name == "verify-output")
             options.verify_output = true;
-        else if (name == "maps") {
-            const auto* const time =
-                std::find_if(std::begin(names_of_map_times), std::end(names_of_map_times),
-                             [&](const auto& entry) { return entry.second == option.value; });
-            if (time == std::end(names_of_map_times))
-                refuse(option);
-            options.maps = time->first;
-        } else if (name == "quality") {
-            const auto& names = names_of<BakeQuality>;
-            const auto found = std::find(names.begin(), names.end(), option.value);
-            if (found == names.end())
-                refuse(option);
-            options.quality = static_cast<BakeQuality>(found - names.begin());
-        } else {
+        else if (name == "maps")
+            options.maps = one_called<MapTime>(option);
+        else if (name == "quality")
+            options.quality = one_called<BakeQuality>(option);
+        else
             refuse(option);
-        }
     }
 }
 
 const std::string* recorded_value(const std::vector<RecordedOption>& recorded, std::string_view name) {
-    const auto found = std::find_if(recorded.begin(), recorded.end(),
-                                    [&](const RecordedOption& option) { return option.name == name; });
+    const auto found = std::ranges::find(recorded, name, &RecordedOption::name);
     return found == recorded.end() ? nullptr : &found->value;
 }
 

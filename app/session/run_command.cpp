@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "app/cli/cache_folder.h"
 #include "app/cli/interruption.h"
+#include "app/cli/own_folders.h"
 #include "app/cli/terminal_output.h"
 #include "app/cli/this_program.h"
 #include "app/inputs/prepared_stimuli.h"

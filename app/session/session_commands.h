@@ -1,5 +1,4 @@
-/// The command that runs a session. Each takes its options and gives the exit code, 0 done, 1 failed. Bad
-/// input is thrown as InputError, which main turns into exit code 2.
+/// The command that runs a session.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +18,6 @@
 
 namespace overt {
 
-/// Adds it to the command line.
 void add_session_commands(CLI::App& app, ChosenCommand& chosen);
 
 /// Where the observer's form is filled in as far as the command line does not.

@@ -8,7 +8,6 @@
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/base/whole_file.h"
-#include "experiment/protocol/protocol_keys.h"
 
 namespace overt {
 
@@ -81,8 +80,7 @@ TrialProgress::TrialProgress(const Protocol& protocol, const Schedule& schedule,
 
 void TrialProgress::enter(SessionPhase phase, int trial) {
     const auto& trials = schedule_->trials;
-    const auto found = std::find_if(trials.begin(), trials.end(),
-                                    [trial](const Trial& planned) { return planned.index == trial; });
+    const auto found = std::ranges::find(trials, trial, &Trial::index);
     std::string text(name_of(phase));
     if (found != trials.end())
         text = fmt::format("trial {}, {}: {}", trial + 1, text,

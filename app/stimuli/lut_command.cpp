@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/cache_folder.h"
 #include "app/cli/figures.h"
+#include "app/cli/own_folders.h"
 #include "app/cli/progress_bar.h"
 #include "app/inputs/protocol_file.h"
 #include "app/stimuli/map_figures.h"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "app/cli/cache_folder.h"
+#include "app/cli/own_folders.h"
 #include "app/stimuli/head_outline.h"
 #include "app/stimuli/picture_window.h"
 #include "app/stimuli/stimulus_commands.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/cli/cache_folder.h"
+#include "app/cli/own_folders.h"
 #include "app/cli/progress_bar.h"
 #include "app/inputs/protocol_file.h"
 #include "app/inputs/protocol_inputs.h"
@@ -86,10 +86,7 @@ int run_play(const PlayOptions& options) {
     OpenDisplay display(request);
     StimulusLibrary library(display.context(), protocol, sculptures, cache_folder());
     ProgressBar bar;
-    const Progress progress = [&](std::string_view what, int done, int total, double share) {
-        bar.update(what, done, total, share);
-    };
-    library.prepare_frames(stimulus, progress,
+    library.prepare_frames(stimulus, std::ref(bar),
                            in_window ? std::nullopt
                                      : std::optional(AnimationFrameIndex{options.frame.value_or(0)}));
     bar.finish();

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/cache_folder.h"
+#include "app/cli/own_folders.h"
 #include "app/cli/progress_bar.h"
 #include "app/inputs/protocol_file.h"
 #include "app/stimuli/stimulus_commands.h"
@@ -45,9 +45,7 @@ class StimulusMaps {
         if (sculpture.has_mesh()) {
             const auto headless = make_headless_context(context);
             StimulusLibrary library(*headless, protocol, sculptures_, cache_folder());
-            library.maps().prepare_maps(index, [&](std::string_view what, int done, int total, double share) {
-                bar.update(what, done, total, share);
-            });
+            library.maps().prepare_maps(index, std::ref(bar));
             maps_.emplace(library.cache().maps_of(index));
             return;
         }

@@ -1,6 +1,4 @@
-/// The commands for looking at stimuli and making them: play, pick-head, bake, lut, reconstruct. Each takes
-/// its options and gives the exit code, 0 done, 1 failed. Bad input is thrown as InputError, which main turns
-/// into exit code 2.
+/// The commands for looking at stimuli and making them: play, pick-head, bake, lut, reconstruct.
 #pragma once
 
 #include <array>
@@ -15,7 +13,6 @@
 
 namespace overt {
 
-/// Adds them to the command line.
 void add_stimulus_commands(CLI::App& app, ChosenCommand& chosen);
 
 struct PlayOptions {

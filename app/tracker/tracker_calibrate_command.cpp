@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "app/cli/cache_folder.h"
 #include "app/cli/interruption.h"
+#include "app/cli/own_folders.h"
 #include "app/inputs/protocol_inputs.h"
 #include "app/rig/rig.h"
 #include "app/rig/setup_sounds.h"

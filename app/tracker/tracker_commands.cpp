@@ -8,84 +8,67 @@ namespace overt {
 namespace {
 
 void add_further(CLI::App& command, std::string& further) {
-    command.add_option("--further", further, "Id of the protocol's [[further_tracker]] that is meant")
-        ->type_name("ID");
+    option(command, "--further", further, "ID", "Id of the protocol's [[further_tracker]] that is meant");
 }
 
 void add_list(CLI::App& app, ChosenCommand& chosen) {
-    const auto given = std::make_shared<TrackerListOptions>();
-    CLI::App& command = add_command(app, "list", "The kinds of eye tracker, and what of them is found here",
-                                    "overt tracker list");
-    command.add_flag("--json", given->json, "Print as JSON");
-    run_when_chosen(command, chosen, [given] { return run_tracker_list(*given); });
+    const auto [command, options] =
+        add_command(app, chosen, run_tracker_list, "list",
+                    "The kinds of eye tracker, and what of them is found here", "overt tracker list");
+    command.add_flag("--json", options.json, "Print as JSON");
 }
 
 void add_test(CLI::App& app, ChosenCommand& chosen) {
-    const auto given = std::make_shared<TrackerTestOptions>();
-    TrackerTestOptions& options = *given;
-    CLI::App& command = add_command(
-        app, "test",
+    const auto [command, options] = add_command(
+        app, chosen, run_tracker_test, "test",
         "Records for some seconds and says how fast the tracker samples, what it loses, how its clock runs",
         "overt tracker test --tracker opengaze --address 127.0.0.1:4242 --seconds 30");
     command.add_option("PROTOCOL", options.protocol, "Whose [tracker] is tested (default: a simulated one)");
     add_further(command, options.further);
-    command.add_option("--tracker", options.kind, "Kind of eye tracker, instead of the protocol's")
-        ->check(CLI::IsMember(std::vector<std::string>(tracker_names.begin(), tracker_names.end())));
-    command.add_option("--address", options.address, "Where it is, as [tracker] address")->type_name("TEXT");
-    command.add_option("--library", options.library, "Of its maker, as [tracker] library")->type_name("FILE");
-    command.add_option("--rate", options.rate_hz, "Wished samples per second")
-        ->type_name("HZ")
-        ->check(CLI::Range(1.0, 10000.0));
-    command.add_option("--seconds", options.seconds, "How long to record")
-        ->type_name("S")
-        ->check(seconds_up_to_an_hour())
-        ->capture_default_str();
+    option(command, "--tracker", options.kind, "", "Kind of eye tracker, instead of the protocol's",
+           one_of_names(names_of<TrackerKind>));
+    option(command, "--address", options.address, "TEXT", "Where it is, as [tracker] address");
+    option(command, "--library", options.library, "FILE", "Of its maker, as [tracker] library");
+    option(command, "--rate", options.rate_hz, "HZ", "Wished samples per second", CLI::Range(1.0, 10000.0));
+    option(command, "--seconds", options.seconds, "S", "How long to record", seconds_up_to_an_hour(),
+           shown_default);
     command.add_flag("--json", options.json, "Print as JSON");
-    run_when_chosen(command, chosen, [given] { return run_tracker_test(*given); });
 }
 
 void add_calibrate(CLI::App& app, ChosenCommand& chosen) {
-    const auto given = std::make_shared<TrackerCalibrateOptions>();
-    TrackerCalibrateOptions& options = *given;
-    CLI::App& command = add_command(
-        app, "calibrate",
+    const auto [command, options] = add_command(
+        app, chosen, run_tracker_calibrate, "calibrate",
         "Calibrates and validates the tracker on the screen, as a session does, and says how well",
         "overt tracker calibrate protocols/overt_2019.toml --tracker mouse\n"
         "  overt tracker calibrate protocols/overt_2019.toml --by-overt --simulate-observer 1 --virtual-time "
         "--context osmesa --picture validation.png");
     command.add_option("PROTOCOL", options.protocol, "Whose screen and tracker")->required();
     add_further(command, options.further);
-    command.add_option("--tracker", options.kind, "Kind of eye tracker, instead of the protocol's")
-        ->check(CLI::IsMember(std::vector<std::string>(tracker_names.begin(), tracker_names.end())));
+    option(command, "--tracker", options.kind, "", "Kind of eye tracker, instead of the protocol's",
+           one_of_names(names_of<TrackerKind>));
     command.add_flag("--by-overt", options.by_overt,
                      "Calibrate by the program, as [calibration] by = \"overt\"");
-    command.add_option("--simulate-observer", options.simulate_observer, "Let a simulated observer look")
-        ->type_name("SEED");
+    option(command, "--simulate-observer", options.simulate_observer, "SEED",
+           "Let a simulated observer look");
     command.add_flag("--virtual-time", options.virtual_time,
                      "Run as fast as the machine can, on a clock of its own");
     command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
-    command
-        .add_option(
-            "--monitor", options.monitor,
-            "The screen to take: its number as `overt doctor` lists them, or the name of its output or EDID")
-        ->type_name("WHICH");
-    command.add_option("--picture", options.picture, "Draw the validation: measured gaze beside the targets")
-        ->type_name("FILE.png");
+    option(command, "--monitor", options.monitor, "WHICH",
+           "The screen to take: its number as `overt doctor` lists them, or the name of its output or EDID");
+    option(command, "--picture", options.picture, "FILE.png",
+           "Draw the validation: measured gaze beside the targets");
     add_context_option(command, options.context);
-    run_when_chosen(command, chosen, [given] { return run_tracker_calibrate(*given); });
 }
 
 void add_show(CLI::App& app, ChosenCommand& chosen) {
-    const auto given = std::make_shared<TrackerShowOptions>();
-    CLI::App& command =
-        add_command(app, "show", "The calibrations of a session: accuracy and precision at each target",
+    const auto [command, options] =
+        add_command(app, chosen, run_tracker_show, "show",
+                    "The calibrations of a session: accuracy and precision at each target",
                     "overt tracker show sessions/overt_2019/obs-1_session-1 --picture validation.png");
-    command.add_option("SESSION", given->session, "Folder of a session")->required();
-    command
-        .add_option("--picture", given->picture, "Draw the last validation: measured gaze beside the targets")
-        ->type_name("FILE.png");
-    command.add_flag("--json", given->json, "Print as JSON");
-    run_when_chosen(command, chosen, [given] { return run_tracker_show(*given); });
+    command.add_option("SESSION", options.session, "Folder of a session")->required();
+    option(command, "--picture", options.picture, "FILE.png",
+           "Draw the last validation: measured gaze beside the targets");
+    command.add_flag("--json", options.json, "Print as JSON");
 }
 
 } // namespace

@@ -1,5 +1,4 @@
-/// The commands for eye trackers: tracker list, test, calibrate, show. Each takes its options and gives the
-/// exit code, 0 done, 1 failed. Bad input is thrown as InputError, which main turns into exit code 2.
+/// The commands for eye trackers: tracker list, test, calibrate, show.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +11,6 @@
 
 namespace overt {
 
-/// Adds them to the command line.
 void add_tracker_commands(CLI::App& app, ChosenCommand& chosen);
 
 struct TrackerListOptions {

@@ -3,26 +3,25 @@
 
 #include "app/rig/tracker_devices.h"
 #include "app/tracker/tracker_commands.h"
-#include "experiment/ports/tracker_kinds.h"
 
 namespace overt {
 
 int run_tracker_list(const TrackerListOptions& options) {
     auto json = nlohmann::ordered_json::array();
-    const std::span<const TrackerDevice> devices = tracker_devices();
-    for (std::size_t i = 0; i < devices.size(); ++i) {
-        const TrackerDevice& device = devices[i];
-        const std::string found = device.look_for ? device.look_for() : std::string();
-        json.push_back({{"kind", device.name},
-                        {"what", tracker_kinds[i].explanation},
-                        {"hardware", device.is_hardware},
-                        {"can_do", device.can_do},
+    for (const TrackerKind kind : all_kinds<TrackerKind>) {
+        const TrackerKindRow& row = row_of(kind);
+        const std::string_view can_do = tracker_device(kind, false).can_do;
+        const std::string found = tracker_found(kind);
+        json.push_back({{"kind", row.name},
+                        {"what", row.explanation},
+                        {"hardware", row.is_hardware()},
+                        {"can_do", can_do},
                         {"found", found}});
         if (options.json)
             continue;
-        fmt::print("{:<10} {}\n", device.name, tracker_kinds[i].explanation);
-        if (!device.can_do.empty())
-            fmt::print("{:<10} can:  {}\n", "", device.can_do);
+        fmt::print("{:<10} {}\n", row.name, row.explanation);
+        if (!can_do.empty())
+            fmt::print("{:<10} can:  {}\n", "", can_do);
         if (!found.empty())
             fmt::print("{:<10} here: {}\n", "", found);
     }

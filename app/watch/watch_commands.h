@@ -10,7 +10,6 @@
 
 namespace overt {
 
-/// Adds it to the command line.
 void add_watch_commands(CLI::App& app, ChosenCommand& chosen);
 
 struct WatchOptions {

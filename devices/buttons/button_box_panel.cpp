@@ -69,26 +69,26 @@ std::optional<ResponsePress> ButtonBoxPanel::press_of(const Hand& hand, const Bu
     const ResponsePress press{means->key, change.at, means->character};
     if (hand.in_hand.is_operators) {
         if (decides(means->key))
-            return mode_ == Mode::confirmation ? std::optional(press) : std::nullopt;
+            return awaited_ == Awaited::decision ? std::optional(press) : std::nullopt;
         return press;
     }
     // What was pressed before the text or the question stood there does not answer it.
     if (change.at < since_)
         return std::nullopt;
-    switch (mode_) {
-    case Mode::reading:
+    switch (awaited_) {
+    case Awaited::key:
         return decides(means->key) ? std::nullopt : std::optional(press);
-    case Mode::response:
+    case Awaited::response:
         if (means->key != Key::next)
             return std::nullopt;
         answered_ = means;
         box_answered_ = true;
         return press;
-    case Mode::consent:
+    case Awaited::consent:
         return means->key == Key::yes || means->key == Key::no ? std::optional(press) : std::nullopt;
-    case Mode::confirmation: // the operator's
-    case Mode::entry:        // letters are typed
-    case Mode::setup:
+    case Awaited::decision: // the operator's
+    case Awaited::entry:    // letters are typed
+    case Awaited::setup:
         break;
     }
     return std::nullopt;
@@ -129,44 +129,16 @@ std::optional<ResponsePress> ButtonBoxPanel::next_press() noexcept {
 }
 
 /// The operator's presses stay, and all are recorded.
-void ButtonBoxPanel::begin(Mode mode, SessionTime since) noexcept {
+void ButtonBoxPanel::await(Awaited what, SessionTime since, const Trial* trial) {
     while (const std::optional<ResponsePress> press = next_press())
         if (is_operators(press->key) && kept_count_ < kept_.size())
             kept_[kept_count_++] = *press;
-    mode_ = mode;
+    awaited_ = what;
     since_ = since;
     box_answered_ = false;
     answered_ = nullptr;
-}
-
-void ButtonBoxPanel::await_key(SessionTime since) {
-    begin(Mode::reading, since);
     if (answering_)
-        answering_->await_key(since);
-}
-
-void ButtonBoxPanel::await_response(const Trial& trial, SessionTime since) {
-    begin(Mode::response, since);
-    if (answering_)
-        answering_->await_response(trial, since);
-}
-
-void ButtonBoxPanel::await_decision(bool is_consent, SessionTime since) {
-    begin(is_consent ? Mode::consent : Mode::confirmation, since);
-    if (answering_)
-        answering_->await_decision(is_consent, since);
-}
-
-void ButtonBoxPanel::await_entry(SessionTime since) {
-    begin(Mode::entry, since);
-    if (answering_)
-        answering_->await_entry(since);
-}
-
-void ButtonBoxPanel::await_setup(SessionTime since) {
-    begin(Mode::setup, since);
-    if (answering_)
-        answering_->await_setup(since);
+        answering_->await(what, since, trial);
 }
 
 std::optional<ResponsePress> ButtonBoxPanel::poll() noexcept {

@@ -33,11 +33,7 @@ class ButtonBoxPanel final : public ResponsePanel {
     ButtonBoxPanel(std::vector<BoxInHand> boxes, const Clock& clock, ResponsePanel* answering,
                    std::function<void(const std::string&)> tell);
 
-    void await_key(SessionTime since) override;
-    void await_response(const Trial& trial, SessionTime since) override;
-    void await_decision(bool is_consent, SessionTime since) override;
-    void await_entry(SessionTime since) override;
-    void await_setup(SessionTime since) override;
+    void await(Awaited what, SessionTime since, const Trial* trial) override;
     std::optional<SetupKey> next_setup_key() override {
         return answering_ ? answering_->next_setup_key() : std::nullopt;
     }
@@ -49,7 +45,6 @@ class ButtonBoxPanel final : public ResponsePanel {
     void entered(SessionPhase phase, int trial) noexcept override;
 
   private:
-    enum class Mode : std::uint8_t { reading, response, consent, confirmation, entry, setup };
     struct Hand {
         BoxInHand in_hand;
         std::vector<int> meaning_of; ///< by the button's number: index into the meanings, or -1
@@ -62,7 +57,6 @@ class ButtonBoxPanel final : public ResponsePanel {
         ButtonChange change;
         int trial = -1;
     };
-    void begin(Mode mode, SessionTime since) noexcept;
     const ButtonMeaning* meaning(const Hand& hand, int button) const noexcept;
     bool next_change(Change& into) noexcept;
     void keep(const Change& change) noexcept;
@@ -75,7 +69,7 @@ class ButtonBoxPanel final : public ResponsePanel {
     ResponsePanel* answering_;
     std::function<void(const std::string&)> tell_;
     ButtonMeaning goes_on_;
-    Mode mode_ = Mode::reading;
+    Awaited awaited_ = Awaited::key;
     SessionTime since_;
     int trial_ = -1;
     const ButtonMeaning* answered_ = nullptr; ///< the button that answered

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "devices/buttons/button_box_device.h"
 #include "experiment/base/error.h"
 
 namespace overt {
@@ -72,6 +73,16 @@ std::size_t Cb6Box::poll(std::span<ButtonChange> into) noexcept {
         for (const BoxEvent& event : edges_.feed(sample.sample))
             keep(event);
     }
+}
+
+template <> ButtonBoxDevice button_box_device_of<kind_called<ButtonBoxKind>("cb6")>() {
+    return {.open = [](const ButtonBoxParts& parts) -> std::unique_ptr<ButtonBox> {
+        if (!parts.display_box)
+            throw DeviceError(
+                "a CB6 is read through the Display++ or Bits#, which this session does not use: it has "
+                "no real screen in real time");
+        return std::make_unique<Cb6Box>(*parts.display_box, parts.clock);
+    }};
 }
 
 } // namespace overt

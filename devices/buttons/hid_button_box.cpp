@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "devices/buttons/box_times.h"
+#include "devices/buttons/button_box_device.h"
+#include "devices/buttons/hid_box_search.h"
 #include "experiment/base/error.h"
 
 namespace overt {
@@ -149,6 +151,15 @@ std::size_t HidButtonBox::poll(std::span<ButtonChange> into) noexcept {
     }
     looked_ = now;
     return taken;
+}
+
+template <> ButtonBoxDevice button_box_device_of<kind_called<ButtonBoxKind>("hid")>() {
+    return {.open = [](const ButtonBoxParts& parts) -> std::unique_ptr<ButtonBox> {
+        const HidDeviceInfo device = find_hid_box(parts.settings);
+        return std::make_unique<HidButtonBox>(open_hid(device.path, parts.clock),
+                                              parse_report_descriptor(hid_descriptor_of(device.path)),
+                                              describe(device), parts.clock);
+    }};
 }
 
 } // namespace overt

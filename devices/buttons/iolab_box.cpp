@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "devices/buttons/button_box_device.h"
+#include "devices/buttons/hid_box_search.h"
 #include "experiment/base/error.h"
 
 namespace overt {
@@ -95,8 +97,6 @@ void IolabBox::read_clocks() {
 
 ButtonBoxDescription IolabBox::description() const { return {"iolab", line_->name(), true}; }
 
-std::string IolabBox::button_name(int button) const { return fmt::format("{}", button); }
-
 void IolabBox::begin() {
     read_clocks();
     std::array<std::byte, 64> stale;
@@ -121,6 +121,14 @@ std::size_t IolabBox::poll(std::span<ButtonChange> into) noexcept {
     if (taken < into.size())
         looked_ = now;
     return taken;
+}
+
+template <> ButtonBoxDevice button_box_device_of<kind_called<ButtonBoxKind>("iolab")>() {
+    return {.open = [](const ButtonBoxParts& parts) -> std::unique_ptr<ButtonBox> {
+                return std::make_unique<IolabBox>(open_hid(find_hid_box(parts.settings).path, parts.clock),
+                                                  parts.clock);
+            },
+            .look_for = hid_boxes_found};
 }
 
 } // namespace overt

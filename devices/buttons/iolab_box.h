@@ -38,7 +38,6 @@ class IolabBox final : public ButtonBox {
     IolabBox(std::unique_ptr<HidLine> line, Clock& clock);
 
     ButtonBoxDescription description() const override;
-    std::string button_name(int button) const override;
     void begin() override;
     std::size_t poll(std::span<ButtonChange> into) noexcept override;
     bool lost() const noexcept override { return line_->lost(); }

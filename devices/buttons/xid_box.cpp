@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "devices/buttons/button_box_device.h"
+#include "devices/link/serial_port_search.h"
+#include "devices/usb/serial_line.h"
 #include "experiment/base/error.h"
 
 namespace overt {
@@ -18,6 +21,38 @@ constexpr int xid_exchanges = 3;
 std::uint32_t little_endian(const unsigned char* bytes) noexcept {
     return std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
            std::uint32_t{bytes[3]} << 24;
+}
+
+/// The first port behind a chip that Cedrus uses, or the first such chip that has no port.
+std::string xid_port(const std::string& address) {
+    if (!address.empty())
+        return address;
+    for (const SerialPortInfo& port : serial_ports("/dev", "/sys", "ttyUSB"))
+        if (port.vendor_id == ftdi_vendor_id)
+            return port.path;
+    for (const FtdiChip& chip : ftdi_chips())
+        if (!chip.has_tty)
+            return chip.address();
+    throw DeviceError(
+        "No USB serial port (/dev/ttyUSB*) and no chip without one is such as boxes of Cedrus have: is the "
+        "box plugged in? Name its port with address.");
+}
+
+std::vector<std::string> serial_lines_found() {
+    std::vector<std::string> lines;
+    for (const SerialPortInfo& port : serial_ports("/dev", "/sys", "ttyUSB"))
+        lines.push_back(fmt::format(
+            "{}: a serial line{}", describe(port),
+            port.vendor_id == ftdi_vendor_id ? ", of kind xid if it is a box of Cedrus; not asked" : ""));
+    try {
+        for (const FtdiChip& chip : ftdi_chips())
+            if (!chip.has_tty)
+                lines.push_back(fmt::format("{}: a serial chip without a port, address {}; not asked",
+                                            describe(chip), chip.address()));
+    } catch (const Error& error) {
+        lines.emplace_back(error.what());
+    }
+    return lines;
 }
 
 } // namespace
@@ -164,8 +199,6 @@ ButtonBoxDescription XidBox::description() const {
             has_clock_};
 }
 
-std::string XidBox::button_name(int button) const { return fmt::format("{}", button); }
-
 void XidBox::begin() {
     // Firmware of the first generation does not tell its clock; then changes are timed by when they were
     // fetched.
@@ -197,6 +230,18 @@ std::size_t XidBox::poll(std::span<ButtonChange> into) noexcept {
     }
     looked_ = now;
     return taken;
+}
+
+template <> ButtonBoxDevice button_box_device_of<kind_called<ButtonBoxKind>("xid")>() {
+    return {.open = [](const ButtonBoxParts& parts) -> std::unique_ptr<ButtonBox> {
+                return std::make_unique<XidBox>(
+                    xid_port(parts.settings.address),
+                    [&clock = parts.clock](const std::string& port, int baud) {
+                        return open_serial_line(port, clock, baud);
+                    },
+                    parts.clock);
+            },
+            .look_for = serial_lines_found};
 }
 
 } // namespace overt

@@ -63,7 +63,6 @@ class XidBox final : public ButtonBox {
     XidBox(const std::string& port, const Opener& open, Clock& clock);
 
     ButtonBoxDescription description() const override;
-    std::string button_name(int button) const override;
     void begin() override;
     std::size_t poll(std::span<ButtonChange> into) noexcept override;
     bool lost() const noexcept override { return line_->lost(); }

@@ -1,10 +1,9 @@
 #include "devices/display_box/bits_protocol.h"
 
-#include <charconv>
-
 #include <fmt/format.h>
 
 #include "devices/link/byte_transport.h"
+#include "experiment/base/text_number.h"
 
 namespace overt {
 namespace {
@@ -15,15 +14,6 @@ std::string_view without_blanks(std::string_view text) {
     while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
         text.remove_suffix(1);
     return text;
-}
-
-std::optional<std::uint8_t> byte_number(std::string_view text) {
-    unsigned value = 0;
-    const char* const end = text.data() + text.size();
-    const auto parsed = std::from_chars(text.data(), end, value);
-    if (parsed.ec != std::errc() || parsed.ptr != end || value > 255)
-        return std::nullopt;
-    return static_cast<std::uint8_t>(value);
 }
 
 } // namespace
@@ -60,7 +50,7 @@ VideoLine parse_video_line(std::string_view text, int pixels) {
     VideoLine line;
     line.pixels.resize(static_cast<std::size_t>(pixels));
     for (std::size_t i = 0; i < expected; ++i) {
-        const auto value = byte_number(fields[i]);
+        const auto value = number_in<std::uint8_t>(fields[i]);
         if (!value)
             return {{},
                     fmt::format("number {} of {} is \"{}\", not 0 to 255", i + 1, expected,

@@ -1,10 +1,10 @@
 #include "devices/display_box/bits_status.h"
 
-#include <charconv>
 #include <cmath>
 
 #include "devices/display_box/bits_protocol.h"
 #include "devices/link/text_line.h"
+#include "experiment/base/text_number.h"
 
 namespace overt {
 namespace {
@@ -26,11 +26,9 @@ class FieldReader {
     }
 
     std::uint64_t count() {
-        const std::string_view field = next();
-        std::uint64_t value = 0;
-        const auto parsed = std::from_chars(field.data(), field.data() + field.size(), value);
-        good_ = good_ && parsed.ec == std::errc() && parsed.ptr == field.data() + field.size();
-        return value;
+        const auto value = number_in<std::uint64_t>(next());
+        good_ = good_ && value;
+        return value.value_or(0);
     }
 
     bool level() {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "devices/eyelink/eyelink_setup.h"
+#include "devices/tracker/tracker_device.h"
 #include "experiment/base/error.h"
 
 namespace overt {
@@ -413,6 +414,28 @@ std::vector<std::string> EyelinkDriver::finish(const std::string& folder,
     close();
     files_.clear();
     return said;
+}
+
+template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("eyelink")>() {
+    return {
+        .make_driver = [](const TrackerParts& parts) -> std::unique_ptr<TrackerDriver> {
+            EyelinkSettings settings;
+            settings.library = parts.protocol.tracker.library;
+            settings.is_dummy = parts.protocol.tracker.address == "dummy";
+            if (!settings.is_dummy && !parts.protocol.tracker.address.empty())
+                settings.address = parts.protocol.tracker.address;
+            settings.calibration_points = parts.protocol.calibration.points;
+            settings.target_deg = parts.protocol.calibration.target_deg;
+            return std::make_unique<EyelinkDriver>(settings, parts.clock);
+        },
+        .can_do =
+            "up to 2000 Hz of one eye or 1000 Hz of both, calibrates itself, tells fixations and saccades, "
+            "keeps a file of its own",
+        .look_for =
+            [] {
+                EyelinkLibrary();
+                return std::string("its library is there");
+            }};
 }
 
 } // namespace overt

@@ -1,9 +1,11 @@
 #include "devices/eyelink/eyelink_setup.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -102,37 +104,19 @@ std::int16_t overt_el2_alert(void* user, const char* text) { return setup_of(use
 } // namespace
 
 std::uint16_t eyelink_key(const SetupKey& key) noexcept {
-    switch (key.kind) {
-    case SetupKey::Kind::character:
+    using Kind = SetupKey::Kind;
+    constexpr std::pair<Kind, std::uint16_t> codes[] = {
+        {Kind::enter, 0x0D},   {Kind::escape, escape_key}, {Kind::space, 0x20},      {Kind::backspace, 0x08},
+        {Kind::tab, 0x09},     {Kind::up, 0x4800},         {Kind::down, 0x5000},     {Kind::left, 0x4B00},
+        {Kind::right, 0x4D00}, {Kind::page_up, 0x4900},    {Kind::page_down, 0x5100}};
+    if (key.kind == Kind::character)
         return key.character < 0x80 ? static_cast<std::uint16_t>(key.character) : std::uint16_t{0};
-    case SetupKey::Kind::enter:
-        return 0x0D;
-    case SetupKey::Kind::escape:
-        return escape_key;
-    case SetupKey::Kind::space:
-        return 0x20;
-    case SetupKey::Kind::backspace:
-        return 0x08;
-    case SetupKey::Kind::tab:
-        return 0x09;
-    case SetupKey::Kind::up:
-        return 0x4800;
-    case SetupKey::Kind::down:
-        return 0x5000;
-    case SetupKey::Kind::left:
-        return 0x4B00;
-    case SetupKey::Kind::right:
-        return 0x4D00;
-    case SetupKey::Kind::page_up:
-        return 0x4900;
-    case SetupKey::Kind::page_down:
-        return 0x5100;
-    case SetupKey::Kind::function:
+    if (key.kind == Kind::function)
         return key.character >= 1 && key.character <= 10
                    ? static_cast<std::uint16_t>(0x3B00 + ((key.character - 1) << 8))
                    : std::uint16_t{0};
-    }
-    return 0;
+    const auto* const known = std::ranges::find(codes, key.kind, &std::pair<Kind, std::uint16_t>::first);
+    return known == std::end(codes) ? std::uint16_t{0} : known->second;
 }
 
 EyelinkSetup::EyelinkSetup(const EyelinkLibrary& library, SetupStage* stage, Degrees target,

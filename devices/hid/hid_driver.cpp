@@ -1,11 +1,12 @@
 #include "devices/hid/hid_driver.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 
+#include "devices/tracker/tracker_device.h"
 #include "experiment/base/error.h"
+#include "experiment/base/text_number.h"
 
 namespace overt {
 namespace {
@@ -21,13 +22,10 @@ constexpr int most_stale_reports = 10'000;
 } // namespace
 
 std::optional<std::pair<std::uint16_t, std::uint16_t>> hid_numbers(std::string_view text) {
-    std::pair<std::uint16_t, std::uint16_t> numbers;
-    const char* end = text.data() + text.size();
-    const auto vendor = std::from_chars(text.data(), end, numbers.first, 16);
-    if (vendor.ec != std::errc{} || vendor.ptr == end || *vendor.ptr != ':')
-        return std::nullopt;
-    const auto product = std::from_chars(vendor.ptr + 1, end, numbers.second, 16);
-    return product.ec == std::errc{} && product.ptr == end ? std::optional(numbers) : std::nullopt;
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const auto vendor = number_in<std::uint16_t>(text.substr(0, colon), 16),
+               product = number_in<std::uint16_t>(text.substr(std::min(colon + 1, text.size())), 16);
+    return vendor && product ? std::optional(std::pair(*vendor, *product)) : std::nullopt;
 }
 
 HidDriver::HidDriver(HidTrackerSettings settings, Clock& clock, HidSystem system)
@@ -169,6 +167,24 @@ RecordingState HidDriver::read(TrackerItemSink& sink, SessionTime deadline) noex
 
 bool is_eye_tracker(const HidDeviceInfo& device) {
     return std::ranges::find(device.usages, eye_tracker_usage) != device.usages.end();
+}
+
+template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("hid")>() {
+    return {.make_driver = [](const TrackerParts& parts) -> std::unique_ptr<TrackerDriver> {
+                HidTrackerSettings settings;
+                settings.device = parts.protocol.tracker.address;
+                return std::make_unique<HidDriver>(settings, parts.clock);
+            },
+            .can_do = "what its descriptor says; overt calibrates",
+            .look_for =
+                [] {
+                    std::string found;
+                    for (const HidDeviceInfo& device : hid_devices())
+                        if (is_eye_tracker(device))
+                            found += fmt::format("{}{} {} at {}", found.empty() ? "" : "; ",
+                                                 device.manufacturer, device.product, device.path);
+                    return found.empty() ? "none is connected" : found;
+                }};
 }
 
 } // namespace overt

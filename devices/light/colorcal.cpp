@@ -1,13 +1,13 @@
 #include "devices/light/colorcal.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 
 #include "devices/display_box/bits_protocol.h"
 #include "devices/link/text_line.h"
 #include "experiment/base/error.h"
+#include "experiment/base/text_number.h"
 
 namespace overt {
 namespace {
@@ -48,23 +48,30 @@ std::optional<std::string_view> answer_in(std::string_view text) {
     }
 }
 
+/// Three numbers, which stand behind the code of an answer; nothing if it has others.
+template <class Parse>
+std::optional<glm::dvec3> three_numbers(const std::vector<std::string>& fields, Parse parse) {
+    if (fields.size() != 4)
+        return std::nullopt;
+    glm::dvec3 numbers(0.0);
+    for (int i = 0; i < 3; ++i) {
+        const std::optional<double> number = parse(fields[static_cast<std::size_t>(i) + 1]);
+        if (!number)
+            return std::nullopt;
+        numbers[i] = *number;
+    }
+    return numbers;
+}
+
 std::string meaning_of(std::string_view code) {
     return code == "ER11" ? "the photometer sees light: cover its lens and try again"
                           : "plug the photometer out and in and try again";
 }
 
-std::optional<int> integer(std::string_view text) {
-    int value = 0;
-    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size())
-        return std::nullopt;
-    return value;
-}
-
 } // namespace
 
 std::optional<double> colorcal_matrix_entry(std::string_view text) {
-    const auto n = integer(text);
+    const auto n = number_in<int>(text);
     if (!n || *n < 0 || *n > 99999)
         return std::nullopt;
     return (*n < 50000 ? *n : 50000 - *n) / 10000.0;
@@ -73,7 +80,7 @@ std::optional<double> colorcal_matrix_entry(std::string_view text) {
 ColorCal::ColorCal(std::unique_ptr<ByteTransport> transport, Clock& clock, ColorCalTimeouts timeouts)
     : transport_(std::move(transport)), clock_(clock), timeouts_(timeouts) {
     const auto fields = ask("IDR", timeouts_.reply);
-    const auto build = integer(fields.back());
+    const auto build = number_in<int>(fields.back());
     if (fields.size() < 6 || !build)
         throw DeviceError(fmt::format("{}: \"IDR\" was answered with {} fields of which the last is \"{}\" "
                                       "and not a build number; this "
@@ -126,37 +133,23 @@ std::vector<std::string> ColorCal::ask(std::string_view command, SessionDuration
 
 glm::dvec3 ColorCal::ask_matrix_row(int row) {
     const std::string command = fmt::format("r0{}", row + 1);
-    const auto fields = ask(command, timeouts_.reply);
-    glm::dvec3 entries(0.0);
-    bool good = fields.size() == 4;
-    for (int i = 0; good && i < 3; ++i) {
-        const auto entry = colorcal_matrix_entry(fields[static_cast<std::size_t>(i) + 1]);
-        good = entry.has_value();
-        entries[i] = entry.value_or(0.0);
-    }
-    if (!good)
+    const auto entries = three_numbers(ask(command, timeouts_.reply), colorcal_matrix_entry);
+    if (!entries)
         throw DeviceError(fmt::format(
             "{}: \"{}\" was not answered with three integers from 0 to 99999; plug the photometer out and "
             "in and try again.",
             transport_->name(), command));
-    return entries;
+    return *entries;
 }
 
 void ColorCal::calibrate_dark() { ask("UZC", timeouts_.dark_calibration); }
 
 glm::dvec3 ColorCal::measure_xyz() {
-    const auto fields = ask("MES", timeouts_.measurement);
-    glm::dvec3 raw(0.0);
-    bool good = fields.size() == 4;
-    for (int i = 0; good && i < 3; ++i) {
-        const auto value = decimal_number(fields[static_cast<std::size_t>(i) + 1]);
-        good = value.has_value();
-        raw[i] = value.value_or(0.0);
-    }
-    if (!good)
+    const auto raw = three_numbers(ask("MES", timeouts_.measurement), decimal_number);
+    if (!raw)
         throw DeviceError(fmt::format("{}: \"MES\" was not answered with three numbers; measure again.",
                                       transport_->name()));
-    return xyz_from_raw_ * raw;
+    return xyz_from_raw_ * *raw;
 }
 
 std::unique_ptr<ColorCal> find_colorcal(std::span<const SerialPortInfo> candidates,

@@ -1,12 +1,13 @@
 #include "devices/link/serial_port_search.h"
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <map>
 #include <string_view>
 
 #include <fmt/format.h>
+
+#include "experiment/base/text_number.h"
 
 namespace overt {
 namespace {
@@ -20,24 +21,10 @@ std::string first_line(const fs::path& file) {
     return line;
 }
 
-std::optional<std::uint16_t> hexadecimal(const std::string& text) {
-    std::uint16_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
-    if (error != std::errc() || end == text.data())
-        return std::nullopt;
-    return value;
-}
-
 /// The number after the prefix, nothing for other names.
 std::optional<int> port_number(const std::string& name, std::string_view prefix) {
-    if (!name.starts_with(prefix))
-        return std::nullopt;
-    int number = 0;
-    const char* const end = name.data() + name.size();
-    const auto parsed = std::from_chars(name.data() + prefix.size(), end, number);
-    if (parsed.ec != std::errc() || parsed.ptr != end)
-        return std::nullopt;
-    return number;
+    return name.starts_with(prefix) ? number_in<int>(std::string_view(name).substr(prefix.size()))
+                                    : std::nullopt;
 }
 
 void collect_names(const fs::path& folder, std::string_view prefix, std::map<int, std::string>& names) {
@@ -58,8 +45,8 @@ void read_usb_device(const fs::path& tty, SerialPortInfo& port) {
         std::error_code absent;
         if (!fs::exists(folder / "idVendor", absent))
             continue;
-        port.vendor_id = hexadecimal(first_line(folder / "idVendor"));
-        port.product_id = hexadecimal(first_line(folder / "idProduct"));
+        port.vendor_id = number_in<std::uint16_t>(first_line(folder / "idVendor"), 16);
+        port.product_id = number_in<std::uint16_t>(first_line(folder / "idProduct"), 16);
         port.manufacturer = first_line(folder / "manufacturer");
         port.product = first_line(folder / "product");
         port.serial_number = first_line(folder / "serial");

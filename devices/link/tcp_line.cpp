@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <memory>
 
@@ -13,7 +12,9 @@
 #include <poll.h>
 #include <sys/socket.h>
 
+#include "devices/host/clocks.h"
 #include "experiment/base/error.h"
+#include "experiment/base/text_number.h"
 
 namespace overt {
 namespace {
@@ -122,8 +123,8 @@ NetworkAddress parse_network_address(std::string_view text, const NetworkAddress
         address.host = host;
     if (has_port) {
         const std::string_view port = text.substr(colon + 1);
-        const auto parsed = std::from_chars(port.data(), port.data() + port.size(), address.port);
-        if (parsed.ec != std::errc() || parsed.ptr != port.data() + port.size() || address.port == 0)
+        address.port = number_in<std::uint16_t>(port).value_or(0);
+        if (address.port == 0)
             throw InputError(fmt::format("\"{}\" is no address: \"{}\" is no port; write host or host:port, "
                                          "such as {}.",
                                          text, port, describe(usual)));
@@ -135,5 +136,17 @@ TcpLine::TcpLine(const NetworkAddress& address, const std::string& device, const
                  SessionTime deadline)
     : DescriptorLine(describe(address), clock, connect_to(address, device, clock, deadline),
                      "the other end closed the connection") {}
+
+std::string served_here(const NetworkAddress& usual, const std::string& program) {
+    constexpr SessionDuration patience = std::chrono::milliseconds(200);
+    SteadyClock clock;
+    try {
+        const TcpLine line(usual, program, clock, clock.now() + patience);
+        return fmt::format("{} answers at {}", program, describe(usual));
+    } catch (const Error&) {
+        return fmt::format("{} does not answer at {}; on another computer it is found by [tracker] address",
+                           program, describe(usual));
+    }
+}
 
 } // namespace overt

@@ -33,4 +33,8 @@ class TcpLine final : public DescriptorLine {
             SessionTime deadline);
 };
 
+/// Whether a program answers at a tracker's usual address on this computer, in a sentence. Elsewhere nobody
+/// looks: that would need an address.
+std::string served_here(const NetworkAddress& usual, const std::string& program);
+
 } // namespace overt

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/text_number.h"
 
 namespace overt {
 namespace {
@@ -74,11 +74,12 @@ std::string table_of(const std::vector<LslChannel>& channels) {
 }
 
 /// What a place is multiplied with to be in px; nothing for a unit that is not known.
-std::optional<double> scale_of(LslUnit unit, const LslChannel& channel, double screen_px) {
+std::optional<double> scale_of(StreamUnit unit, const LslChannel& channel, double screen_px) {
     const std::string told = lower(channel.unit);
-    if (unit == LslUnit::px || (unit == LslUnit::as_told && (told.starts_with("pixel") || told == "px")))
+    if (unit == StreamUnit::px ||
+        (unit == StreamUnit::as_told && (told.starts_with("pixel") || told == "px")))
         return 1.0;
-    if (unit == LslUnit::normalized || (unit == LslUnit::as_told && told.starts_with("normali")))
+    if (unit == StreamUnit::normalized || (unit == StreamUnit::as_told && told.starts_with("normali")))
         return screen_px;
     return std::nullopt;
 }
@@ -96,11 +97,9 @@ std::size_t channel_of(const LslAssignment& assignment, const std::vector<LslCha
     const auto found = std::ranges::find(channels, assignment.label, &LslChannel::label);
     if (found != channels.end())
         return static_cast<std::size_t>(found - channels.begin());
-    std::size_t number = 0;
-    const char* const end = assignment.label.data() + assignment.label.size();
-    const auto parsed = std::from_chars(assignment.label.data(), end, number);
-    if (parsed.ec == std::errc() && parsed.ptr == end && number >= 1 && number <= channels.size())
-        return number - 1;
+    const auto number = number_in<std::size_t>(assignment.label);
+    if (number && *number >= 1 && *number <= channels.size())
+        return *number - 1;
     throw DeviceError(fmt::format("The stream {} has no channel \"{}\"; it has {}.", stream, assignment.label,
                                   table_of(channels)));
 }

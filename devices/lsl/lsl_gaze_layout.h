@@ -12,6 +12,7 @@
 #include <glm/vec2.hpp>
 
 #include "devices/tracker/tracker_driver.h"
+#include "experiment/protocol/protocol.h"
 
 namespace overt {
 
@@ -45,16 +46,9 @@ struct LslAssignment {
 /// InputError for anything else.
 LslAssignment parse_lsl_assignment(std::string_view text);
 
-/// The unit of a stream's places on the screen.
-enum class LslUnit : std::uint8_t {
-    as_told,   ///< by the channel
-    px,        ///< of the screen
-    normalized ///< share of the screen
-};
-
 struct LslLayoutSettings {
     std::vector<LslAssignment> assignments; ///< where there is any, only these count
-    LslUnit unit = LslUnit::as_told;
+    StreamUnit unit = StreamUnit::as_told;
     bool y_is_up = false;          ///< else the origin is the top left corner
     double least_confidence = 0.0; ///< gaze of less confidence is lost
 };

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "devices/tracker/tracker_device.h"
 #include "devices/tracker/tracker_seconds.h"
 #include "experiment/base/error.h"
 
@@ -210,6 +211,27 @@ std::optional<ClockPair> LslInlet::read_clocks() noexcept {
         return std::nullopt;
     return ClockPair{before + from_seconds(since_s - uncertainty_s), *remote,
                      after + from_seconds(since_s + uncertainty_s)};
+}
+
+template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("lsl")>() {
+    return {.make_driver = [](const TrackerParts& parts) -> std::unique_ptr<TrackerDriver> {
+                const TrackerSettings& keys = parts.protocol.tracker;
+                LslInletSettings settings;
+                settings.library = keys.library;
+                settings.stream = keys.address;
+                for (const std::string& channel : keys.channels)
+                    settings.layout.assignments.push_back(parse_lsl_assignment(channel));
+                settings.layout.unit = keys.unit;
+                settings.layout.y_is_up = keys.y_is_up;
+                settings.layout.least_confidence = keys.least_confidence;
+                return std::make_unique<LslInlet>(settings, parts.clock);
+            },
+            .can_do = "what the stream has; its maker's program or overt calibrates",
+            .look_for =
+                [] {
+                    load_lsl({});
+                    return std::string("its library is there");
+                }};
 }
 
 } // namespace overt

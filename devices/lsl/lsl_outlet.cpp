@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "devices/triggers/marker_device.h"
 #include "experiment/base/error.h"
 
 namespace overt {
@@ -159,6 +160,21 @@ RecordingState LslGazeRelay::read(TrackerItemSink& sink, SessionTime deadline) n
     const RecordingState state = tracker_->read(*tap_, deadline);
     tap_->end();
     return state;
+}
+
+template <> MarkerDevice marker_device_of<kind_called<MarkerOutputKind>("lsl")>() {
+    return {.open = [](const MarkerParts& parts) -> std::unique_ptr<MarkerOutput> {
+                return std::make_unique<LslMarkerOutlet>(load_lsl(parts.settings.library), parts.session,
+                                                         parts.clock);
+            },
+            .look_for = []() -> std::vector<std::string> {
+                try {
+                    load_lsl({});
+                    return {"Lab Streaming Layer: its library is there, kind lsl"};
+                } catch (const Error& error) {
+                    return {fmt::format("Lab Streaming Layer: {}", error.what())};
+                }
+            }};
 }
 
 } // namespace overt

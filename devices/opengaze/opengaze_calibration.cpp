@@ -48,13 +48,6 @@ ScreenPoint place_of(const glm::dvec2& share, const ScreenGeometry& screen) {
     return {share.x * screen.screen_px.x, share.y * screen.screen_px.y};
 }
 
-bool wants_out(SetupStage& stage) {
-    bool escaped = stage.is_cancelled();
-    while (const std::optional<SetupKey> key = stage.next_key())
-        escaped = escaped || key->kind == SetupKey::Kind::escape;
-    return escaped;
-}
-
 /// What the server says in the end; nothing if the operator broke it off or it took too long.
 struct Course {
     std::optional<OpenGazeAnswer> result;
@@ -70,7 +63,7 @@ Course follow(OpenGazeLink& link, SetupStage& stage, const OpenGazeCalibration& 
                 fmt::format("The eye tracker's server at {} was lost during the calibration: {}; start it "
                             "again and connect anew.",
                             link.name(), link.loss()));
-        if (wants_out(stage)) {
+        if (stage.wants_out()) {
             course.is_cancelled = true;
             return course;
         }
@@ -108,7 +101,7 @@ void add_target(ValidationResult& result, Eye eye, const OpenGazeCalibrationPoin
 
 SetupOutcome outcome_of(const OpenGazeMessage& result, const OpenGazeSettings& settings,
                         const TrackerWish& wish) {
-    const bool both = wish.both_eyes || settings.point == OpenGazePoint::best;
+    const bool both = wish.both_eyes || settings.point == TrackedPoint::best;
     ValidationResult validation;
     int points = 0;
     while (points < most_points) {
@@ -121,14 +114,7 @@ SetupOutcome outcome_of(const OpenGazeMessage& result, const OpenGazeSettings& s
         if (both || wish.eye == Eye::right)
             add_target(validation, Eye::right, *point, point->right, wish.screen);
     }
-    int valid = 0;
-    double sum = 0.0;
-    for (const ValidatedTarget& target : validation.targets)
-        if (target.gaze) {
-            ++valid;
-            sum += target.error.value;
-            validation.max_error = std::max(validation.max_error, target.error);
-        }
+    const int valid = validation.sum_up();
     SetupOutcome outcome;
     outcome.method = fmt::format("tracker, {} points", points);
     if (valid == 0) {
@@ -137,7 +123,6 @@ SetupOutcome outcome_of(const OpenGazeMessage& result, const OpenGazeSettings& s
                                       : "the tracker found the eye at none of its targets";
         return outcome;
     }
-    validation.mean_error = {sum / valid};
     outcome.validation = std::move(validation);
     outcome.message = fmt::format("{} of {} measurements at targets are valid; errors are those of the "
                                   "calibration at its own targets, not of a validation",

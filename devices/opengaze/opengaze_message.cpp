@@ -1,23 +1,14 @@
 #include "devices/opengaze/opengaze_message.h"
 
-#include <charconv>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "devices/link/text_line.h"
+#include "experiment/base/text_number.h"
 
 namespace overt {
 namespace {
-
-std::optional<std::int64_t> whole_number(std::string_view text) noexcept {
-    std::int64_t value = 0;
-    const char* const end = text.data() + text.size();
-    const auto parsed = std::from_chars(text.data(), end, value);
-    if (parsed.ec != std::errc() || parsed.ptr != end)
-        return std::nullopt;
-    return value;
-}
 
 /// Numbers with their flag of validity, as they come one after the other in a record.
 struct Flagged {
@@ -124,11 +115,11 @@ OpenGazeRecord read_opengaze_record(const OpenGazeMessage& message) noexcept {
     Flagged best;
     message.for_each([&](std::string_view name, std::string_view text) {
         if (name == "CNT")
-            record.counter = whole_number(text);
+            record.counter = number_in<std::int64_t>(text);
         else if (name == "TIME")
             record.time_s = decimal_number(text);
         else if (name == "TIME_TICK")
-            record.ticks = whole_number(text);
+            record.ticks = number_in<std::int64_t>(text);
         else if (name == "BPOGX")
             best.x = decimal_number(text);
         else if (name == "BPOGY")

@@ -14,10 +14,10 @@ SessionDuration since_tracker_time(const ClockPair& pair) noexcept {
 
 } // namespace
 
-OpenGazeSamples::OpenGazeSamples(const TrackerWish& wish, OpenGazePoint point,
+OpenGazeSamples::OpenGazeSamples(const TrackerWish& wish, TrackedPoint point,
                                  SessionDuration longest_delay) noexcept
     : screen_px_(wish.screen.screen_px), eye_(wish.eye),
-      both_eyes_(wish.both_eyes && point == OpenGazePoint::eyes), point_(point),
+      both_eyes_(wish.both_eyes && point == TrackedPoint::eyes), point_(point),
       longest_delay_(longest_delay) {}
 
 void OpenGazeSamples::begin() noexcept {
@@ -66,7 +66,7 @@ void OpenGazeSamples::take(const OpenGazeRecord& record, SessionTime arrived, Op
     }
     was_noise_ = false;
     last_time_ = *time;
-    if (point_ == OpenGazePoint::best) {
+    if (point_ == TrackedPoint::best) {
         OpenGazeEye best = eye_ == Eye::left ? record.left : record.right;
         best.gaze = record.best;
         put_eye(eye_, best, sink);

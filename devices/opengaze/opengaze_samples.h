@@ -6,20 +6,15 @@
 
 #include "devices/opengaze/opengaze_clock.h"
 #include "devices/tracker/tracker_driver.h"
+#include "experiment/protocol/protocol.h"
 
 namespace overt {
-
-/// Which point of gaze is taken.
-enum class OpenGazePoint : std::uint8_t {
-    eyes, ///< each eye's own
-    best  ///< the mean of both eyes, or that of the one which is valid; it stands for the wished eye
-};
 
 /// Of one recording, in the order of the records. Nothing allocates or throws.
 class OpenGazeSamples {
   public:
     /// `longest_delay`: a record is here at most so long after its time was taken.
-    OpenGazeSamples(const TrackerWish& wish, OpenGazePoint point, SessionDuration longest_delay) noexcept;
+    OpenGazeSamples(const TrackerWish& wish, TrackedPoint point, SessionDuration longest_delay) noexcept;
 
     /// A recording begins: what comes is not joined to what came before.
     void begin() noexcept;
@@ -45,7 +40,7 @@ class OpenGazeSamples {
     glm::dvec2 screen_px_;
     Eye eye_;
     bool both_eyes_;
-    OpenGazePoint point_;
+    TrackedPoint point_;
     SessionDuration longest_delay_;
     std::optional<std::int64_t> counter_;
     std::optional<SessionTime> last_arrival_;

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include "devices/opengaze/opengaze_calibration.h"
+#include "devices/tracker/tracker_device.h"
 #include "experiment/base/error.h"
+#include "experiment/calibration/own_calibration.h"
 
 namespace overt {
 namespace {
@@ -163,7 +165,7 @@ TrackerDescription OpenGazeTracker::connect(const TrackerWish& wish) {
     description.sample_rate_hz =
         std::abs(told_hz - measured_hz) < 0.1 * measured_hz ? told_hz : std::round(measured_hz);
     description.eye = wish.eye;
-    description.both_eyes = wish.both_eyes && settings_.point == OpenGazePoint::eyes;
+    description.both_eyes = wish.both_eyes && settings_.point == TrackedPoint::eyes;
     samples_.emplace(wish, settings_.point, settings_.longest_delay);
     return description;
 }
@@ -219,6 +221,22 @@ void OpenGazeTracker::send(const TrackerMark& mark) noexcept {
     if (link_)
         link_->send_set("USER_DATA", fmt::format("VALUE=\"{}\" DUR=\"1\"", opengaze_text(mark.text)),
                         clock_.now() + marking_time);
+}
+
+template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("opengaze")>() {
+    return {.make_driver = [](const TrackerParts& parts) -> std::unique_ptr<TrackerDriver> {
+                OpenGazeSettings settings;
+                settings.server = parse_network_address(parts.protocol.tracker.address, settings.server);
+                settings.point = parts.protocol.tracker.point;
+                for (const ScreenPoint target :
+                     calibration_targets(parts.protocol.calibration.points, parts.protocol.calibration.area,
+                                         screen_geometry_of(parts.protocol)))
+                    settings.calibration_points.emplace_back(target.x_px / parts.protocol.display.width_px,
+                                                             target.y_px / parts.protocol.display.height_px);
+                return std::make_unique<OpenGazeTracker>(settings, parts.clock);
+            },
+            .can_do = "60 or 150 Hz of both eyes, calibrates itself; its clock is known to 50 ms",
+            .look_for = [] { return served_here(OpenGazeSettings{}.server, "Gazepoint Control"); }};
 }
 
 } // namespace overt

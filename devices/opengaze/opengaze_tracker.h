@@ -19,7 +19,7 @@ namespace overt {
 struct OpenGazeSettings {
     /// Where Gazepoint Control listens.
     NetworkAddress server{"127.0.0.1", 4242};
-    OpenGazePoint point = OpenGazePoint::eyes;
+    TrackedPoint point = TrackedPoint::eyes;
     /// Where the stimulus screen lies on the desktop of the tracker's machine, in px; the tracker is told to
     /// track that screen. Nothing: it tracks the one that it is set to.
     std::optional<glm::ivec2> screen_origin_px;

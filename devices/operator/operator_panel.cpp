@@ -15,42 +15,17 @@ bool is_asked_about(PanelKey key) noexcept { return key != PanelKey::pause && ke
 
 } // namespace
 
-/// Whatever the key led to is over.
-void OperatorPanel::forget_given() noexcept {
-    given_.reset();
-    next_answer_.reset();
-    is_asked_ = false;
-}
-
-void OperatorPanel::await_key(SessionTime since) {
-    forget_given();
-    answering_->await_key(since);
-}
-
-void OperatorPanel::await_response(const Trial& trial, SessionTime since) {
-    forget_given();
-    answering_->await_response(trial, since);
-}
-
-void OperatorPanel::await_entry(SessionTime since) {
-    forget_given();
-    answering_->await_entry(since);
-}
-
-void OperatorPanel::await_setup(SessionTime since) {
-    forget_given();
-    answering_->await_setup(since);
-}
-
-void OperatorPanel::await_decision(bool is_consent, SessionTime since) {
-    is_asked_ = !is_consent;
+void OperatorPanel::await(Awaited what, SessionTime since, const Trial* trial) {
+    is_asked_ = what == Awaited::decision;
     next_answer_.reset();
     if (is_asked_ && given_ && given_->is_asked_next) {
         next_answer_ = ResponsePress{given_->reason > 0 ? PanelKey::character : PanelKey::yes, since,
                                      static_cast<char32_t>(U'0' + static_cast<char32_t>(given_->reason))};
         given_.reset();
+    } else if (what != Awaited::decision && what != Awaited::consent) {
+        given_.reset(); // whatever the key led to is over
     }
-    answering_->await_decision(is_consent, since);
+    answering_->await(what, since, trial);
 }
 
 void OperatorPanel::entered(SessionPhase phase, int trial) noexcept {
@@ -65,10 +40,7 @@ void OperatorPanel::acted_on(std::string_view key) noexcept {
 }
 
 void OperatorPanel::reply(std::string_view words) noexcept {
-    ViewNews news;
-    news.kind = ViewNews::Kind::reply;
-    news.at = clock_->now();
-    news.trial = trial_;
+    ViewNews news{.kind = ViewNews::Kind::reply, .trial = trial_, .at = clock_->now()};
     news.set_text(words);
     server_->push(news);
 }

@@ -22,11 +22,7 @@ class OperatorPanel final : public ResponsePanel {
     OperatorPanel(OperatorServer& server, const Clock& clock, ResponsePanel& answering)
         : server_(&server), clock_(&clock), answering_(&answering) {}
 
-    void await_key(SessionTime since) override;
-    void await_response(const Trial& trial, SessionTime since) override;
-    void await_decision(bool is_consent, SessionTime since) override;
-    void await_entry(SessionTime since) override;
-    void await_setup(SessionTime since) override;
+    void await(Awaited what, SessionTime since, const Trial* trial) override;
     std::optional<SetupKey> next_setup_key() override { return answering_->next_setup_key(); }
     std::optional<ResponsePress> poll() noexcept override;
     bool has_keyboard() const noexcept override { return answering_->has_keyboard(); }
@@ -51,7 +47,6 @@ class OperatorPanel final : public ResponsePanel {
         SessionTime at;
         int trial = -1;
     };
-    void forget_given() noexcept;
     std::optional<ResponsePress> take(const OperatorCommand& command) noexcept;
     void reply(std::string_view words) noexcept;
     std::string_view refusal_of(ResponsePress::Key key) const noexcept;

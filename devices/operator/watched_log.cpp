@@ -12,13 +12,14 @@ constexpr SessionDuration between_levels = std::chrono::milliseconds(50);
 
 } // namespace
 
-void WatchedLog::add_counts(ViewNews& news) const noexcept {
+void WatchedLog::tell(ViewNews news) const noexcept {
     news.samples = samples_;
     news.lost = lost_;
     news.samples_in_trial = samples_in_trial_;
     news.lost_in_trial = lost_in_trial_;
     news.missed = missed_;
     news.missed_in_trial = missed_in_trial_;
+    server_.push(news);
 }
 
 void WatchedLog::flip(const FlipRecord& flip) noexcept {
@@ -26,14 +27,11 @@ void WatchedLog::flip(const FlipRecord& flip) noexcept {
     if (flip.pose.value == told_pose_)
         return;
     told_pose_ = flip.pose.value;
-    ViewNews news;
-    news.kind = ViewNews::Kind::flip;
-    news.at = flip.report.vertical_blank;
-    news.trial = flip.trial;
-    news.pose = flip.pose.value;
-    news.refresh = flip.refresh_in_trial;
-    add_counts(news);
-    server_.push(news);
+    tell({.kind = ViewNews::Kind::flip,
+          .trial = flip.trial,
+          .pose = flip.pose.value,
+          .refresh = flip.refresh_in_trial,
+          .at = flip.report.vertical_blank});
 }
 
 void WatchedLog::missed(const MissedRefresh& refresh) noexcept {
@@ -54,71 +52,49 @@ void WatchedLog::sample(int trial, const GazeSample& sample) noexcept {
         sample.sampled_at - *told_samples_ < between_counts)
         return;
     told_samples_ = sample.sampled_at;
-    ViewNews news;
-    news.kind = ViewNews::Kind::samples;
-    news.at = clock_.now();
-    news.trial = trial;
-    add_counts(news);
-    server_.push(news);
+    tell({.kind = ViewNews::Kind::samples, .trial = trial, .at = clock_.now()});
 }
 
 void WatchedLog::event(const SessionEvent& event) {
     record_.event(event);
     if (event.kind == operator_pressed_event)
         panel_.acted_on(event.detail);
-    ViewNews news;
-    news.kind = ViewNews::Kind::event;
-    news.at = event.at;
-    news.trial = event.trial;
+    ViewNews news{.kind = ViewNews::Kind::event, .trial = event.trial, .at = event.at};
     news.set_word(event.kind);
     news.set_text(event.detail);
-    server_.push(news);
+    tell(news);
 }
 
 void WatchedLog::calibration(const RecordedCalibration& calibration) {
     record_.calibration(calibration);
-    ViewNews news;
-    news.kind = ViewNews::Kind::validation;
-    news.at = calibration.at;
-    news.trial = calibration.trial;
-    news.value = calibration.validation.mean_error.value;
-    news.other = calibration.validation.max_error.value;
-    server_.push(news);
+    tell({.kind = ViewNews::Kind::validation,
+          .trial = calibration.trial,
+          .at = calibration.at,
+          .value = calibration.validation.mean_error.value,
+          .other = calibration.validation.max_error.value});
 }
 
 void WatchedLog::trial_started(const Trial& trial, SessionTime at) {
     record_.trial_started(trial, at);
     samples_in_trial_ = lost_in_trial_ = missed_in_trial_ = 0;
     told_pose_ = -1;
-    ViewNews news;
-    news.kind = ViewNews::Kind::trial_started;
-    news.at = at;
-    news.trial = trial.index;
-    server_.push(news);
+    tell({.kind = ViewNews::Kind::trial_started, .trial = trial.index, .at = at});
 }
 
 void WatchedLog::trial_finished(const Trial& trial, const TrialOutcome& outcome) {
     record_.trial_finished(trial, outcome);
-    ViewNews news;
-    news.kind = ViewNews::Kind::trial_ended;
-    news.at = clock_.now();
-    news.trial = trial.index;
-    news.counts = outcome.status == TrialOutcome::Status::completed;
-    news.has_value = outcome.drift.has_value();
-    if (outcome.drift)
-        news.value = outcome.drift->value;
+    ViewNews news{.kind = ViewNews::Kind::trial_ended,
+                  .counts = outcome.status == TrialOutcome::Status::completed,
+                  .has_value = outcome.drift.has_value(),
+                  .trial = trial.index,
+                  .at = clock_.now(),
+                  .value = outcome.drift ? outcome.drift->value : 0.0};
     news.set_text(outcome.answer);
-    add_counts(news);
-    server_.push(news);
+    tell(news);
 }
 
 void WatchedLog::entered(SessionPhase phase, int trial) noexcept {
-    ViewNews news;
-    news.kind = ViewNews::Kind::phase;
-    news.at = clock_.now();
-    news.phase = phase;
-    news.trial = trial;
-    server_.push(news);
+    tell({.kind = ViewNews::Kind::phase, .phase = phase, .trial = trial, .at = clock_.now()});
 }
 
 void WatchedLog::level(const AudioLevel& level) noexcept {
@@ -126,13 +102,11 @@ void WatchedLog::level(const AudioLevel& level) noexcept {
     if (told_level_ && now - *told_level_ < between_levels)
         return;
     told_level_ = now;
-    ViewNews news;
-    news.kind = ViewNews::Kind::level;
-    news.at = now;
-    news.value = static_cast<double>(level.rms);
-    news.other = static_cast<double>(level.peak);
-    news.counts = level.is_clipping;
-    server_.push(news);
+    tell({.kind = ViewNews::Kind::level,
+          .counts = level.is_clipping,
+          .at = now,
+          .value = static_cast<double>(level.rms),
+          .other = static_cast<double>(level.peak)});
 }
 
 } // namespace overt

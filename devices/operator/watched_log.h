@@ -44,7 +44,8 @@ class WatchedLog final : public SessionLog {
     void level(const AudioLevel& level) noexcept;
 
   private:
-    void add_counts(ViewNews& news) const noexcept;
+    /// With the counts so far.
+    void tell(ViewNews news) const noexcept;
 
     SessionLog& record_;
     OperatorServer& server_;

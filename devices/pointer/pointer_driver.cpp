@@ -1,9 +1,11 @@
 #include "devices/pointer/pointer_driver.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <X11/Xlib.h>
 
+#include "devices/tracker/tracker_device.h"
 #include "experiment/base/error.h"
 
 namespace overt {
@@ -79,6 +81,18 @@ RecordingState PointerDriver::read(TrackerItemSink& sink, SessionTime deadline) 
 std::optional<ClockPair> PointerDriver::read_clocks() noexcept {
     const SessionTime before = clock_.now();
     return ClockPair{before, tracker_time(before.time_since_epoch().count() / 1000), clock_.now()};
+}
+
+template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("mouse")>() {
+    return {.make_driver = [](const TrackerParts& parts) -> std::unique_ptr<TrackerDriver> {
+                return std::make_unique<PointerDriver>(parts.clock);
+            },
+            .can_do = "1000 Hz of the pointer, in place of gaze",
+            .look_for =
+                [] {
+                    return std::string(std::getenv("DISPLAY") ? "there is an X server"
+                                                              : "there is no X server (DISPLAY)");
+                }};
 }
 
 } // namespace overt

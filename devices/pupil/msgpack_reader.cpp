@@ -118,44 +118,27 @@ void MsgpackReader::pass_over(const Head& head) noexcept {
 
 void MsgpackReader::skip() noexcept { pass_over(next()); }
 
-std::optional<double> MsgpackReader::number() noexcept {
+template <class Value> std::optional<Value> MsgpackReader::next_of(Kind kind, Value Head::*part) noexcept {
     const Head head = next();
-    if (head.kind == Kind::number)
-        return head.number;
+    if (head.kind == kind)
+        return head.*part;
     pass_over(head);
     return std::nullopt;
 }
 
-std::optional<std::string_view> MsgpackReader::text() noexcept {
-    const Head head = next();
-    if (head.kind == Kind::text)
-        return head.content;
-    pass_over(head);
-    return std::nullopt;
-}
+std::optional<double> MsgpackReader::number() noexcept { return next_of(Kind::number, &Head::number); }
+
+std::optional<std::string_view> MsgpackReader::text() noexcept { return next_of(Kind::text, &Head::content); }
 
 std::optional<bool> MsgpackReader::boolean() noexcept {
-    const Head head = next();
-    if (head.kind == Kind::boolean)
-        return head.number != 0.0;
-    pass_over(head);
-    return std::nullopt;
+    const std::optional<double> number = next_of(Kind::boolean, &Head::number);
+    return number ? std::optional(*number != 0.0) : std::nullopt;
 }
 
 std::optional<std::uint32_t> MsgpackReader::begin_array() noexcept {
-    const Head head = next();
-    if (head.kind == Kind::array)
-        return head.count;
-    pass_over(head);
-    return std::nullopt;
+    return next_of(Kind::array, &Head::count);
 }
 
-std::optional<std::uint32_t> MsgpackReader::begin_map() noexcept {
-    const Head head = next();
-    if (head.kind == Kind::map)
-        return head.count;
-    pass_over(head);
-    return std::nullopt;
-}
+std::optional<std::uint32_t> MsgpackReader::begin_map() noexcept { return next_of(Kind::map, &Head::count); }
 
 } // namespace overt

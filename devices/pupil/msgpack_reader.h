@@ -45,6 +45,8 @@ class MsgpackReader {
     std::uint64_t big_endian(int bytes) noexcept;
     Head content(Kind kind, std::uint64_t length) noexcept;
     void pass_over(const Head& head) noexcept;
+    /// The next value's `part` if it is of this kind.
+    template <class Value> std::optional<Value> next_of(Kind kind, Value Head::*part) noexcept;
 
     std::string_view rest_;
     bool failed_ = false;

@@ -1,7 +1,6 @@
 #include "devices/pupil/pupil_link.h"
 
 #include <array>
-#include <charconv>
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 #include "devices/link/text_line.h"
 #include "devices/tracker/tracker_seconds.h"
 #include "experiment/base/error.h"
+#include "experiment/base/text_number.h"
 
 namespace overt {
 namespace {
@@ -39,15 +39,13 @@ int PupilLink::port_of(std::string_view command, SessionDuration patience) {
             fmt::format("Pupil Capture does not answer at {}; start it, see that its plugin Pupil "
                         "Remote is on, and name the address that it shows.",
                         name_));
-    int port = 0;
-    const char* const end = answer->data() + answer->size();
-    const auto parsed = std::from_chars(answer->data(), end, port);
-    if (parsed.ec != std::errc() || parsed.ptr != end || port <= 0 || port > 65535)
+    const auto port = number_in<int>(*answer);
+    if (!port || *port <= 0 || *port > 65535)
         throw DeviceError(
             fmt::format("What answers at {} is not Pupil Remote: to {} it says \"{}\"; name the "
                         "address that Pupil Capture shows.",
                         name_, command, printable(*answer, 40)));
-    return port;
+    return *port;
 }
 
 std::optional<std::string> PupilLink::await_answer(SessionTime deadline) noexcept {

@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "devices/tracker/tracker_device.h"
 #include "devices/tracker/tracker_seconds.h"
 #include "experiment/base/error.h"
+#include "experiment/stimulus/gaze_tags.h"
 
 namespace overt {
 namespace {
@@ -126,9 +128,7 @@ SetupOutcome PupilTracker::set_up(SetupStage& stage) {
                                       ? "Pupil Capture tells no error of its calibration"
                                       : "Pupil Capture could not calibrate: its own window says why";
         }
-        is_cancelled = stage.is_cancelled();
-        while (const std::optional<SetupKey> key = stage.next_key())
-            is_cancelled = is_cancelled || key->kind == SetupKey::Kind::escape;
+        is_cancelled = stage.wants_out();
         if (!is_over)
             stage.wait(calibration_slice);
     }
@@ -228,6 +228,30 @@ std::vector<std::string> PupilTracker::finish(const std::string&, const EyeTrack
                         "that name is defined and that its markers are found",
                         settings_.surface));
     return said;
+}
+
+PupilSettings pupil_settings_of(const Protocol& protocol) {
+    PupilSettings settings;
+    settings.remote = parse_network_address(protocol.tracker.address, settings.remote);
+    settings.surface = protocol.tracker.surface;
+    settings.least_confidence = protocol.tracker.least_confidence;
+    const std::vector<TagPlace> tags = gaze_tags_of(screen_geometry_of(protocol), protocol.display);
+    if (!tags.empty()) {
+        const TaggedArea area = tagged_area(tags);
+        settings.surface_place = {{area.origin_px.x, area.origin_px.y}, area.size_px.x, area.size_px.y};
+    }
+    return settings;
+}
+
+template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("pupil")>() {
+    return {
+        .make_driver = [](const TrackerParts& parts) -> std::unique_ptr<TrackerDriver> {
+            return std::make_unique<PupilTracker>(pupil_settings_of(parts.protocol), parts.clock);
+        },
+        .can_do =
+            "30 to 200 Hz of both eyes, calibrates itself without telling errors, keeps a recording of its "
+            "own",
+        .look_for = [] { return served_here(PupilSettings{}.remote, "Pupil Capture"); }};
 }
 
 } // namespace overt

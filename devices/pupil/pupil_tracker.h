@@ -13,6 +13,8 @@
 
 namespace overt {
 
+struct Protocol;
+
 struct PupilSettings {
     /// Where Pupil Remote listens.
     NetworkAddress remote{"127.0.0.1", 50020};
@@ -66,5 +68,8 @@ class PupilTracker final : public TrackerDriver {
     bool is_recording_ = false;                      ///< Pupil Capture, for us
     bool has_started_ = false, has_surface_ = false; ///< whether gaze on the surface ever came
 };
+
+/// How a protocol wants Pupil Core. With tags around the stimulus the surface is what they span.
+PupilSettings pupil_settings_of(const Protocol& protocol);
 
 } // namespace overt

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "devices/tracker/tracker_device.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/ports/trial_mark.h"
@@ -137,6 +138,16 @@ std::vector<std::string> ReplayTracker::finish(const std::string&, const FilePro
                         "give the same order",
                         counted(unlike_.size(), "trial"), listed(unlike_)));
     return said;
+}
+
+template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("replay")>() {
+    return {.make_tracker = [](const TrackerParts& parts) -> std::unique_ptr<EyeTracker> {
+        if (parts.protocol.calibration.by == CalibratedBy::overt)
+            throw InputError(
+                "the gaze that the eye tracker \"replay\" plays back is calibrated already: leave out "
+                "[calibration] by = \"overt\"");
+        return std::make_unique<ReplayTracker>(parts.protocol.tracker.address, parts.clock);
+    }};
 }
 
 } // namespace overt

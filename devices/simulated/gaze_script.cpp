@@ -178,9 +178,7 @@ void GazeScript::compose(const ObservedScene& scene, const GazeTargets* targets,
 
 std::size_t GazeScript::fixation_at(SessionDuration since_onset) const noexcept {
     // The fixation whose saccade away from the one before has not begun later than this.
-    const auto next = std::upper_bound(
-        fixations_.begin(), fixations_.end(), since_onset,
-        [](SessionDuration time, const ScriptedFixation& fixation) { return time < fixation.begin; });
+    const auto next = std::ranges::upper_bound(fixations_, since_onset, {}, &ScriptedFixation::begin);
     return next == fixations_.begin() ? 0 : static_cast<std::size_t>(next - fixations_.begin() - 1);
 }
 

@@ -1,11 +1,11 @@
 #include "devices/simulated/operator_script.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/text_number.h"
 #include "experiment/ports/response_panel.h"
 #include "experiment/ports/session_phase.h"
 
@@ -27,12 +27,6 @@ constexpr Key keys[] = {Key::pause,  Key::recalibrate, Key::drift_check, Key::re
                     "\"stimulus@3+0.5=skip,2\". Phases: {}. Keys: pause, recalibrate, drift check, repeat, "
                     "reject, skip, abort. Answers: yes, no, or the digit of a reason",
                     text, why, phases));
-}
-
-template <class Number> std::optional<Number> number_in(std::string_view text) {
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
 } // namespace
@@ -65,8 +59,7 @@ ScriptedOperatorKey read_operator_key(std::string_view text, int reasons) {
         refuse(text, "the seconds are no number of seconds");
     scripted.after_s = *seconds;
     const std::string_view rest = text.substr(equals + 1), key = rest.substr(0, rest.find(','));
-    const auto known =
-        std::find_if(std::begin(keys), std::end(keys), [&](Key one) { return name_of(one) == key; });
+    const auto known = std::ranges::find(keys, key, [](Key one) { return name_of(one); });
     if (known == std::end(keys))
         refuse(text, fmt::format("there is no key \"{}\"", key));
     scripted.key = *known;

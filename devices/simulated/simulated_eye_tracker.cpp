@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "devices/tracker/tracker_device.h"
 #include "experiment/base/error.h"
 
 namespace overt {
@@ -80,7 +81,6 @@ SetupOutcome SimulatedEyeTracker::set_up(SetupStage&) {
     draw_offset();
     const glm::dvec2 screen_px = observer_->scene().screen.screen_px;
     ValidationResult result;
-    double sum = 0.0;
     for (int i = 0; i < validation_targets; ++i) {
         const int column = i % 3, row = i / 3;
         const ScreenPoint target{screen_px.x * (0.1 + 0.4 * column), screen_px.y * (0.1 + 0.4 * row)};
@@ -93,10 +93,8 @@ SetupOutcome SimulatedEyeTracker::set_up(SetupStage&) {
                                   Degrees{error},
                                   {},
                                   {}});
-        sum += error;
-        result.max_error.value = std::max(result.max_error.value, error);
     }
-    result.mean_error = {sum / validation_targets};
+    result.sum_up();
     return {SetupOutcome::Kind::done, std::move(result), "tracker", {}};
 }
 
@@ -248,6 +246,15 @@ float SimulatedEyeTracker::pupil_area_at(SessionTime time, double noise) const n
     const double t = 2.0 * std::numbers::pi * to_seconds(time);
     const double area = 1100.0 + 70.0 * std::sin(0.07 * t) + 40.0 * std::sin(0.23 * t + 1.0) + 4.0 * noise;
     return static_cast<float>(std::round(area));
+}
+
+template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("simulated")>() {
+    return {.make_tracker = [](const TrackerParts& parts) -> std::unique_ptr<EyeTracker> {
+        SimulatedTrackerSettings settings = simulated_tracker_settings(parts.protocol.tracker);
+        settings.uncalibrated = parts.protocol.calibration.by == CalibratedBy::overt;
+        settings.rate_hz = parts.faults.granted_rate_hz.value_or(settings.rate_hz);
+        return std::make_unique<SimulatedEyeTracker>(parts.clock, parts.observer, parts.seed, settings);
+    }};
 }
 
 } // namespace overt

@@ -100,9 +100,7 @@ void SimulatedObserver::look_at(ScreenPoint place, SessionTime onset) {
 }
 
 SimulatedObserver::Looking SimulatedObserver::resting(SessionTime time) const noexcept {
-    const auto after =
-        std::upper_bound(places_.begin(), places_.end(), time,
-                         [](SessionTime value, const Place& place) { return value < place.since; });
+    const auto after = std::ranges::upper_bound(places_, time, {}, &Place::since);
     if (after == places_.begin())
         return {places_.empty() ? scene_.screen.centre() : places_.front().from};
     const Place& place = *std::prev(after);
@@ -180,9 +178,7 @@ SimulatedObserver::frame_lit(const Presentation& presentation, SessionTime time,
     const SessionTime blank = time - scene_.light_delay(y_px);
     if (presentation.end && blank >= *presentation.end)
         return std::nullopt;
-    const auto after =
-        std::upper_bound(presentation.flips.begin(), presentation.flips.end(), blank,
-                         [](SessionTime value, const SeenFlip& flip) { return value < flip.vertical_blank; });
+    const auto after = std::ranges::upper_bound(presentation.flips, blank, {}, &SeenFlip::vertical_blank);
     if (after == presentation.flips.begin())
         return std::nullopt;
     return std::prev(after)->frame;

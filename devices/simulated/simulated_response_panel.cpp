@@ -22,33 +22,28 @@ SimulatedResponsePanel::SimulatedResponsePanel(const Clock& clock, const Simulat
         operators_.push_back({key, {}, false});
 }
 
-void SimulatedResponsePanel::await_key(SessionTime since) {
-    next_press_ = since + observer_->reading_time(texts_read_++);
-    pressed_with_.key = Key::next;
-    answer_.clear();
-}
-
-void SimulatedResponsePanel::await_response(const Trial& trial, SessionTime since) {
-    SimulatedAnswer answer = observer_->answer_to(trial);
-    next_press_ = since + answer.after;
-    pressed_with_.key = Key::next;
-    answer_ = std::move(answer.text);
-}
-
-void SimulatedResponsePanel::await_decision(bool is_consent, SessionTime since) {
-    if (is_consent) {
-        await_key(since);
-        pressed_with_.key = Key::yes;
+void SimulatedResponsePanel::await(Awaited what, SessionTime since, const Trial* trial) {
+    if (what == Awaited::decision) {
+        next_press_ = since + operators_decision;
+        // To what is asked without a key, such as whether a calibration is good enough, yes; but not for
+        // ever.
+        if (!operators_answer_)
+            operators_answer_ = ++own_decisions_ <= most_own_decisions ? U'y' : U'n';
+        pressed_with_.character = *std::exchange(operators_answer_, std::nullopt);
+        pressed_with_.key = pressed_with_.character == U'y'   ? Key::yes
+                            : pressed_with_.character == U'n' ? Key::no
+                                                              : Key::character;
         return;
     }
-    next_press_ = since + operators_decision;
-    // To what is asked without a key, such as whether a calibration is good enough, yes; but not for ever.
-    if (!operators_answer_)
-        operators_answer_ = ++own_decisions_ <= most_own_decisions ? U'y' : U'n';
-    pressed_with_.character = *std::exchange(operators_answer_, std::nullopt);
-    pressed_with_.key = pressed_with_.character == U'y'   ? Key::yes
-                        : pressed_with_.character == U'n' ? Key::no
-                                                          : Key::character;
+    pressed_with_.key = what == Awaited::consent ? Key::yes : Key::next;
+    if (what == Awaited::response) {
+        SimulatedAnswer answer = observer_->answer_to(*trial);
+        next_press_ = since + answer.after;
+        answer_ = std::move(answer.text);
+    } else {
+        next_press_ = since + observer_->reading_time(texts_read_++);
+        answer_.clear();
+    }
 }
 
 void SimulatedResponsePanel::entered(SessionPhase phase, int trial) noexcept {

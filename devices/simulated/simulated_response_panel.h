@@ -22,10 +22,7 @@ class SimulatedResponsePanel final : public ResponsePanel {
     SimulatedResponsePanel(const Clock& clock, const SimulatedObserver& observer,
                            const std::vector<ScriptedOperatorKey>& script = {});
 
-    void await_key(SessionTime since) override;
-    void await_response(const Trial& trial, SessionTime since) override;
-    void await_decision(bool is_consent, SessionTime since) override;
-    void await_entry(SessionTime since) override { await_key(since); }
+    void await(Awaited what, SessionTime since, const Trial* trial) override;
     std::optional<ResponsePress> poll() noexcept override;
     std::string answer() override { return answer_; }
     void entered(SessionPhase phase, int trial) noexcept override;

@@ -40,7 +40,7 @@ class Course {
     }
 
     bool is_cancelled() {
-        is_cancelled_ = escape_was_pressed(stage_) || is_cancelled_;
+        is_cancelled_ = stage_.wants_out() || is_cancelled_;
         return is_cancelled_;
     }
 
@@ -81,13 +81,6 @@ class Course {
     }
 
   private:
-    static bool escape_was_pressed(SetupStage& stage) {
-        bool escaped = stage.is_cancelled();
-        while (const std::optional<SetupKey> key = stage.next_key())
-            escaped = escaped || key->kind == SetupKey::Kind::escape;
-        return escaped;
-    }
-
     std::pair<float, float> share_of(ScreenPoint target) const {
         const glm::dvec2 size = stage_.screen().screen_px;
         return {static_cast<float>(target.x_px / size.x), static_cast<float>(target.y_px / size.y)};
@@ -170,29 +163,18 @@ SetupOutcome outcome_of(const TobiiCalibrationResult& result, const TrackerWish&
         return outcome;
     }
     ValidationResult validation;
-    int measured = 0;
-    double sum = 0.0;
     for (std::size_t i = 0; i < result.point_count; ++i)
-        for (const Eye eye : {Eye::left, Eye::right}) {
-            if ((!wish.both_eyes && eye != wish.eye) || !is_calibrated(eye))
-                continue;
-            validation.targets.push_back(measured_at(result.points[i], eye, wish.screen));
-            const ValidatedTarget& target = validation.targets.back();
-            if (!target.gaze)
-                continue;
-            ++measured;
-            sum += target.error.value;
-            validation.max_error = std::max(validation.max_error, target.error);
-        }
+        for (const Eye eye : {Eye::left, Eye::right})
+            if ((wish.both_eyes || eye == wish.eye) && is_calibrated(eye))
+                validation.targets.push_back(measured_at(result.points[i], eye, wish.screen));
+    const int measured = validation.sum_up();
     outcome.message = fmt::format("{} of {} measurements at targets went into it; errors are those of the "
                                   "calibration at its own targets, not of a validation",
                                   measured, validation.targets.size());
     if (wish.both_eyes && !is_calibrated(wish.eye == Eye::left ? Eye::right : Eye::left))
         outcome.message += "; the other eye could not be calibrated";
-    if (measured > 0) {
-        validation.mean_error = {sum / measured};
+    if (measured > 0)
         outcome.validation = std::move(validation);
-    }
     return outcome;
 }
 

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include "devices/tobii/tobii_calibration.h"
+#include "devices/tracker/tracker_device.h"
 #include "experiment/base/error.h"
+#include "experiment/calibration/own_calibration.h"
 
 namespace overt {
 namespace {
@@ -312,6 +314,21 @@ std::string tobii_trackers_found() {
     const TobiiVersion& version = library->version();
     return fmt::format("its library is there, version {}.{}.{}; trackers that it finds: {}", version.major,
                        version.minor, version.revision, listed(*library, find_trackers(*library)));
+}
+
+template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("tobii")>() {
+    return {.make_driver = [](const TrackerParts& parts) -> std::unique_ptr<TrackerDriver> {
+                TobiiSettings settings;
+                settings.library = parts.protocol.tracker.library;
+                settings.device = parts.protocol.tracker.address;
+                settings.calibration_points =
+                    calibration_targets(parts.protocol.calibration.points, parts.protocol.calibration.area,
+                                        screen_geometry_of(parts.protocol));
+                settings.target = Degrees{parts.protocol.calibration.target_deg};
+                return std::make_unique<TobiiDriver>(settings, parts.clock);
+            },
+            .can_do = "30 to 1200 Hz of both eyes, calibrates itself, tells changes of its input port",
+            .look_for = tobii_trackers_found};
 }
 
 } // namespace overt

@@ -8,6 +8,7 @@
 #include <linux/ppdev.h>
 #include <sys/ioctl.h>
 
+#include "devices/triggers/marker_device.h"
 #include "experiment/base/error.h"
 
 namespace overt {
@@ -67,5 +68,12 @@ bool ParallelTrigger::write(std::uint8_t byte) noexcept {
 }
 
 std::string ParallelTrigger::fault() const { return error_ ? std::strerror(error_) : ""; }
+
+template <> MarkerDevice marker_device_of<kind_called<MarkerOutputKind>("parallel")>() {
+    return {.open = [](const MarkerParts& parts) -> std::unique_ptr<MarkerOutput> {
+        return std::make_unique<ParallelTrigger>(parts.settings.address.empty() ? "/dev/parport0"
+                                                                                : parts.settings.address);
+    }};
+}
 
 } // namespace overt

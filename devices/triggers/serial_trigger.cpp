@@ -1,6 +1,12 @@
 #include "devices/triggers/serial_trigger.h"
 
+#include <filesystem>
+
 #include <fmt/format.h>
+
+#include "devices/link/serial_port_search.h"
+#include "devices/triggers/marker_device.h"
+#include "devices/usb/serial_line.h"
 
 namespace overt {
 namespace {
@@ -22,6 +28,26 @@ bool SerialTrigger::write(std::uint8_t byte) noexcept {
 
 std::string SerialTrigger::fault() const {
     return line_->lost() ? line_->loss() : "the port did not take them in time";
+}
+
+template <> MarkerDevice marker_device_of<kind_called<MarkerOutputKind>("serial")>() {
+    return {.open = [](const MarkerParts& parts) -> std::unique_ptr<MarkerOutput> {
+                return std::make_unique<SerialTrigger>(
+                    open_serial_line(parts.settings.address, parts.clock, parts.settings.baud), parts.clock);
+            },
+            .look_for =
+                [] {
+                    std::vector<std::string> lines;
+                    for (int i = 0; i < 4; ++i) {
+                        std::error_code absent;
+                        const std::string port = fmt::format("/dev/parport{}", i);
+                        if (std::filesystem::exists(port, absent))
+                            lines.push_back(fmt::format("{}: kind parallel", port));
+                    }
+                    for (const SerialPortInfo& port : serial_ports("/dev", "/sys", "ttyUSB"))
+                        lines.push_back(fmt::format("{}: kind serial", describe(port)));
+                    return lines;
+                }};
 }
 
 } // namespace overt

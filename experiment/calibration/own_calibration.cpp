@@ -232,7 +232,6 @@ std::vector<std::size_t> CalibratedTracker::to_visit_again(const std::vector<Vis
 ValidationResult CalibratedTracker::result_of(const std::vector<Visit>& visits,
                                               const ScreenGeometry& screen) const {
     ValidationResult result;
-    int measured = 0;
     for (const Visit& visit : visits) {
         for (const Eye eye : eyes()) {
             ValidatedTarget target;
@@ -243,15 +242,11 @@ ValidationResult CalibratedTracker::result_of(const std::vector<Visit>& visits,
                 target.error = screen.angle_between(gaze->median, visit.target);
                 target.rms_s2s = gaze->rms_s2s;
                 target.sd = gaze->sd;
-                result.mean_error.value += target.error.value;
-                result.max_error = std::max(result.max_error, target.error);
-                ++measured;
             }
             result.targets.push_back(target);
         }
     }
-    if (measured > 0)
-        result.mean_error.value /= measured;
+    result.sum_up();
     return result;
 }
 

@@ -7,7 +7,6 @@
 #include "experiment/checks/protocol_checks.h"
 #include "experiment/ports/button_meaning.h"
 #include "experiment/protocol/marker_codes.h"
-#include "experiment/protocol/protocol_keys.h"
 
 namespace overt {
 namespace {
@@ -49,10 +48,11 @@ std::vector<ButtonMeaning> check_button_box(ProtocolExamination& examination, st
     if (box.is_operators() && box.buttons.empty())
         examination.error({path("used_by")}, "an operator's box needs \"buttons\": none would do anything",
                           "such as buttons = [\"1 pause\", \"2 yes\", \"3 no\"]");
-    if (box.kind == ButtonBoxKind::hid && box.address.empty())
-        examination.error({path("kind")}, "a box of kind hid needs its \"address\"",
-                          "vendor:product as lsusb shows them, or /dev/hidrawN; overt doctor lists them");
-    if (box.kind == ButtonBoxKind::cb6) {
+    const ButtonBoxKindRow& kind = row_of(box.kind);
+    if (!kind.needs_address.empty() && box.address.empty())
+        examination.error({path("kind")}, fmt::format("a box of kind {} needs its \"address\"", kind.name),
+                          std::string(kind.needs_address));
+    if (kind.is_read_by_display_box) {
         if (!box.address.empty())
             examination.error({path("address")},
                               "a CB6 is read through the box of [display]: it has no address");
@@ -120,54 +120,66 @@ void check_t_lock(ProtocolExamination& examination, std::size_t index) {
                             "and frame alone",
                             code));
     for (std::size_t other = 0; other < index; ++other)
-        if (protocol.marker_outputs[other].kind == MarkerOutputKind::t_lock)
+        if (row_of(protocol.marker_outputs[other].kind).rides_on_picture)
             examination.error({path("kind")}, "there is one output of kind t-lock already");
+}
+
+/// "serial and parallel"
+std::string outputs_with(bool MarkerOutputKindRow::*column) {
+    std::string names;
+    for (const MarkerOutputKindRow& kind : kinds_of<MarkerOutputKind>)
+        if (kind.*column)
+            names += fmt::format("{}{}", names.empty() ? "" : " and ", kind.name);
+    return names;
 }
 
 void check_marker_output(ProtocolExamination& examination, std::size_t index) {
     const MarkerOutputSettings& output = examination.protocol.marker_outputs[index];
     const auto path = [&](std::string_view key) { return fmt::format("marker_output[{}].{}", index, key); };
     check_codes(examination, index);
-    const bool has_byte =
-        output.kind == MarkerOutputKind::serial || output.kind == MarkerOutputKind::parallel;
-    if (output.kind == MarkerOutputKind::t_lock)
+    using Row = MarkerOutputKindRow;
+    const Row& kind = row_of(output.kind);
+    if (kind.rides_on_picture)
         check_t_lock(examination, index);
     else if (!output.refresh_codes.empty())
         examination.error({path("refresh_codes")}, "only outputs of kind t-lock are bound to refreshes");
-    if (output.kind != MarkerOutputKind::t_lock && output.offset_ms)
+    if (!kind.rides_on_picture && output.offset_ms)
         examination.error({path("offset_ms")}, "only outputs of kind t-lock ride on the picture",
                           "leave it out: others are told when they are sent, and the record says when");
-    if (output.kind != MarkerOutputKind::lsl && output.codes.empty() && output.refresh_codes.empty())
+    if (!kind.tells_texts && output.codes.empty() && output.refresh_codes.empty())
         examination.error({path("kind")}, "nothing would be marked: \"codes\" are missing",
                           "such as codes = [\"onset 10\", \"response 2\"]");
-    if (output.kind == MarkerOutputKind::lsl && !(output.codes.empty() && output.condition_codes.empty()))
+    if (kind.tells_texts && !(output.codes.empty() && output.condition_codes.empty()))
         examination.warning({path("codes"), path("condition_codes")},
-                            "codes have no effect: lsl tells texts, and all of them");
-    if (output.kind == MarkerOutputKind::serial && output.address.empty())
-        examination.error({path("kind")}, "an output of kind serial needs its \"address\"",
-                          "such as address = \"/dev/ttyUSB0\"");
-    if (!has_byte && !output.address.empty())
-        examination.error({path("address")}, "only serial and parallel outputs have an address");
-    if (output.kind != MarkerOutputKind::serial && examination.is_written(path("baud")))
-        examination.error({path("baud")}, "only serial outputs have a speed");
-    if (output.kind != MarkerOutputKind::lsl && !output.library.empty())
-        examination.error({path("library")}, "only outputs of kind lsl need a library");
+                            fmt::format("codes have no effect: {} tells texts, and all of them", kind.name));
+    if (!kind.needs_address.empty() && output.address.empty())
+        examination.error({path("kind")},
+                          fmt::format("an output of kind {} needs its \"address\"", kind.name),
+                          fmt::format("such as address = \"{}\"", kind.needs_address));
+    if (!kind.has_address && !output.address.empty())
+        examination.error({path("address")},
+                          fmt::format("only {} outputs have an address", outputs_with(&Row::has_address)));
+    if (!kind.has_speed && examination.is_written(path("baud")))
+        examination.error({path("baud")},
+                          fmt::format("only {} outputs have a speed", outputs_with(&Row::has_speed)));
+    if (!kind.has_library && !output.library.empty())
+        examination.error({path("library")}, fmt::format("only outputs of kind {} need a library",
+                                                         outputs_with(&Row::has_library)));
 }
 
 /// Two of the same device would wait for each other. What is simulated or played back is a device of its own.
 bool is_same_device(const TrackerSettings& one, const TrackerSettings& other) {
-    const std::string_view kind = name_of(one.kind);
-    return one.kind == other.kind && one.address == other.address && kind != "simulated" && kind != "replay";
+    return one.kind == other.kind && one.address == other.address && !row_of(one.kind).is_made_up;
 }
 
 void check_further_tracker(ProtocolExamination& examination, std::size_t index) {
     const Protocol& protocol = examination.protocol;
     const FurtherTrackerSettings& further = protocol.further_trackers[index];
     const auto path = [&](std::string_view key) { return fmt::format("further_tracker[{}].{}", index, key); };
-    if (!measures_gaze(further.kind))
+    if (!row_of(further.kind).measures_gaze)
         examination.error({path("kind")}, "a further tracker must measure gaze",
                           "leave the [[further_tracker]] out");
-    if (!measures_gaze(protocol.tracker.kind))
+    if (!row_of(protocol.tracker.kind).measures_gaze)
         examination.error({"tracker.kind", path("kind")},
                           "there is no eye tracker of the session's own, which trials are judged by",
                           "write the further tracker's keys under [tracker] instead");

@@ -30,7 +30,7 @@ RecordingSize recording_size(const Protocol& protocol, std::span<const Sculpture
     // Each tracker's record has the flips as well.
     const double flip_bytes = cycle.total_refreshes * bytes_per_flip;
     const auto bytes_of = [&](const TrackerSettings& tracker) {
-        return recorded_s * (measures_gaze(tracker.kind) ? tracker.rate_hz : 0.0) * bytes_per_sample +
+        return recorded_s * (row_of(tracker.kind).measures_gaze ? tracker.rate_hz : 0.0) * bytes_per_sample +
                flip_bytes;
     };
     double trial_bytes = bytes_of(protocol.tracker);

@@ -34,7 +34,7 @@ class ButtonBox {
     virtual ButtonBoxDescription description() const = 0;
 
     /// What is written on a button, or its number as a word.
-    virtual std::string button_name(int button) const = 0;
+    virtual std::string button_name(int button) const { return std::to_string(button); }
 
     /// Forgets what has happened so far and reads both clocks, where the box has one: before a trial, and not
     /// in it. Takes 100 ms at most. Throws DeviceError if the box does not answer.

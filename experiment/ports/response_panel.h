@@ -57,21 +57,29 @@ inline constexpr auto
 
 class SessionLog;
 
+/// What the next press is to be.
+enum class Awaited : std::uint8_t {
+    key,      ///< a text is being read until a key is pressed
+    response, ///< the question of a trial is to be answered
+    consent,  ///< yes or no: the observer decides whether to take part
+    decision, ///< yes or no, or a digit, of the operator
+    entry,    ///< a form is being filled in: keys of letters are letters
+    setup     ///< a tracker is set up: keys are told as they are, by next_setup_key()
+};
+
 /// Keys that the operator pressed are never forgotten, whatever is waited for.
 class ResponsePanel {
   public:
     virtual ~ResponsePanel() = default;
-    /// A text is being read until a key is pressed. Forgets earlier presses.
-    virtual void await_key(SessionTime since) = 0;
-    /// The question of a trial is to be answered from now on. Forgets earlier presses.
-    virtual void await_response(const Trial& trial, SessionTime since) = 0;
-    /// Yes or no, or a digit. `is_consent`: the observer decides whether to take part, else the operator.
-    /// Forgets earlier presses.
-    virtual void await_decision(bool is_consent, SessionTime since) = 0;
-    /// A form is being filled in: keys of letters are letters. Forgets earlier presses.
-    virtual void await_entry(SessionTime since) = 0;
-    /// A tracker is set up: keys are told as they are, by next_setup_key(). Forgets earlier presses.
-    virtual void await_setup(SessionTime since) { await_key(since); }
+    /// Forgets earlier presses. `trial`: whose question is to be answered from now on; null for all else.
+    virtual void await(Awaited what, SessionTime since, const Trial* trial) = 0;
+    void await_key(SessionTime since) { await(Awaited::key, since, nullptr); }
+    void await_response(const Trial& trial, SessionTime since) { await(Awaited::response, since, &trial); }
+    void await_decision(bool is_consent, SessionTime since) {
+        await(is_consent ? Awaited::consent : Awaited::decision, since, nullptr);
+    }
+    void await_entry(SessionTime since) { await(Awaited::entry, since, nullptr); }
+    void await_setup(SessionTime since) { await(Awaited::setup, since, nullptr); }
     virtual std::optional<SetupKey> next_setup_key() { return std::nullopt; }
     /// The next press, if there was one. Allocates and throws nothing: it is called during presentations.
     virtual std::optional<ResponsePress> poll() noexcept = 0;

@@ -76,6 +76,14 @@ class SetupStage {
     virtual void wait(SessionDuration time) = 0;
     /// The display was closed or the operator ended the set-up: it is to return as soon as it can.
     virtual bool is_cancelled() const noexcept = 0;
+
+    /// Takes the keys that were pressed: whether it was cancelled, or the operator wants it to be (Escape).
+    bool wants_out() {
+        bool escaped = is_cancelled();
+        while (const std::optional<SetupKey> key = next_key())
+            escaped = escaped || key->kind == SetupKey::Kind::escape;
+        return escaped;
+    }
 };
 
 } // namespace overt

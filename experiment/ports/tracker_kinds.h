@@ -1,23 +1,29 @@
-/// The kinds of eye tracker that a protocol may name. A new one is a row here and a row in the table of
-/// app/rig/tracker_devices.cpp, in the same order, which says how it is made; the compiler refuses one
-/// without the other. The first is the default.
+/// The kinds of eye tracker that a protocol may name. A new one is a row here, and a tracker_device_of() of
+/// its name beside its driver (devices/tracker/tracker_device.h). The first is the default.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <string_view>
+#include <cstdint>
+
+#include "experiment/base/kind_table.h"
 
 namespace overt {
 
 struct TrackerKindRow {
     std::string_view name;        ///< as [tracker] kind has it
     std::string_view explanation; ///< for the reference of protocols; follows the name and a colon
+    bool is_made_up = false;      ///< gaze is simulated or played back: each is a device of its own
     bool measures_gaze = true;
+
+    /// Measures in real time only.
+    constexpr bool is_hardware() const { return measures_gaze && !is_made_up; }
 };
 
-inline constexpr TrackerKindRow tracker_kinds[] = {
-    {"simulated", "measures a simulated observer, with noise and a clock of its own"},
-    {"replay", "plays back the gaze of a recorded session or of an EyeLink recording (ASC)"},
+enum class TrackerKind : std::uint8_t {};
+
+template <>
+inline constexpr auto kinds_of<TrackerKind> = std::to_array<TrackerKindRow>({
+    {"simulated", "measures a simulated observer, with noise and a clock of its own", true},
+    {"replay", "plays back the gaze of a recorded session or of an EyeLink recording (ASC)", true},
     {"eyelink", "an SR Research EyeLink 1000 or later, through the vendor's library"},
     {"tobii", "a Tobii below the screen, through the vendor's library"},
     {"opengaze", "a Gazepoint, through the Open Gaze API of Gazepoint Control"},
@@ -25,15 +31,10 @@ inline constexpr TrackerKindRow tracker_kinds[] = {
     {"lsl", "a stream of gaze of the Lab Streaming Layer"},
     {"hid", "a device of the HID usage page of eye trackers"},
     {"mouse", "the mouse pointer stands in for an eye"},
-    {"none", "there is none, and the session is recorded without gaze", false},
-};
+    {"none", "there is none, and the session is recorded without gaze", false, false},
+});
 
-/// Their names alone.
-inline constexpr auto tracker_names = [] {
-    std::array<std::string_view, std::size(tracker_kinds)> names{};
-    for (std::size_t i = 0; i < names.size(); ++i)
-        names[i] = tracker_kinds[i].name;
-    return names;
-}();
+/// The kind that is called so. Throws InputError naming those there are.
+TrackerKind tracker_kind_called(std::string_view name);
 
 } // namespace overt

@@ -1,6 +1,7 @@
 /// What a validation of a calibration found: gaze against targets whose place is known.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,23 @@ struct ValidationResult {
     Degrees mean_error;
     Degrees max_error;
     std::vector<ValidatedTarget> targets = {}; ///< in the order shown; empty: the tracker tells sums only
+
+    /// Makes both errors of the targets at which gaze was measured, and gives their number; without any the
+    /// errors are 0.
+    int sum_up() {
+        int measured = 0;
+        double sum = 0.0;
+        max_error = {};
+        for (const ValidatedTarget& target : targets) {
+            if (!target.gaze)
+                continue;
+            ++measured;
+            sum += target.error.value;
+            max_error = std::max(max_error, target.error);
+        }
+        mean_error = {measured > 0 ? sum / measured : 0.0};
+        return measured;
+    }
 };
 
 } // namespace overt

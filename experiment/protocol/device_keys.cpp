@@ -6,10 +6,7 @@ std::vector<Key> button_box() {
     using B = ButtonBoxSettings;
     return {
         {"id", &B::id, identifier().required(), "By which the record names it."},
-        {"kind", &B::kind,
-         "`iolab`: the ioLab box. `xid`: boxes of Cedrus that speak XID. `hid`: game pads, joysticks and "
-         "boxes that present themselves as keyboards. `cb6`: the infrared box and the digital inputs of the "
-         "Display++ or Bits# of `[display]`."},
+        {"kind", &B::kind, explanation_of_kinds<ButtonBoxKind>()},
         {"address", &B::address, left_out("the first of its kind"),
          "Of `xid`, the serial port, such as /dev/ttyUSB0, or usb:0403:f1c0 for a chip that has none. Of "
          "`iolab` and `hid`, /dev/hidrawN, or vendor:product as lsusb shows them; `hid` needs it."},
@@ -29,10 +26,7 @@ std::vector<Key> marker_output() {
     using M = MarkerOutputSettings;
     return {
         {"id", &M::id, identifier().required(), "By which the record names it."},
-        {"kind", &M::kind,
-         "`serial`: a byte to a serial port. `parallel`: a byte on the data lines of a parallel port. `lsl`: "
-         "a text in the stream `overt` of the Lab Streaming Layer. `t-lock`: the digital outputs of the "
-         "Display++ or Bits#, raised by the picture itself at the refresh that it marks."},
+        {"kind", &M::kind, explanation_of_kinds<MarkerOutputKind>()},
         {"address", &M::address, left_out("/dev/parport0 of `parallel`"),
          "Of `serial` and `parallel`, the port, such as /dev/ttyUSB1; of `serial` also usb:0403:6001 for a "
          "chip that has none."},

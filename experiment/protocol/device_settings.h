@@ -7,13 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "experiment/base/enum_names.h"
+#include "experiment/ports/button_box_kinds.h"
+#include "experiment/ports/marker_output_kinds.h"
 
 namespace overt {
-
-enum class ButtonBoxKind : std::uint8_t { iolab, xid, hid, cb6 };
-template <>
-inline constexpr auto names_of<ButtonBoxKind> = enum_names<ButtonBoxKind>("iolab", "xid", "hid", "cb6");
 
 /// In whose hand a box lies.
 enum class ButtonBoxUser : std::uint8_t { observer, experimenter };
@@ -22,7 +19,7 @@ template <> inline constexpr auto names_of<ButtonBoxUser> = enum_names<ButtonBox
 /// [[button_box]]
 struct ButtonBoxSettings {
     std::string id;
-    ButtonBoxKind kind = ButtonBoxKind::hid;
+    ButtonBoxKind kind = kind_called<ButtonBoxKind>("hid");
     std::string address; ///< empty: the first of its kind
     ButtonBoxUser used_by = ButtonBoxUser::observer;
     std::vector<std::string> buttons; ///< see parse_button_meaning(); of an observer's box, empty: all go on
@@ -31,16 +28,11 @@ struct ButtonBoxSettings {
     bool is_operators() const { return used_by == ButtonBoxUser::experimenter; }
 };
 
-enum class MarkerOutputKind : std::uint8_t { serial, parallel, lsl, t_lock };
-template <>
-inline constexpr auto names_of<MarkerOutputKind> = enum_names<MarkerOutputKind>("serial", "parallel", "lsl",
-                                                                                "t-lock");
-
 /// [[marker_output]]
 struct MarkerOutputSettings {
     std::string id;
-    MarkerOutputKind kind = MarkerOutputKind::serial;
-    std::string address; ///< of the port; empty: the first of its kind
+    MarkerOutputKind kind{}; ///< the first: serial
+    std::string address;     ///< of the port; empty: the first of its kind
     int baud = 115200;
     double pulse_ms = 5.0;                                          ///< 0: codes are not taken back
     std::string library;                                            ///< of lsl; empty: where the system looks

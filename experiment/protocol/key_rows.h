@@ -1,6 +1,9 @@
 /// The rows of the key table, section by section. Only protocol_keys.cpp puts them together.
 #pragma once
 
+#include <fmt/format.h>
+
+#include "experiment/base/kind_table.h"
 #include "experiment/protocol/protocol_keys.h"
 
 namespace overt::key_rows {
@@ -25,6 +28,17 @@ std::vector<Key> consent(), instructions(), observer_fields(), operators(), answ
 std::vector<Key> button_box(), marker_output();
 // What is said on the screen besides, and of the dataset (word_keys.cpp).
 std::vector<Key> words(), dataset();
+
+/// "`one`: …. `other`: ….", after `words`.
+template <TableKind Kind> std::string_view explanation_of_kinds(std::string_view words = {}) {
+    static const std::string text = [&] {
+        std::string all(words);
+        for (const auto& kind : kinds_of<Kind>)
+            all += fmt::format("{}`{}`: {}.", all.empty() ? "" : " ", kind.name, kind.explanation);
+        return all;
+    }();
+    return text;
+}
 
 /// The names of a table's rows, in their order.
 template <const auto& table>

@@ -51,7 +51,7 @@ int largest_of(const std::vector<int>& codes) {
 MarkerCodes::MarkerCodes(const Protocol& protocol, const MarkerOutputSettings& output)
     : tasks_(protocol.tasks.size()), sculptures_(protocol.sculptures.size()),
       materials_(protocol.materials.size()) {
-    const int most = largest_code(output.kind);
+    const int most = row_of(output.kind).largest_code;
     for (const std::string& entry : output.codes) {
         const auto words = words_of(entry);
         const auto event = words.size() == 2 ? std::ranges::find(names_of<MarkedEvent>, words[0])

@@ -27,7 +27,7 @@ struct RefreshCode {
 class MarkerCodes {
   public:
     /// Throws InputError for entries that cannot be read, name what is not in the protocol, or make a code
-    /// beyond largest_code().
+    /// beyond the largest of the output's kind.
     MarkerCodes(const Protocol& protocol, const MarkerOutputSettings& output);
 
     /// 0: none. Of an onset, with what the trial's condition adds.
@@ -40,8 +40,5 @@ class MarkerCodes {
     std::vector<int> tasks_, sculptures_, materials_; ///< by index
     std::vector<RefreshCode> refreshes_;
 };
-
-/// 255 of a byte; the ten digital outputs of a Display++ carry 1023.
-constexpr int largest_code(MarkerOutputKind kind) { return kind == MarkerOutputKind::t_lock ? 1023 : 255; }
 
 } // namespace overt

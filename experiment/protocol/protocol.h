@@ -20,6 +20,7 @@
 #include "experiment/gaze.h"
 #include "experiment/keys/key_places.h"
 #include "experiment/ports/observer_field.h"
+#include "experiment/ports/tracker_kinds.h"
 #include "experiment/protocol/design_settings.h"
 #include "experiment/protocol/device_settings.h"
 #include "experiment/protocol/material_kind.h"
@@ -103,15 +104,6 @@ struct DisplaySettings {
     double tags_light = 0.5;                ///< of their white modules, 0 … 1 of the display's white
     std::optional<double> background_cd_m2; ///< or its luminance, from which `background` is made
 };
-
-/// A row of experiment/ports/tracker_kinds.h.
-enum class TrackerKind : std::uint8_t {};
-
-/// The kind that is called so. Throws InputError naming those there are.
-TrackerKind tracker_kind_called(std::string_view name);
-
-/// Whether there is a tracker at all.
-bool measures_gaze(TrackerKind kind);
 
 /// Which point of gaze is taken of a tracker that tells several.
 enum class TrackedPoint : std::uint8_t {

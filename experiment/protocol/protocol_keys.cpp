@@ -1,12 +1,5 @@
 #include "experiment/protocol/protocol_keys.h"
 
-#include <algorithm>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "experiment/base/error.h"
-#include "experiment/ports/tracker_kinds.h"
 #include "experiment/protocol/key_rows.h"
 
 namespace overt {
@@ -130,17 +123,5 @@ const KeyTable& protocol_keys() {
         "include");
     return table;
 }
-
-TrackerKind tracker_kind_called(std::string_view name) {
-    const auto found = std::ranges::find(tracker_names, name);
-    if (found == tracker_names.end())
-        throw InputError(fmt::format("there is no kind of eye tracker called \"{}\"; there are {}", name,
-                                     fmt::join(tracker_names, ", ")));
-    return static_cast<TrackerKind>(found - tracker_names.begin());
-}
-
-bool measures_gaze(TrackerKind kind) { return tracker_kinds[static_cast<std::size_t>(kind)].measures_gaze; }
-
-std::string_view name_of(TrackerKind kind) { return tracker_names[static_cast<std::size_t>(kind)]; }
 
 } // namespace overt

@@ -10,7 +10,4 @@ namespace overt {
 /// Its structs lie in a Protocol. Made once; safe from any thread.
 const KeyTable& protocol_keys();
 
-/// The name as the file has it.
-std::string_view name_of(TrackerKind kind);
-
 } // namespace overt

@@ -1,6 +1,3 @@
-#include <fmt/format.h>
-
-#include "experiment/ports/tracker_kinds.h"
 #include "experiment/protocol/key_rows.h"
 
 namespace overt::key_rows {
@@ -9,21 +6,10 @@ namespace {
 
 constexpr std::string_view eyes[] = {"left", "right", "both"};
 
-/// "Which eye tracker. `one`: …. `other`: …."
-std::string_view tracker_explanation() {
-    static const std::string text = [] {
-        std::string words = "Which eye tracker.";
-        for (const TrackerKindRow& kind : tracker_kinds)
-            words += fmt::format(" `{}`: {}.", kind.name, kind.explanation);
-        return words;
-    }();
-    return text;
-}
-
 /// What each tracker of a session has, as members of `T`: TrackerSettings, or what is made from it.
 template <class T> std::vector<Key> tracker_keys() {
     return {
-        {"kind", member_of<T>(&T::kind), one_of(tracker_names), tracker_explanation()},
+        {"kind", member_of<T>(&T::kind), explanation_of_kinds<TrackerKind>("Which eye tracker.")},
         {"rate_hz", member_of<T>(&T::rate_hz), range(10, 10000, "Hz"), "Gaze samples per second."},
         {"address", member_of<T>(&T::address), left_out("what is usual for the kind"),
          "Where the tracker is. `eyelink`: address of its host, or `dummy` to try the library without one. "

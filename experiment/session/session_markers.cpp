@@ -22,7 +22,7 @@ SessionMarkers::SessionMarkers(const Protocol& protocol, const std::vector<Marke
         return;
     for (std::size_t i = 0; i < sinks_.size() && i < protocol.marker_outputs.size(); ++i) {
         codes_.emplace_back(protocol, protocol.marker_outputs[i]);
-        if (protocol.marker_outputs[i].kind == MarkerOutputKind::t_lock)
+        if (row_of(protocol.marker_outputs[i].kind).rides_on_picture)
             t_lock_ = i;
     }
     if (t_lock_)

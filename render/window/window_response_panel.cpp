@@ -98,7 +98,7 @@ std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPres
     const bool is_character = press.key == WindowKey::character;
     const bool is_held = press.is_repeated;
     // Where one writes or decides by letters, they are no keys of the operator.
-    if (!is_character || mode_ == Mode::reading)
+    if (!is_character || awaited_ == Awaited::key)
         for (const auto& [key, meaning] : operators_)
             if (key.is(press))
                 return ResponsePress{meaning, now, 0, uncertainty};
@@ -106,25 +106,26 @@ std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPres
         return key ? std::optional(ResponsePress{*key, now, press.character, uncertainty}) : std::nullopt;
     };
     // Where the observer has a box, what is the observer's to press is pressed there.
-    if (!answers_ && (mode_ == Mode::reading || mode_ == Mode::consent))
+    if (!answers_ && (awaited_ == Awaited::key || awaited_ == Awaited::consent))
         return std::nullopt;
-    switch (mode_) {
-    case Mode::reading: // the space bar was a key already
+    switch (awaited_) {
+    case Awaited::response:
+    case Awaited::key: // the space bar was a key already
         return is_held || (is_character && press.character == U' ')
                    ? std::nullopt
                    : meant(meaning_in<ResponseKey>(when_reading, press.key));
-    case Mode::consent:
-    case Mode::confirmation: {
-        const bool is_consent = mode_ == Mode::consent;
+    case Awaited::consent:
+    case Awaited::decision: {
+        const bool is_consent = awaited_ == Awaited::consent;
         if ((is_consent ? accept_ : yes_).is(press))
             return meant(ResponseKey::yes);
         if ((is_consent ? decline_ : no_).is(press))
             return meant(ResponseKey::no);
         return is_character && !is_consent ? meant(ResponseKey::character) : std::nullopt;
     }
-    case Mode::setup: // keys are asked for by next_setup_key()
+    case Awaited::setup: // keys are asked for by next_setup_key()
         return std::nullopt;
-    case Mode::entry:
+    case Awaited::entry:
         return is_held && press.key == WindowKey::enter
                    ? std::nullopt
                    : meant(meaning_in<ResponseKey>(when_filling_in, press.key));
@@ -152,46 +153,18 @@ void WindowResponsePanel::write_down(SessionLog& log) {
         answering_->write_down(log);
 }
 
-/// The operator's stay: they may have been pressed while something was prepared.
-void WindowResponsePanel::forget_presses(Mode mode) noexcept {
+void WindowResponsePanel::await(Awaited what, SessionTime since, const Trial* trial) {
     look();
+    // The operator's stay: they may have been pressed while something was prepared.
     WindowKeyPress press{};
     while (window_->next_key_press(press)) {
         const std::optional<ResponsePress> meant = meaning_of(press);
         if (meant && is_operators(meant->key) && kept_count_ < kept_.size())
             kept_[kept_count_++] = *meant;
     }
-    mode_ = mode;
-}
-
-void WindowResponsePanel::await_key(SessionTime since) {
-    forget_presses(Mode::reading);
+    awaited_ = what == Awaited::response ? Awaited::key : what;
     if (answering_)
-        answering_->await_key(since);
-}
-
-void WindowResponsePanel::await_response(const Trial& trial, SessionTime since) {
-    forget_presses(Mode::reading);
-    if (answering_)
-        answering_->await_response(trial, since);
-}
-
-void WindowResponsePanel::await_decision(bool is_consent, SessionTime since) {
-    forget_presses(is_consent ? Mode::consent : Mode::confirmation);
-    if (answering_)
-        answering_->await_decision(is_consent, since);
-}
-
-void WindowResponsePanel::await_entry(SessionTime since) {
-    forget_presses(Mode::entry);
-    if (answering_)
-        answering_->await_entry(since);
-}
-
-void WindowResponsePanel::await_setup(SessionTime since) {
-    forget_presses(Mode::setup);
-    if (answering_)
-        answering_->await_setup(since);
+        answering_->await(what, since, trial);
 }
 
 std::optional<SetupKey> WindowResponsePanel::next_setup_key() {

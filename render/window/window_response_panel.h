@@ -30,11 +30,7 @@ class WindowResponsePanel final : public ResponsePanel {
     WindowResponsePanel(WindowContext& window, const Clock& clock, const OperatorSettings& operators,
                         const ConsentSettings& consent, ResponsePanel* answering = nullptr);
 
-    void await_key(SessionTime since) override;
-    void await_response(const Trial& trial, SessionTime since) override;
-    void await_decision(bool is_consent, SessionTime since) override;
-    void await_entry(SessionTime since) override;
-    void await_setup(SessionTime since) override;
+    void await(Awaited what, SessionTime since, const Trial* trial) override;
     std::optional<SetupKey> next_setup_key() override;
     std::optional<ResponsePress> poll() noexcept override;
     std::string answer() override { return answering_ ? answering_->answer() : std::string(); }
@@ -46,8 +42,6 @@ class WindowResponsePanel final : public ResponsePanel {
     }
 
   private:
-    enum class Mode : std::uint8_t { reading, consent, confirmation, entry, setup };
-    void forget_presses(Mode mode) noexcept;
     void look() noexcept;
     std::optional<ResponsePress> meaning_of(const WindowKeyPress& press) const noexcept;
 
@@ -56,8 +50,8 @@ class WindowResponsePanel final : public ResponsePanel {
     ResponsePanel* answering_;
     std::array<std::pair<NamedKey, ResponsePress::Key>, 6> operators_;
     NamedKey yes_, no_, accept_, decline_;
-    bool answers_ = true; ///< the keyboard answers for the observer, too
-    Mode mode_ = Mode::reading;
+    bool answers_ = true;            ///< the keyboard answers for the observer, too
+    Awaited awaited_ = Awaited::key; ///< a response is a key, too
     // The operator's presses that came while something was prepared.
     std::array<ResponsePress, 16> kept_{};
     std::size_t kept_count_ = 0;

@@ -52,7 +52,7 @@ class NotingPresenter final : public Presenter {
     test::Calls at_first_flip_;
 };
 
-DisplayFaults all_kinds() {
+DisplayFaults faults_of_all_kinds() {
     DisplayFaults faults;
     faults.jitter_sd_ms = 0.5;
     faults.counts_refreshes = false;
@@ -114,7 +114,7 @@ TEST_CASE("960 refreshes with tracker, observer and log allocate, lock, open and
 }
 
 TEST_CASE("nor do they when pictures come late, refreshes are skipped and the machine stalls", "[unit]") {
-    run_quietly(all_kinds());
+    run_quietly(faults_of_all_kinds());
 }
 
 #if OVERT_CALLS_ARE_COUNTED

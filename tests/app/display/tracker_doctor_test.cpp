@@ -35,11 +35,12 @@ TEST_CASE("the doctor says whether a network card is in the net of an EyeLink's 
 
 TEST_CASE("the doctor names each tracker that is a device, what it can do and what is found", "[unit]") {
     const std::vector<DoctorFinding> findings = examine_trackers();
-    for (const TrackerDevice& device : tracker_devices()) {
+    for (const TrackerKind kind : all_kinds<TrackerKind>) {
+        const TrackerDevice& device = tracker_device(kind, false);
         const auto found =
-            std::ranges::find(findings, fmt::format("eye tracker, {}", device.name), &DoctorFinding::what);
-        CHECK((found != findings.end()) == device.is_hardware);
-        if (!device.is_hardware)
+            std::ranges::find(findings, fmt::format("eye tracker, {}", name_of(kind)), &DoctorFinding::what);
+        CHECK((found != findings.end()) == row_of(kind).is_hardware());
+        if (!row_of(kind).is_hardware())
             continue;
         REQUIRE(device.look_for);
         CHECK_FALSE(device.can_do.empty());

@@ -6,7 +6,6 @@
 #include "devices/pupil/pupil_tracker.h"
 #include "devices/simulated/operator_script.h"
 #include "experiment/base/error.h"
-#include "experiment/ports/tracker_kinds.h"
 #include "tests/devices/link/tcp_peer.h"
 #include "tests/devices/opengaze/opengaze_server_model.h"
 #include "tests/devices/simulated/sitting.h"
@@ -21,10 +20,7 @@ namespace {
 class TimedPanel final : public ResponsePanel {
   public:
     TimedPanel(const Clock& clock, SessionDuration after) : clock_(clock), after_(after) {}
-    void await_key(SessionTime since) override { due_ = since + after_; }
-    void await_response(const Trial&, SessionTime since) override { await_key(since); }
-    void await_decision(bool, SessionTime since) override { await_key(since); }
-    void await_entry(SessionTime since) override { await_key(since); }
+    void await(Awaited, SessionTime since, const Trial*) override { due_ = since + after_; }
     std::optional<ResponsePress> poll() noexcept override {
         if (!due_ || clock_.now() < *due_)
             return std::nullopt;
@@ -60,32 +56,34 @@ TEST_CASE("each kind of tracker that needs no device can be made, and says its n
     Sitting sitting(3);
     Protocol protocol;
     int made = 0;
-    for (std::size_t i = 0; i < std::size(tracker_kinds); ++i) {
-        protocol.tracker.kind = static_cast<TrackerKind>(i);
-        const TrackerDevice& device = tracker_device(protocol.tracker.kind, false);
-        if (device.is_hardware)
+    for (const TrackerKind kind : all_kinds<TrackerKind>) {
+        protocol.tracker.kind = kind;
+        const TrackerDevice& device = tracker_device(kind, false);
+        CHECK((device.make_driver != nullptr) == row_of(kind).is_hardware());
+        CHECK((device.make_tracker != nullptr) != row_of(kind).is_hardware());
+        if (row_of(kind).is_hardware())
             continue;
-        if (tracker_kinds[i].name == "replay") {
-            CHECK_THROWS_WITH(device.make({protocol, sitting.clock, sitting.observer, 7}),
+        if (name_of(kind) == "replay") {
+            CHECK_THROWS_WITH(device.make_tracker({protocol, sitting.clock, sitting.observer, 7}),
                               Contains("needs a recording"));
             protocol.tracker.address = "nowhere";
-            CHECK_THROWS_WITH(device.make({protocol, sitting.clock, sitting.observer, 7}),
+            CHECK_THROWS_WITH(device.make_tracker({protocol, sitting.clock, sitting.observer, 7}),
                               Contains("nowhere: this recording"));
             continue;
         }
-        const auto tracker = device.make({protocol, sitting.clock, sitting.observer, 7});
-        CHECK(tracker->description().name == tracker_kinds[i].name);
-        CHECK(tracker->measures_gaze() == tracker_kinds[i].measures_gaze);
+        const auto tracker = device.make_tracker({protocol, sitting.clock, sitting.observer, 7});
+        CHECK(tracker->description().name == name_of(kind));
+        CHECK(tracker->measures_gaze() == row_of(kind).measures_gaze);
         ++made;
     }
     CHECK(made >= 2);
 }
 
 TEST_CASE("a tracker that is hardware is refused in virtual time", "[unit]") {
-    const TrackerDevice hardware[] = {{"glass", true, nullptr}};
-    CHECK(&tracker_device(TrackerKind{}, false, hardware) == hardware);
-    CHECK_THROWS_WITH(tracker_device(TrackerKind{}, true, hardware),
-                      Contains("\"glass\"") && Contains("--virtual-time"));
+    const TrackerKind mouse = kind_called<TrackerKind>("mouse");
+    CHECK(tracker_device(mouse, false).make_driver);
+    CHECK_THROWS_WITH(tracker_device(mouse, true), Contains("\"mouse\"") && Contains("--virtual-time"));
+    CHECK(tracker_device(kind_called<TrackerKind>("simulated"), true).make_tracker);
 }
 
 TEST_CASE("a session asks the last response device that it uses, which asks the one before", "[unit]") {
@@ -124,7 +122,7 @@ TEST_CASE("a tracker in the network is set as the protocol says", "[unit]") {
     Protocol protocol;
     const auto made = [&](std::string_view kind) {
         protocol.tracker.kind = tracker_kind_called(kind);
-        return tracker_device(protocol.tracker.kind, false).make({protocol, clock, sitting.observer, 7});
+        return make_tracker({protocol, clock, sitting.observer, 7}, false).tracker;
     };
     OpenGazeServerModel model;
     const TcpPeer peer([&](std::string_view bytes, double now_s) { return model.receive(bytes, now_s); },

@@ -79,10 +79,7 @@ class ButtonLog final : public SessionLog {
 /// A keyboard at which a key was pressed.
 class KeyPanel final : public ResponsePanel {
   public:
-    void await_key(SessionTime) override {}
-    void await_response(const Trial&, SessionTime) override {}
-    void await_decision(bool, SessionTime) override {}
-    void await_entry(SessionTime) override {}
+    void await(Awaited, SessionTime, const Trial*) override {}
     std::optional<ResponsePress> poll() noexcept override { return std::exchange(next, std::nullopt); }
     std::string answer() override { return "typed"; }
     std::optional<ResponsePress> next;

@@ -108,7 +108,7 @@ TEST_CASE("channels that tell nothing of themselves are assigned by label or num
     LslLayoutSettings settings;
     settings.assignments = {parse_lsl_assignment("right x 2"), parse_lsl_assignment(" right  y  a")};
     CHECK_THROWS_WITH(LslGazeLayout(channels, settings, {}, "s"), Contains("neither pixels nor normalized"));
-    settings.unit = LslUnit::normalized;
+    settings.unit = StreamUnit::normalized;
     const LslGazeLayout layout(channels, settings, {}, "s");
     CHECK(samples_of(layout, {0.1, 0.2, 0.3}).front().gaze == ScreenPoint{0.2 * 1920, 0.1 * 1080});
     settings.assignments.push_back(parse_lsl_assignment("pupil 4"));

@@ -19,7 +19,7 @@ inline void take_any_opengaze(std::string_view bytes) {
     TrackerWish wish;
     wish.both_eyes = bytes.size() % 3 != 0;
     const OpenGazeSettings settings;
-    OpenGazeSamples samples(wish, OpenGazePoint::eyes, settings.longest_delay);
+    OpenGazeSamples samples(wish, TrackedPoint::eyes, settings.longest_delay);
     KeptItems items;
     // The first byte tells how the rest was cut on its way.
     const std::size_t piece = bytes.empty() ? 1 : 1 + static_cast<unsigned char>(bytes.front());

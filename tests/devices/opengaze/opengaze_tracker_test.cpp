@@ -70,7 +70,7 @@ TEST_CASE("of one eye, an Open Gaze tracker gives that eye's gaze or the best po
         CHECK(sample.gaze->x_px == Approx(0.25 * 1920));
     }
     OpenGazeBench best;
-    best.settings.point = OpenGazePoint::best;
+    best.settings.point = TrackedPoint::best;
     CHECK_FALSE(best.connect().both_eyes);
     best.record(200ms);
     REQUIRE_FALSE(best.items.all<GazeSample>().empty());

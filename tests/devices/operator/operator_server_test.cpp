@@ -28,10 +28,7 @@ class StandingClock final : public Clock {
 /// Presses nothing.
 class SilentPanel final : public ResponsePanel {
   public:
-    void await_key(SessionTime) override {}
-    void await_response(const Trial&, SessionTime) override {}
-    void await_decision(bool, SessionTime) override {}
-    void await_entry(SessionTime) override {}
+    void await(Awaited, SessionTime, const Trial*) override {}
     std::optional<ResponsePress> poll() noexcept override { return std::nullopt; }
     std::string answer() override { return {}; }
 };

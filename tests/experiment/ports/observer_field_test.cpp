@@ -20,7 +20,7 @@ std::vector<ObserverFieldSettings> fields_of(std::string_view more) {
     return read.protocol->observer_fields;
 }
 
-constexpr std::string_view all_kinds = R"(
+constexpr std::string_view field_kinds = R"(
 [[observer_field]]
 id = "age"
 [[observer_field]]
@@ -38,7 +38,7 @@ id = "job"
 } // namespace
 
 TEST_CASE("standard fields know their kind, title, limits and choices; others are texts", "[unit]") {
-    const auto fields = fields_of(all_kinds);
+    const auto fields = fields_of(field_kinds);
     REQUIRE(fields.size() == 4);
     CHECK(fields[0].kind == FieldKind::number);
     CHECK(fields[0].title == "Age in years");
@@ -55,7 +55,7 @@ TEST_CASE("standard fields know their kind, title, limits and choices; others ar
 
 TEST_CASE("a value stands in a field if it is of its kind, within its limits, or one of its choices",
           "[unit]") {
-    const auto fields = fields_of(all_kinds);
+    const auto fields = fields_of(field_kinds);
     for (const char* right : {"31", "0", "120", "31.5"})
         CHECK_FALSE(fault_of(fields[0], right));
     for (const char* wrong : {"", "-1", "121", "31 years", "3,5", "nan", "inf", "1e999", "thirty"})
@@ -71,7 +71,7 @@ TEST_CASE("a value stands in a field if it is of its kind, within its limits, or
 }
 
 TEST_CASE("what a simulated observer says depends on the seed, and is never at fault", "[unit]") {
-    auto fields = fields_of(all_kinds);
+    auto fields = fields_of(field_kinds);
     ObserverFieldSettings narrow{"small", "", FieldKind::number, {}, 0.2, 0.4, true, ""};
     ObserverFieldSettings large{"large", "", FieldKind::number, {}, 1000.0, {}, true, ""};
     ObserverFieldSettings low{"low", "", FieldKind::number, {}, {}, -5.5, true, ""};

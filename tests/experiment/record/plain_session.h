@@ -169,10 +169,11 @@ class ScriptedPanel final : public ResponsePanel {
   public:
     using Key = ResponsePress::Key;
     explicit ScriptedPanel(StandingClock& clock) : clock_(clock) {}
-    void await_key(SessionTime) override { awaited_ = Key::next; }
-    void await_response(const Trial&, SessionTime) override { awaited_ = Key::next; }
-    void await_decision(bool, SessionTime) override { awaited_ = Key::yes; }
-    void await_entry(SessionTime) override { awaited_ = Key::character; }
+    void await(Awaited what, SessionTime, const Trial*) override {
+        awaited_ = what == Awaited::consent || what == Awaited::decision ? Key::yes
+                   : what == Awaited::entry                              ? Key::character
+                                                                         : Key::next;
+    }
     void entered(SessionPhase phase, int of_trial) noexcept override {
         phases.push_back(phase);
         trial = of_trial;

@@ -1,9 +1,8 @@
 /// No eye tracker: for sessions that only show stimuli and record answers.
-#pragma once
-
-#include "experiment/ports/eye_tracker.h"
+#include "devices/tracker/tracker_device.h"
 
 namespace overt {
+namespace {
 
 /// Gives no samples and is never lost. Its clock is never read: it has none.
 class NoEyeTracker final : public EyeTracker {
@@ -22,5 +21,13 @@ class NoEyeTracker final : public EyeTracker {
   private:
     Eye eye_; ///< for the session's header, which always names one
 };
+
+} // namespace
+
+template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("none")>() {
+    return {.make_tracker = [](const TrackerParts& parts) -> std::unique_ptr<EyeTracker> {
+        return std::make_unique<NoEyeTracker>(parts.protocol.tracker.analysed_eye());
+    }};
+}
 
 } // namespace overt

@@ -1,0 +1,31 @@
+/// The kinds of response box that a protocol may name. A new one is a row here, and a button_box_device_of()
+/// of its name beside its driver (devices/buttons/button_box_device.h).
+#pragma once
+
+#include <cstdint>
+
+#include "experiment/base/kind_table.h"
+
+namespace overt {
+
+struct ButtonBoxKindRow {
+    std::string_view name;               ///< as [[button_box]] kind has it
+    std::string_view explanation;        ///< for the reference of protocols; follows the name and a colon
+    std::string_view needs_address{};    ///< what the address of one must be; empty: the first is found
+    bool is_read_by_display_box = false; ///< it shares the line of the Display++ or Bits#
+};
+
+enum class ButtonBoxKind : std::uint8_t {};
+
+template <>
+inline constexpr auto kinds_of<ButtonBoxKind> = std::to_array<ButtonBoxKindRow>({
+    {"iolab", "the ioLab box"},
+    {"xid", "boxes of Cedrus that speak XID"},
+    {"hid", "game pads, joysticks and boxes that present themselves as keyboards",
+     "vendor:product as lsusb shows them, or /dev/hidrawN; overt doctor lists them"},
+    {.name = "cb6",
+     .explanation = "the infrared box and the digital inputs of the Display++ or Bits# of `[display]`",
+     .is_read_by_display_box = true},
+});
+
+} // namespace overt
