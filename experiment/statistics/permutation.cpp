@@ -125,7 +125,7 @@ double p_of_least(double observed, std::span<const double> permuted) {
 std::vector<double> holm(std::span<const double> p) {
     std::vector<double> corrected(p.size());
     double most = 0.0;
-    double remaining = static_cast<double>(p.size());
+    auto remaining = static_cast<double>(p.size());
     for (const std::size_t i : rising_order(p)) {
         most = std::max(most, std::min(1.0, p[i] * remaining--));
         corrected[i] = most;

@@ -32,6 +32,7 @@ StudyColumns<Row> count_column(std::string name, std::string meaning, Value valu
 template <class Row, class Value>
 StudyColumns<Row> text_column(std::string name, std::string meaning, Value value) {
     return {{{std::move(name), std::move(meaning), "", {}}, [value](TableCells& to, const Row& row) {
+                 // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): some values are views
                  const std::string text{value(row)};
                  text.empty() || text == "n/a" ? to.missing() : to.text(text);
              }}};

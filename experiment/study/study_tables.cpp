@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 class Tables {
   public:
-    Tables(const std::filesystem::path& folder, TableFormat format) : folder_(folder), format_(format) {}
+    Tables(std::filesystem::path folder, TableFormat format) : folder_(std::move(folder)), format_(format) {}
 
     /// `each` calls what it is given with each row.
     template <class Row, class Each> void write(const RowLayout<Row>& layout, const Each& each) {
