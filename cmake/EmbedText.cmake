@@ -1,5 +1,5 @@
-# overt_embed_text(TARGET HEADER FILES…): makes each text file a `constexpr std::string_view NAME` (its name with dots as
-# underscores) in namespace overt::embedded, in a header generated at build time. Shaders travel in the executable this way.
+# overt_embed_text(TARGET HEADER FILES…): makes each text file a `constexpr std::string_view NAME` (its name in small letters,
+# with dots as underscores) in namespace overt::embedded, in a header generated at build time. Shaders travel in the executable this way.
 function(overt_embed_text target header)
     set(output ${CMAKE_CURRENT_BINARY_DIR}/generated/${header})
     # Files of a package are named by their whole path.

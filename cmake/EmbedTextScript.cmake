@@ -5,6 +5,7 @@ foreach(input IN LISTS INPUTS)
     get_filename_component(name ${input} NAME)
     string(REPLACE "." "_" name ${name})
     string(REPLACE "-" "_" name ${name})
+    string(TOLOWER ${name} name)
     file(READ ${input} content)
     # Through an array: compilers refuse to count the characters of a long text.
     string(APPEND text "inline constexpr char ${name}_text[] = R\"overt_text(${content})overt_text\";\n"

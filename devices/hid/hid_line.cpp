@@ -17,6 +17,7 @@ namespace {
 std::string utf8_of_wide(const wchar_t* text) {
     std::string utf8;
     for (; text && *text; ++text) {
+        // NOLINTNEXTLINE(bugprone-signed-char-misuse): it has the bits of a whole character
         auto code = static_cast<std::uint32_t>(*text);
         if (code > 0x10FFFF || (code >= 0xD800 && code < 0xE000))
             code = 0xFFFD;

@@ -252,8 +252,8 @@ bool FaultyTracker::pass_sample(GazeSample& sample) noexcept {
     }
     sample.sampled_at += put_forward_;
     if (is_doubled)
-        ahead_.push_back(sample);
-    ahead_.push_back(sample);
+        ahead_.emplace_back(sample);
+    ahead_.emplace_back(sample);
     if (lost_ > 0)
         ahead_.emplace_back(TrackerGap{lost_by_, last_, lost_});
     lost_ = 0;

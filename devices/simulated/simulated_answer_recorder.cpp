@@ -14,10 +14,10 @@ constexpr std::size_t block_samples = 256;
 
 class SimulatedRecording final : public AnswerRecording {
   public:
-    SimulatedRecording(const std::filesystem::path& folder, const Trial& trial, const Clock& clock,
+    SimulatedRecording(std::filesystem::path folder, const Trial& trial, const Clock& clock,
                        const SimulatedObserver& observer, std::uint64_t seed,
                        const SimulatedSoundSettings& settings)
-        : folder_(folder), trial_(trial), clock_(&clock), begun_(clock.now()),
+        : folder_(std::move(folder)), trial_(trial), clock_(&clock), begun_(clock.now()),
           said_(observer.answer_to(trial)), seed_(seed), settings_(settings) {}
 
     void response_screen_lit(SessionTime onset) noexcept override { onset_ = onset; }

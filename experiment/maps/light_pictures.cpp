@@ -82,7 +82,7 @@ LightScores::LightScores(const LightPictures& light)
     for (std::size_t begin = 0; begin < scores_.size(); begin += squares) {
         double weights = 0.0, sum = 0.0, sum_of_squares = 0.0;
         for (std::size_t i = begin; i < begin + squares; ++i) {
-            const double weight = static_cast<double>(light.coverage[i]);
+            const auto weight = static_cast<double>(light.coverage[i]);
             const double value = lightness(static_cast<double>(light.luminance[i]));
             weights += weight;
             sum += weight * value;

@@ -38,7 +38,8 @@ std::vector<float> farthest_visible_depths(const TriangleMap& map, const SightLi
     const glm::dvec3 forward = lines.direction_through(0.5 * glm::dvec2(map.size_px));
     std::vector<float> depths(map.codes.size());
     for (std::size_t i = 0; i < depths.size(); ++i) {
-        const glm::dvec2 centre(static_cast<double>(i % width) + 0.5, static_cast<double>(i / width) + 0.5);
+        const std::size_t column = i % width, row = i / width;
+        const glm::dvec2 centre(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
         depths[i] = map.codes[i] == 0 ? infinite
                                       : depth_of(walk.triangle(map.codes[i] - 1), lines.origin(),
                                                  lines.direction_through(centre), forward);

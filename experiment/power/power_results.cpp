@@ -81,8 +81,11 @@ std::string answer_of(const PowerCurve& curve, const PowerResults& results) {
 
 int fewest_testable_observers(double alpha) {
     int observers = 1;
-    for (double least = 1.0; least > alpha; least *= 0.5)
+    double least = 1.0;
+    while (least > alpha) {
+        least *= 0.5;
         ++observers;
+    }
     return observers;
 }
 

@@ -81,6 +81,7 @@ double highest_of(const std::vector<float>& values) {
 }
 
 /// The mesh that the page shows of a sculpture.
+// NOLINTNEXTLINE(bugprone-exception-escape): JSON that is moved throws nothing
 struct ShownMesh {
     std::vector<std::uint32_t> vertices; ///< of the study's mesh
     Json json;
@@ -94,7 +95,7 @@ ShownMesh shown_mesh(const StudySculpture& sculpture, std::size_t most_vertices)
     const SurfaceGeometry geometry(mesh);
     const CoarseSurface coarse(geometry, most_vertices);
     std::vector<std::uint32_t> vertex_of_node(geometry.node_count(), 0);
-    for (std::uint32_t v = static_cast<std::uint32_t>(mesh.positions.size()); v-- > 0;)
+    for (auto v = static_cast<std::uint32_t>(mesh.positions.size()); v-- > 0;)
         vertex_of_node[geometry.node_of(v)] = v;
     for (std::uint32_t v = 0; v < coarse.vertex_count(); ++v)
         shown.vertices.push_back(vertex_of_node[coarse.fine_node_of(v)]);

@@ -11,15 +11,15 @@ namespace {
 
 void put_in_place(std::string& page, std::string_view mark, std::string_view text) {
     const std::size_t at = page.find(mark);
-    OVERT_EXPECTS(at != page.npos);
+    OVERT_EXPECTS(at != std::string::npos);
     page.replace(at, mark.size(), text);
 }
 
 // A script ends at the first "</", whatever it stands in; JSON may have it as "<\/".
 std::string within_script(std::string json) {
-    for (std::size_t at = json.find("</"); at != json.npos; at = json.find("</", at + 3))
+    for (std::size_t at = json.find("</"); at != std::string::npos; at = json.find("</", at + 3))
         json.replace(at, 2, "<\\/");
-    for (std::size_t at = json.find("<!"); at != json.npos; at = json.find("<!", at + 6))
+    for (std::size_t at = json.find("<!"); at != std::string::npos; at = json.find("<!", at + 6))
         json.replace(at, 2, "\\u003c!");
     return json;
 }

@@ -34,7 +34,7 @@ std::optional<double> auc_judd(std::span<const double> map, std::span<const doub
     for (std::size_t i = 0; i < thresholds.size(); ++i) {
         for (; next < falling.size() && falling[next].first >= thresholds[i]; ++next)
             above += falling[next].second;
-        const double rank = static_cast<double>(i + 1);
+        const auto rank = static_cast<double>(i + 1);
         // On unequal areas fixations can take more than there is.
         const double new_alarms = std::clamp((above / mean_area - rank) / (places - fixations), alarms, 1.0);
         const double new_hits = rank / fixations;

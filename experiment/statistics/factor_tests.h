@@ -25,7 +25,7 @@ struct FactorTest {
 /// observer's means may as well belong to each other's levels: they are exchanged within every observer, at
 /// random, and p counts what was found as one of the exchanges (Phipson and Smyth 2010). Observers with fewer
 /// than two levels are left out. Nothing if fewer than two are left.
-std::optional<FactorTest> level_exchange_test(std::span<const LevelMeans> observers,
+std::optional<FactorTest> level_exchange_test(std::span<const LevelMeans> all,
                                               const PermutationSettings& settings = {});
 
 /// Interaction of two factors: means by level of a, and within it of b. Each observer's are centred along
@@ -33,8 +33,7 @@ std::optional<FactorTest> level_exchange_test(std::span<const LevelMeans> observ
 /// no interaction an observer's cells may as well have the opposite signs, all at once: exact over all 2^n
 /// where these are at most settings.most_exact, else random flips. Observers without all cells are left out.
 /// Nothing if fewer than two are left.
-std::optional<FactorTest> interaction_flip_test(std::span<const LevelMeans> observers,
-                                                std::size_t levels_of_b,
+std::optional<FactorTest> interaction_flip_test(std::span<const LevelMeans> all, std::size_t levels_of_b,
                                                 const PermutationSettings& settings = {});
 
 } // namespace overt

@@ -69,7 +69,7 @@ std::vector<double> holm(std::span<const double> p) {
     std::ranges::stable_sort(rising, {}, [&](std::size_t i) { return p[i]; });
     std::vector<double> corrected(p.size());
     double most = 0.0;
-    double remaining = static_cast<double>(p.size());
+    auto remaining = static_cast<double>(p.size());
     for (const std::size_t i : rising) {
         most = std::max(most, std::min(1.0, p[i] * remaining--));
         corrected[i] = most;

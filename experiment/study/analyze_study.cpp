@@ -76,14 +76,14 @@ void glance_at(StudyResults& results) {
                                           counted(session.trials, "trial")));
     }
     if (glance.counted == 0)
-        remarks.push_back("No fixation was counted: there are no maps and no fractions.");
+        remarks.emplace_back("No fixation was counted: there are no maps and no fractions.");
     if (glance.only_by_reach > 0)
         remarks.push_back(fmt::format(
             "{} of {} counted fixations ({:.1f} %) count only because samples that miss the sculpture by no "
             "more than the reach are placed at its outline.",
             glance.only_by_reach, glance.counted, 100.0 * glance.only_by_reach / glance.counted));
     if (glance.any_simulated)
-        remarks.push_back("The gaze of some sessions is that of simulated observers.");
+        remarks.emplace_back("The gaze of some sessions is that of simulated observers.");
 }
 
 struct SculptureMaps {

@@ -48,9 +48,8 @@ std::vector<const StudyFixation*> fixations_on(const StudyResults& results, std:
 std::pair<double, double> sigma_range_mm(const StudyResults& results, int sculpture);
 
 /// The exposure's density by vertex of one sculpture; empty without one.
-std::vector<float> exposure_density(const StudyResults& results, int sculpture,
-                                    const SculptureSurface& surface, const MapMaker& maker,
-                                    const StudyOptions& options);
+std::vector<float> exposure_density(const StudyResults& results, int of, const SculptureSurface& surface,
+                                    const MapMaker& maker, const StudyOptions& options);
 
 /// The maps of all groups on one sculpture, by duration and by count. May be called from any thread.
 std::vector<StudyMap> maps_on(const StudyResults& results, int sculpture, const SculptureSurface& surface,

@@ -131,12 +131,12 @@ GeodesicMedian geodesic_median(GeodesicField& field, std::span<const SurfaceWeig
         });
         if (open > 0 && least + untouched * reach >= most)
             return std::nullopt;
-        for (std::size_t i = 0; i < weights.size(); ++i) {
-            const double way = field.to(weights[i].place);
+        for (const SurfaceWeight& one : weights) {
+            const double way = field.to(one.place);
             const bool is_reached = way < GeodesicField::unreached;
-            median.mean_distance_mm += weights[i].weight * (is_reached ? way : reach) / whole;
+            median.mean_distance_mm += one.weight * (is_reached ? way : reach) / whole;
             if (!is_reached)
-                median.unreached_share += weights[i].weight / whole;
+                median.unreached_share += one.weight / whole;
         }
         return median;
     };

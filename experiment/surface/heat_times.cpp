@@ -34,7 +34,7 @@ double laguerre_sum(const Eigen::VectorXd& weights, double s) {
     double before = 0.0, value = 1.0, sum = 0.0;
     for (Eigen::Index k = 0; k < weights.size(); ++k) {
         sum += weights(k) * value;
-        const double order = static_cast<double>(k);
+        const auto order = static_cast<double>(k);
         const double next = ((2.0 * order + 1.0 - s) * value - order * before) / (order + 1.0);
         before = value;
         value = next;

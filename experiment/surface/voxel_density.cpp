@@ -95,7 +95,7 @@ void VoxelDensity::blur_along_x(std::span<const double> kernel, int most_threads
 // caches.
 void VoxelDensity::blur_across_rows(std::span<const double> kernel, int axis, int most_threads) {
     const int reach = static_cast<int>(kernel.size()) - 1;
-    const std::size_t width = static_cast<std::size_t>(cells_.x);
+    const auto width = static_cast<std::size_t>(cells_.x);
     const int slabs = axis == 1 ? cells_.z : cells_.y, rows = cells_[axis];
     parallel_for(
         slabs,

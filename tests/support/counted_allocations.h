@@ -23,6 +23,7 @@ inline void* counted_allocation_or_throw(std::size_t size) {
 
 } // namespace overt::test
 
+// NOLINTBEGIN(misc-definitions-in-headers): one file of a program includes this, which replaces the allocator
 void* operator new(std::size_t size) { return overt::test::counted_allocation_or_throw(size); }
 void* operator new[](std::size_t size) { return overt::test::counted_allocation_or_throw(size); }
 // Sanitizers bring these two of their own, which would not go with the operator delete below.
@@ -39,3 +40,4 @@ void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+// NOLINTEND(misc-definitions-in-headers)

@@ -44,6 +44,8 @@ template <class Function> Function* next_function(const char* name) {
 } // namespace overt::test
 
 #if OVERT_CALLS_ARE_COUNTED
+// NOLINTBEGIN(misc-definitions-in-headers,bugprone-reserved-identifier,readability-identifier-naming): one file of a
+// program includes this, which replaces functions of the C library
 // operator new and operator delete of libstdc++ call malloc and free.
 extern "C" {
 void* __libc_malloc(std::size_t);
@@ -121,3 +123,4 @@ int open64(const char* name, int flags, ...) {
 }
 }
 #endif
+// NOLINTEND(misc-definitions-in-headers,bugprone-reserved-identifier,readability-identifier-naming)

@@ -17,7 +17,7 @@ namespace overt::test {
 /// Presses keys and writes down what it shows.
 class DiaryStage final : public SetupStage {
   public:
-    explicit DiaryStage(Clock& clock_) : clock(clock_) {}
+    explicit DiaryStage(Clock& session_clock) : clock(session_clock) {}
     const ScreenGeometry& screen() const override { return geometry; }
     SessionTime show_target(ScreenPoint place, Degrees diameter) override {
         diary.push_back(fmt::format("target {} {} of {}", place.x_px, place.y_px, diameter.value));

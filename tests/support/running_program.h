@@ -47,7 +47,7 @@ class RunningProgram {
 
     pid_t id() const { return pid_; }
 
-    void signal(int number) {
+    void signal(int number) const {
         if (!has_ended_)
             kill(pid_, number);
     }

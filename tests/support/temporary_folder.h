@@ -18,7 +18,7 @@ class TemporaryFolder : public ScratchFolder {
 
     /// Writes a file of that name, in folders that are made for it, and gives its path.
     std::filesystem::path file(const std::string& name, std::string_view content) const {
-        const std::filesystem::path file = path() / name;
+        std::filesystem::path file = path() / name;
         std::filesystem::create_directories(file.parent_path());
         std::ofstream stream(file, std::ios::binary);
         stream.write(content.data(), static_cast<std::streamsize>(content.size()));

@@ -22,7 +22,7 @@ TypeDesc type_desc(PixelType type) {
     return std::ranges::find(types, type, [](const auto& row) { return row.first; })->second;
 }
 
-PixelType value_type(TypeDesc type) {
+PixelType value_type(const TypeDesc& type) {
     const auto* const row = std::ranges::find(types, TypeDesc::BASETYPE(type.basetype),
                                               [](const auto& pair) { return pair.second; });
     return row == std::end(types) ? PixelType::other : row->first;
@@ -111,7 +111,8 @@ class OiioLibrary final : public PictureLibrary {
         spec.alpha_channel = header.alpha_channel;
         for (const auto& [key, value] : header.attributes)
             write_attribute(spec, key, value);
-        // OpenImageIO would write the time of day into an EXR file: the same picture shall have the same bytes.
+        // OpenImageIO would write the time of day into an EXR file: the same picture shall have the same
+        // bytes.
         if (name.ends_with(".exr") && !header.attribute<std::string>("DateTime"))
             spec.attribute("DateTime", "1970:01:01 00:00:00");
         // Into memory: when a disk fills up, libraries of picture formats do not always say so.

@@ -25,7 +25,7 @@ SampleJoin::SampleJoin(const SessionRecord& record, const TrialRecord& trial,
 
 SampleJoin::SampleJoin(const ScreenGeometry& screen, std::optional<ClockMap> clock_map, FlipHistory history,
                        const SurfaceLookup* lookup)
-    : screen_(screen), clock_map_(clock_map), flip_history_(std::move(history)), lookup_(lookup) {}
+    : screen_(screen), clock_map_(std::move(clock_map)), flip_history_(std::move(history)), lookup_(lookup) {}
 
 // Into `joined` field by field: it is large, and copying it would take longer than all of this.
 void SampleJoin::join_time_and_frame(const GazeSample& sample, JoinedSample& joined) const {

@@ -178,7 +178,7 @@ TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lo
 fs::path write_participants(const std::vector<ParticipantRow>& rows, const fs::path& directory,
                             TableFormat format) {
     const RowLayout<ParticipantRow> layout = participants_layout(rows);
-    const fs::path file = participants_file(directory, format);
+    fs::path file = participants_file(directory, format);
     TableText text(layout.table(), format);
     for (const ParticipantRow& row : rows)
         layout.write(text, row);

@@ -438,7 +438,7 @@ class StudyReader {
                 read.trial.fixations = read.fixations.size();
                 for (StudyFixation& fixation : read.fixations) {
                     fixation.trial = index;
-                    results().fixations.push_back(std::move(fixation));
+                    results().fixations.push_back(fixation);
                 }
                 if (!read.trace.points.empty()) {
                     read.trace.trial = index;
@@ -458,7 +458,8 @@ class StudyReader {
             results().session_quality.push_back(quality_of_all(own));
         }
         if (any_both_eyes)
-            results().remarks.push_back("Of binocular recordings the eye that the session names is taken.");
+            results().remarks.emplace_back(
+                "Of binocular recordings the eye that the session names is taken.");
         for (const StudySculpture& sculpture : results().sculptures) {
             if (!sculpture.remark.empty())
                 results().remarks.push_back(sculpture.remark);

@@ -163,7 +163,7 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
             continue;
         if (of.excluded && fixation->counted())
             fixation->why = NotCounted::trial_excluded;
-        read.fixations.push_back(std::move(*fixation));
+        read.fixations.push_back(*fixation);
     }
     return read;
 }

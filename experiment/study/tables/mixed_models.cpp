@@ -14,7 +14,7 @@ namespace overt {
 
 void write_mixed_models(const StudyResults& results, const std::filesystem::path& folder,
                         TableFormat format) {
-    std::string script(embedded::mixed_models_R);
+    std::string script(embedded::mixed_models_r);
     const auto put = [&](std::string_view mark, const std::string& text) {
         const std::size_t at = script.find(mark);
         OVERT_EXPECTS(at != script.npos);

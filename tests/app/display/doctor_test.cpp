@@ -71,6 +71,12 @@ TEST_CASE("a sensor of light at a display that is not there, or a port that is n
     CHECK(run.exit_code == 2);
     CHECK(run.err.find("a sensor has nothing to see of a display that is not there") != std::string::npos);
     CHECK(run.out.empty());
+
+    const auto screen = VirtualScreen::start(640, 360, 24);
+    const ProgramRun none =
+        run_overt({"doctor", "--photodiode", "--sensor", "/dev/null", "--window"}, x_server_alone);
+    CHECK(none.exit_code == 1);
+    CHECK(none.err.find("/dev/null is not a serial port") != std::string::npos);
 }
 
 TEST_CASE("the doctor writes what it found as a page with pictures, and replaces none", "[session]") {

@@ -167,7 +167,7 @@ TEST_CASE("what cannot be presented again is refused with its place and the reme
     const SmallExperiment experiment;
     CHECK_THAT(experiment.overt({"replay", experiment.folder().path().string()}).err,
                Contains("there is no session file here"));
-    CHECK(experiment.overt({"replay", experiment.protocol().string()}).exit_code != 0);
+    CHECK(experiment.overt({"replay", experiment.protocol().string()}).exit_code == 1);
     REQUIRE(experiment.run({"--trials", "1"}).exit_code == 0);
     const fs::path elsewhere = experiment.folder().path() / "moved";
     fs::create_directories(elsewhere);

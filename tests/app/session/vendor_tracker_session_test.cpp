@@ -83,12 +83,12 @@ TEST_CASE("a session with a Tobii whose screen is another, or that is not there,
           "[session]") {
     const SmallExperiment experiment;
     const ProgramRun other = run_with_tobii(experiment, {}, {tobii.front()});
-    CHECK(other.exit_code != 0);
+    CHECK(other.exit_code == 1);
     CHECK_THAT(other.err, Contains("698 x 393 mm") && Contains("272 x 96 mm"));
     std::vector<std::string> none = tobii;
     none.emplace_back("STAND_IN_TOBII_devices=0");
     const ProgramRun absent = run_with_tobii(experiment, {}, none);
-    CHECK(absent.exit_code != 0);
+    CHECK(absent.exit_code == 1);
     CHECK_THAT(absent.err, Contains("No eye tracker of Tobii's is found"));
     CHECK_FALSE(std::filesystem::exists(experiment.session()));
 }

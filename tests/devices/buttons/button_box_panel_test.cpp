@@ -93,7 +93,7 @@ struct Desk {
     std::vector<std::string> told;
     ButtonBoxPanel panel;
 
-    BoxInHand box(Board& board, const char* id, bool is_operators, std::vector<const char*> meanings) {
+    BoxInHand box(Board& board, const char* id, bool is_operators, const std::vector<const char*>& meanings) {
         BoxInHand made{id, is_operators, {}, nullptr};
         for (const char* meaning : meanings)
             made.meanings.push_back(parse_button_meaning(meaning, is_operators));
@@ -101,18 +101,18 @@ struct Desk {
                                                        clock, ThreadedButtonBox::ReadOn::own_thread, 20ms);
         return made;
     }
-    std::vector<BoxInHand> boxes(std::vector<const char*> observers_buttons) {
+    std::vector<BoxInHand> boxes(const std::vector<const char*>& observers_buttons) {
         std::vector<BoxInHand> all;
-        all.push_back(box(observers, "pad", false, std::move(observers_buttons)));
+        all.push_back(box(observers, "pad", false, observers_buttons));
         all.push_back(box(operators, "desk", true, {"A pause", "B yes", "C no", "D 2"}));
         return all;
     }
-    explicit Desk(std::vector<const char*> observers_buttons = {"A answer gold", "B answer silver", "C back",
-                                                                "D yes", "E no"})
-        : panel(boxes(std::move(observers_buttons)), clock, &keyboard,
+    explicit Desk(const std::vector<const char*>& observers_buttons = {"A answer gold", "B answer silver",
+                                                                       "C back", "D yes", "E no"})
+        : panel(boxes(observers_buttons), clock, &keyboard,
                 [this](const std::string& sentence) { told.push_back(sentence); }) {}
 
-    void press(Board& board, int button, bool down = true) {
+    void press(Board& board, int button, bool down = true) const {
         const std::scoped_lock lock(board.mutex);
         board.waiting.push_back({button, down, BoxTime(1234us), clock.now(), 700us});
     }

@@ -166,7 +166,7 @@ TEST_CASE("a reading of the clocks holds also when the first status line is a le
 TEST_CASE("status fields that are switched off on the box are said to be the reason", "[unit]") {
     Bench bench;
     auto display = bench.open();
-    bench.box.mutate = [](std::string line) {
+    bench.box.mutate = [](const std::string& line) {
         return line.find("#sample;") == 0 ? line.substr(0, 40) + "\r" : line;
     };
     CHECK_THAT(message_of([&] { display.read_clocks(); }), Contains("config.xml") && Contains("#sample;"));

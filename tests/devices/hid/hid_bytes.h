@@ -110,7 +110,7 @@ inline std::vector<std::byte> bytes_of(std::initializer_list<int> numbers) {
 
 /// What is on a device's side; outlives its lines.
 struct HidFarEnd {
-    explicit HidFarEnd(VirtualClock& clock_) : clock(clock_) {}
+    explicit HidFarEnd(VirtualClock& session_clock) : clock(session_clock) {}
     VirtualClock& clock;
     struct Arrival {
         SessionTime at;

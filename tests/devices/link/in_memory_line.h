@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 /// The far end of a line. Lives as long as the test, while the transport belongs to what is tested.
 struct FarEnd {
-    explicit FarEnd(VirtualClock& clock_) : clock(clock_) {}
+    explicit FarEnd(VirtualClock& session_clock) : clock(session_clock) {}
 
     VirtualClock& clock;
     std::string port = "/dev/ttyACM0";

@@ -66,7 +66,7 @@ class TcpPeer {
         connection_ = -1;
     }
 
-    void say(std::string_view text, const std::stop_token& stop) {
+    void say(std::string_view text, const std::stop_token& stop) const {
         while (!text.empty() && !stop.stop_requested()) {
             const ssize_t written = send(connection_, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
             if (written > 0)

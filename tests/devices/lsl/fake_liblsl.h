@@ -49,14 +49,14 @@ struct FakeStream {
     };
     std::vector<Pushed> pushed;
 
-    void add_channel(const std::string& label, const std::string& eye, const std::string& type_,
+    void add_channel(const std::string& label, const std::string& eye, const std::string& measured,
                      const std::string& unit, const std::string& coordinate_system = "screen") {
         if (desc.children.empty())
             desc.add("channels");
         FakeXml& channel = desc.children.front().add("channel");
         channel.add("label", label);
         channel.add("eye", eye);
-        channel.add("type", type_);
+        channel.add("type", measured);
         channel.add("unit", unit);
         channel.add("coordinate_system", coordinate_system);
         ++channels;

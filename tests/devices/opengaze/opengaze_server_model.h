@@ -134,7 +134,7 @@ class OpenGazeServerModel {
             points.clear();
         } else if (id == "CALIBRATE_ADDPOINT") {
             if (is_set)
-                points.push_back({*message.number("X"), *message.number("Y")});
+                points.emplace_back(*message.number("X"), *message.number("Y"));
             return fmt::format(" PTS=\"{}\"", points.size());
         } else if (id == "CALIBRATE_START") {
             calibration_begun_s_ = state == "1" ? now_s : -1.0;

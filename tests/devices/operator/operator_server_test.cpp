@@ -264,10 +264,11 @@ TEST_CASE("gaze is told every 4 ms for each eye, with the trial's state before i
     for (std::size_t i = 0; i < 20; ++i) {
         CHECK(all[i].is_right == (i % 2 == 1));
         CHECK(all[i].trial == 2);
-        if (i / 2 == 1)
+        const std::size_t pair = i / 2;
+        if (pair == 1)
             CHECK(!all[i].place);
         else
-            CHECK(all[i].place.value().x_px == 8.0 * static_cast<double>(i / 2));
+            CHECK(all[i].place.value().x_px == 8.0 * static_cast<double>(pair));
     }
     CHECK(server.dropped() == 0);
 }

@@ -1,6 +1,7 @@
 #include "devices/tobii/tobii_calibration.h"
 
 #include <cmath>
+#include <thread>
 
 #include <catch2/catch.hpp>
 

@@ -17,9 +17,10 @@ namespace overt::test {
 /// shifts each row against the one before by that share of a square, which makes the triangles obtuse.
 inline Mesh flat_square(double half, int n, double height = 0.0, double skew = 0.0) {
     Mesh mesh;
+    const int middle = n / 2;
     for (int row = 0; row <= n; ++row) {
         for (int column = 0; column <= n; ++column)
-            mesh.positions.emplace_back(half * (2.0 * (column + skew * (row - n / 2)) / n - 1.0),
+            mesh.positions.emplace_back(half * (2.0 * (column + skew * (row - middle)) / n - 1.0),
                                         half * (2.0 * row / n - 1.0), height);
     }
     const auto at = [n](int row, int column) { return static_cast<std::uint32_t>(row * (n + 1) + column); };

@@ -26,16 +26,17 @@ std::string words(const Verification& found) {
 }
 
 /// Where the rows of one trial and table alone are others, verify must say just so, and which row it is.
-void check_it_is_named(const Verification& found, const AllRows& before,
+/// Whether that was to be checked.
+bool check_it_is_named(const Verification& found, const AllRows& before,
                        const std::optional<AllRows>& after) {
     if (!after)
-        return;
+        return false;
     const auto places = differing(before, *after);
     if (places.size() != 1)
-        return;
+        return false;
     const auto& [table, trial_id] = *places.begin();
     if (table == "seal" || table == "sealed_table")
-        return;
+        return false;
     const auto named = std::find_if(found.damages.begin(), found.damages.end(), [&](const Damage& damage) {
         return damage.table == table && damage.trial_id.value_or(0) == trial_id;
     });
@@ -44,6 +45,7 @@ void check_it_is_named(const Verification& found, const AllRows& before,
     if (now != after->end() && then != before.end() && now->second.size() == then->second.size() &&
         named != found.damages.end())
         CHECK_FALSE(named->row.empty());
+    return true;
 }
 
 } // namespace
@@ -93,6 +95,7 @@ TEST_CASE("one bit turned over anywhere in a closed session is found, with its f
     std::vector<std::string> files = files_of_session(session, true);
     files.push_back(manifest_file_name);
     RandomStream random(1, "flips");
+    int in_rows = 0;
     for (int round = 0; round < 400; ++round) {
         // Half of them in the rows.
         const std::string file = round % 2 == 0
@@ -106,10 +109,11 @@ TEST_CASE("one bit turned over anywhere in a closed session is found, with its f
         REQUIRE_FALSE(found.is_sound());
         REQUIRE(names_file(found, file));
         if (file == session_file_name)
-            check_it_is_named(found, before, read_all_rows(session / session_file_name));
+            in_rows += check_it_is_named(found, before, read_all_rows(session / session_file_name));
         else
             CHECK(found.damages.size() == 1);
     }
+    CHECK(in_rows > 15);
     CHECK(verify_session(session).is_sound());
 }
 
@@ -124,7 +128,7 @@ TEST_CASE("one bit turned over anywhere in a session that was cut off is found, 
     files.push_back(manifest_file_name);
     REQUIRE(files.size() == 5); // protocol, mesh, map and preview of a frame
     RandomStream random(2, "flips");
-    int between_rows = 0;
+    int between_rows = 0, in_rows = 0;
     for (std::size_t round = 0; round < 300; ++round) {
         const std::string file = round % 3 == 0   ? std::string(session_file_name)
                                  : round % 3 == 1 ? log
@@ -144,9 +148,10 @@ TEST_CASE("one bit turned over anywhere in a session that was cut off is found, 
         CHECK(names_file(found, file));
         const std::optional<AllRows> after = read_all_rows(session / session_file_name);
         between_rows += after && differing(before, *after).empty();
-        check_it_is_named(found, before, after);
+        in_rows += check_it_is_named(found, before, after);
     }
     CHECK(between_rows > 20);
+    CHECK(in_rows > 2);
     CHECK(verify_session(session).is_sound());
 }
 
