@@ -56,9 +56,9 @@ void add_screens(std::vector<DoctorFinding>& lines) {
                                                "and the night light off",
                                                monitor.name)
                                  : ""});
-            for (const WireSetting& setting : facts.wire) {
-                const WireVerdict verdict =
-                    judge_wire_setting(setting, OutputMode::color_plus_plus, monitor.name);
+            for (const SignalSetting& setting : facts.signal) {
+                const SignalVerdict verdict =
+                    judge_signal_setting(setting, OutputMode::color_plus_plus, monitor.name);
                 lines.push_back(
                     {"  " + setting.name, setting.value,
                      verdict.is_safe ? "" : "for 16 bits through a display box: " + verdict.finding});

@@ -138,13 +138,13 @@ ScreenFacts facts_of(const WindowContext& window) {
     return {examine_window_system(), window.monitor(),
             window.gamma_ramp(),     window.window_size(),
             window.framebuffer_px(), window.bits_per_channel(),
-            window.is_fullscreen(),  read_wire_settings(window.monitor().name)};
+            window.is_fullscreen(),  read_signal_settings(window.monitor().name)};
 }
 
 ScreenFacts facts_at(const MonitorInfo& monitor, int bits_per_channel) {
     return {
-        examine_window_system(), monitor, gamma_ramp_of(monitor.number),   monitor.size_px, monitor.size_px,
-        bits_per_channel,        true,    read_wire_settings(monitor.name)};
+        examine_window_system(), monitor, gamma_ramp_of(monitor.number),     monitor.size_px, monitor.size_px,
+        bits_per_channel,        true,    read_signal_settings(monitor.name)};
 }
 
 bool is_identity(const std::vector<std::uint16_t>& ramp) {
@@ -167,12 +167,12 @@ std::string describe(const GammaRamp& ramp) {
     return fmt::format("the identity, {} entries", ramp.red.size());
 }
 
-std::vector<ScreenFinding> judge_wire(std::span<const WireSetting> settings, OutputMode mode,
-                                      const std::string& output) {
+std::vector<ScreenFinding> judge_signal(std::span<const SignalSetting> settings, OutputMode mode,
+                                        const std::string& output) {
     const bool is_packed = row_of(mode).is_packed;
     std::vector<ScreenFinding> findings;
-    for (const WireSetting& setting : settings) {
-        WireVerdict verdict = judge_wire_setting(setting, mode, output);
+    for (const SignalSetting& setting : settings) {
+        SignalVerdict verdict = judge_signal_setting(setting, mode, output);
         findings.push_back({verdict.is_safe ? Weight::good
                             : is_packed     ? Weight::refusal
                                             : Weight::risk,
@@ -190,7 +190,7 @@ std::vector<ScreenFinding> judge_screen(const ScreenFacts& facts, const DisplayS
         place_finding(facts, display),  size_finding(facts, display), rate_finding(facts, display),
         depth_finding(facts, display),  scaling_finding(facts),       gamma_finding(facts, display),
         linearisation_finding(display), latency_finding(display),     system_finding(facts)};
-    for (ScreenFinding& finding : judge_wire(facts.wire, display.output, facts.monitor.name))
+    for (ScreenFinding& finding : judge_signal(facts.signal, display.output, facts.monitor.name))
         findings.push_back(std::move(finding));
     return findings;
 }

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "experiment/protocol/protocol.h"
+#include "render/window/signal_settings.h"
 #include "render/window/window_context.h"
 #include "render/window/window_system.h"
-#include "render/window/wire_settings.h"
 
 namespace overt {
 
@@ -22,7 +22,7 @@ struct ScreenFacts {
     glm::ivec2 framebuffer_px{0}; ///< in pixels
     int bits_per_channel = 8;
     bool is_fullscreen = false;
-    std::vector<WireSetting> wire = {}; ///< empty: the driver tells none
+    std::vector<SignalSetting> signal = {}; ///< empty: the driver tells none
 };
 ScreenFacts facts_of(const WindowContext& window);
 
@@ -42,8 +42,8 @@ struct ScreenFinding {
 /// Of settings that the driver applies to the bytes in the cable, one for each. What changes them is refused
 /// where the bytes are packed and a risk elsewhere; so is it that nothing is known of them where they are
 /// packed. `output`: MonitorInfo::name.
-std::vector<ScreenFinding> judge_wire(std::span<const WireSetting> settings, OutputMode mode,
-                                      const std::string& output);
+std::vector<ScreenFinding> judge_signal(std::span<const SignalSetting> settings, OutputMode mode,
+                                        const std::string& output);
 
 /// Weighs the facts for a session in real time with this display. One finding for each thing looked at.
 std::vector<ScreenFinding> judge_screen(const ScreenFacts& facts, const DisplaySettings& display);

@@ -11,7 +11,7 @@
 namespace {
 
 /// Each file of a corpus, whole and damaged. Gives their number.
-int replay_wire(const char* target, void (*take)(std::string_view)) {
+int replay_messages(const char* target, void (*take)(std::string_view)) {
     int files = 0;
     const auto corpus = std::filesystem::path(OVERT_SOURCE_DIR) / "tests/fuzz/corpus" / target;
     for (const auto& entry : std::filesystem::directory_iterator(corpus)) {
@@ -28,6 +28,6 @@ int replay_wire(const char* target, void (*take)(std::string_view)) {
 } // namespace
 
 TEST_CASE("no damage to what a tracker on the network says does any harm", "[unit]") {
-    CHECK(replay_wire("opengaze", overt::test::take_any_opengaze) > 0);
-    CHECK(replay_wire("pupil", overt::test::take_any_pupil) > 0);
+    CHECK(replay_messages("opengaze", overt::test::take_any_opengaze) > 0);
+    CHECK(replay_messages("pupil", overt::test::take_any_pupil) > 0);
 }

@@ -90,7 +90,7 @@ TEST_CASE("a simulated display goes through OpenGL and the photometer into a fil
     CHECK(text_of(folder / "d.toml") != before);
 }
 
-TEST_CASE("an experiment runs on a characterised display: checked, verified on the wire, and on record",
+TEST_CASE("an experiment runs on a characterised display: checked, verified in the signal, and on record",
           "[session]") {
     const SmallExperiment experiment(
         with(small_protocol, "background = 0.1", "background_cd_m2 = 12\ncharacterisation = \"d.toml\""));

@@ -109,7 +109,7 @@ int decoded(const std::vector<std::byte>& canvas, int screen_width, int x, int y
 
 } // namespace
 
-TEST_CASE("the 16 bits of PNG, TIFF and EXR frames arrive on the wire, bit for bit", "[gl]") {
+TEST_CASE("the 16 bits of PNG, TIFF and EXR frames arrive in the signal, bit for bit", "[gl]") {
     const TemporaryFolder folder;
     write_frames(folder.path() / "frames");
     Diagnostics diagnostics;

@@ -30,7 +30,7 @@ ScreenFacts sound() {
     facts.monitor.refresh_hz = 120;
     facts.gamma_ramp = ramp(256);
     facts.is_fullscreen = true;
-    facts.wire = {{"max bpc", "8"}, {"Broadcast RGB", "Full"}};
+    facts.signal = {{"max bpc", "8"}, {"Broadcast RGB", "Full"}};
     return facts;
 }
 

@@ -3,23 +3,23 @@
 
 #include <fmt/format.h>
 
-#include "render/window/wire_settings.h"
+#include "render/window/signal_settings.h"
 
 namespace overt {
 namespace {
 
-using Source = WireSetting::Source;
+using Source = SignalSetting::Source;
 
 /// A setting that may change bytes: the one value with which it does not, what it does else, and what
 /// nvidia-settings is told to have it safe.
-struct WireRule {
+struct SignalRule {
     Source source;
     std::string_view name, safe, does;
     std::string_view assignment = {};
 };
 
 // xrandr writes a matrix of CTM as pairs of 32 bits, the lower first: 1 is "0 1".
-constexpr WireRule rules[] = {
+constexpr SignalRule rules[] = {
     {Source::randr, "Broadcast RGB", "Full",
      "the range of values may be squeezed into 16 to 235, as television wants it"},
     {Source::randr, "output_csc", "bypass", "the driver turns red, green and blue into other colours"},
@@ -42,7 +42,7 @@ std::string quoted(std::string_view name) {
     return name.find(' ') == std::string_view::npos ? std::string(name) : fmt::format("\"{}\"", name);
 }
 
-std::string command_for(const WireRule& rule, const std::string& output) {
+std::string command_for(const SignalRule& rule, const std::string& output) {
     if (rule.source == Source::nvidia)
         return fmt::format("nvidia-settings -a '[dpy:{}]/{}'", output, rule.assignment);
     if (rule.source == Source::randr_crtc)
@@ -54,7 +54,7 @@ std::string command_for(const WireRule& rule, const std::string& output) {
     return fmt::format("xrandr --output {} --set {} {}", output, quoted(rule.name), value);
 }
 
-WireVerdict judge_depth(const WireSetting& setting, OutputMode mode, const std::string& output) {
+SignalVerdict judge_depth(const SignalSetting& setting, OutputMode mode, const std::string& output) {
     const int bits = row_of(mode).framebuffer_bits;
     const std::string wanted = fmt::format("{}", bits);
     if (setting.value == wanted)
@@ -66,14 +66,15 @@ WireVerdict judge_depth(const WireSetting& setting, OutputMode mode, const std::
 
 } // namespace
 
-WireVerdict judge_wire_setting(const WireSetting& setting, OutputMode mode, const std::string& output) {
+SignalVerdict judge_signal_setting(const SignalSetting& setting, OutputMode mode, const std::string& output) {
     if (setting.source == Source::randr && setting.name == "max bpc")
         return judge_depth(setting, mode, output);
     if (setting.source == Source::nvidia && setting.name == "nvidia-settings")
         return {false, "does not answer: colour range and dithering are not known; apt-get install "
                        "nvidia-settings"};
-    const WireRule* const rule = std::ranges::find_if(
-        rules, [&](const WireRule& one) { return one.source == setting.source && one.name == setting.name; });
+    const SignalRule* const rule = std::ranges::find_if(rules, [&](const SignalRule& one) {
+        return one.source == setting.source && one.name == setting.name;
+    });
     if (rule == std::end(rules) || setting.value == rule->safe)
         return {true, setting.value};
     return {false, fmt::format("{}: {}; {}", setting.value, rule->does, command_for(*rule, output))};

@@ -1,4 +1,4 @@
-#include "render/window/wire_settings.h"
+#include "render/window/signal_settings.h"
 
 #include <algorithm>
 #include <array>
@@ -104,8 +104,8 @@ bool is_identity(const xcb_render_transform_t& matrix) {
            matrix.matrix33 == one;
 }
 
-void add_crtc_settings(xcb_connection_t* link, xcb_randr_crtc_t crtc, std::vector<WireSetting>& settings) {
-    using enum WireSetting::Source;
+void add_crtc_settings(xcb_connection_t* link, xcb_randr_crtc_t crtc, std::vector<SignalSetting>& settings) {
+    using enum SignalSetting::Source;
     if (const auto info = owned(xcb_randr_get_crtc_info_reply(
             link, xcb_randr_get_crtc_info(link, crtc, XCB_CURRENT_TIME), nullptr)))
         settings.push_back({"rotation", rotation_word(info->rotation), randr_crtc});
@@ -117,27 +117,28 @@ void add_crtc_settings(xcb_connection_t* link, xcb_randr_crtc_t crtc, std::vecto
 
 } // namespace
 
-std::vector<WireSetting> read_nvidia_settings(const std::string& output, const std::string& program) {
-    std::vector<WireSetting> settings;
+std::vector<SignalSetting> read_nvidia_settings(const std::string& output, const std::string& program) {
+    std::vector<SignalSetting> settings;
     for (const char* const name : {"ColorRange", "ColorSpace", "CurrentDithering"}) {
         const std::optional<std::string> answer =
             program_answer({program, "-t", "-q", fmt::format("[dpy:{}]/{}", output, name)});
         if (!answer)
-            return {{"nvidia-settings", "does not answer", WireSetting::Source::nvidia}};
+            return {{"nvidia-settings", "does not answer", SignalSetting::Source::nvidia}};
         const std::size_t end = answer->find_first_of("\r\n");
-        settings.push_back({name, answer->substr(0, end), WireSetting::Source::nvidia});
+        settings.push_back({name, answer->substr(0, end), SignalSetting::Source::nvidia});
     }
     return settings;
 }
 
-std::vector<WireSetting> read_wire_settings(const std::string& output, const std::string& nvidia_settings) {
+std::vector<SignalSetting> read_signal_settings(const std::string& output,
+                                                const std::string& nvidia_settings) {
     const XcbLink link = link_to(nullptr);
     if (!begin_randr(link.get()))
         return {};
     const std::optional<FoundOutput> found = output_called(link.get(), output);
     if (!found)
         return {};
-    std::vector<WireSetting> settings;
+    std::vector<SignalSetting> settings;
     if (found->crtc != 0)
         add_crtc_settings(link.get(), found->crtc, settings);
     if (const auto properties = owned(xcb_randr_list_output_properties_reply(
@@ -148,10 +149,10 @@ std::vector<WireSetting> read_wire_settings(const std::string& output, const std
         for (const xcb_atom_t atom : atoms)
             if (auto value = value_of(link.get(), found->output, atom))
                 settings.push_back(
-                    {text_of(link.get(), atom), *std::move(value), WireSetting::Source::randr});
+                    {text_of(link.get(), atom), *std::move(value), SignalSetting::Source::randr});
     }
     if (has_extension(link.get(), "NV-CONTROL")) {
-        const std::vector<WireSetting> more = read_nvidia_settings(output, nvidia_settings);
+        const std::vector<SignalSetting> more = read_nvidia_settings(output, nvidia_settings);
         settings.insert(settings.end(), more.begin(), more.end());
     }
     return settings;

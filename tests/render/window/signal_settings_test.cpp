@@ -1,4 +1,4 @@
-#include "render/window/wire_settings.h"
+#include "render/window/signal_settings.h"
 
 #include <algorithm>
 #include <cstring>
@@ -15,24 +15,24 @@
 using namespace overt;
 using namespace overt::test;
 using Catch::Matchers::Contains;
-using Source = WireSetting::Source;
+using Source = SignalSetting::Source;
 using Weight = ScreenFinding::Weight;
 
 namespace {
 
 constexpr OutputMode packed = OutputMode::color_plus_plus;
 
-std::string value_of(const std::vector<WireSetting>& settings, const std::string& name) {
-    const auto found = std::ranges::find(settings, name, &WireSetting::name);
+std::string value_of(const std::vector<SignalSetting>& settings, const std::string& name) {
+    const auto found = std::ranges::find(settings, name, &SignalSetting::name);
     return found == settings.end() ? "(none)" : found->value;
 }
 
-Weight weight_of(const WireSetting& setting, OutputMode mode = packed) {
-    return judge_wire(std::vector{setting}, mode, "DP-1").front().weight;
+Weight weight_of(const SignalSetting& setting, OutputMode mode = packed) {
+    return judge_signal(std::vector{setting}, mode, "DP-1").front().weight;
 }
 
-std::string finding_of(const WireSetting& setting) {
-    return judge_wire(std::vector{setting}, packed, "DP-1").front().finding;
+std::string finding_of(const SignalSetting& setting) {
+    return judge_signal(std::vector{setting}, packed, "DP-1").front().finding;
 }
 
 } // namespace
@@ -41,10 +41,10 @@ TEST_CASE("the settings of an output's driver are read from the server, each in 
     const auto desk = TwoMonitors::start();
     if (!desk)
         OVERT_SKIP("no Xorg with the dummy driver (packages.txt), or it may not be started here");
-    CHECK(value_of(read_wire_settings("DUMMY1"), "rotation") == "normal");
-    CHECK(value_of(read_wire_settings("DUMMY1"), "transformation") == "none");
-    CHECK(value_of(read_wire_settings("DUMMY1"), "max bpc") == "(none)");
-    CHECK(read_wire_settings("DP-7").empty());
+    CHECK(value_of(read_signal_settings("DUMMY1"), "rotation") == "normal");
+    CHECK(value_of(read_signal_settings("DUMMY1"), "transformation") == "none");
+    CHECK(value_of(read_signal_settings("DUMMY1"), "max bpc") == "(none)");
+    CHECK(read_signal_settings("DP-7").empty());
 
     OutputProperties driver("DUMMY1");
     driver.put_numbers("max bpc", {12});
@@ -53,27 +53,27 @@ TEST_CASE("the settings of an output's driver are read from the server, each in 
     driver.put_numbers("CTM", identity);
     driver.put_numbers("GAMMA_LUT", std::vector<std::int32_t>(256, 7)); // a table is no setting
     driver.put_numbers("below zero", {-3});
-    const std::vector<WireSetting> settings = read_wire_settings("DUMMY1");
+    const std::vector<SignalSetting> settings = read_signal_settings("DUMMY1");
     CHECK(value_of(settings, "max bpc") == "12");
     CHECK(value_of(settings, "Broadcast RGB") == "Limited 16:235");
     CHECK(value_of(settings, "CTM") == "0 1 0 0 0 0 0 0 0 1 0 0 0 0 0 0 0 1");
     CHECK(value_of(settings, "GAMMA_LUT") == "(none)");
     CHECK(value_of(settings, "below zero") == "-3");
-    CHECK(value_of(read_wire_settings("DUMMY0"), "max bpc") == "(none)"); // the other monitor's own
+    CHECK(value_of(read_signal_settings("DUMMY0"), "max bpc") == "(none)"); // the other monitor's own
 
-    const std::vector<ScreenFinding> findings = judge_wire(settings, packed, "DUMMY1");
+    const std::vector<ScreenFinding> findings = judge_signal(settings, packed, "DUMMY1");
     CHECK_THROWS_WITH(refuse_spoilt_screen(findings),
                       Contains("xrandr --output DUMMY1 --set \"max bpc\" 8") &&
                           Contains("xrandr --output DUMMY1 --set \"Broadcast RGB\" Full") &&
                           !Contains("CTM"));
     // The command that is given mends it.
     REQUIRE(TwoMonitors::xrandr("--output DUMMY1 --set \"max bpc\" 8"));
-    CHECK(value_of(read_wire_settings("DUMMY1"), "max bpc") == "8");
+    CHECK(value_of(read_signal_settings("DUMMY1"), "max bpc") == "8");
 }
 
 TEST_CASE("what changes bytes is refused where they are packed, and is a risk elsewhere", "[unit]") {
     struct Case {
-        WireSetting safe;
+        SignalSetting safe;
         std::string unsafe, command;
     };
     const Case cases[] = {
@@ -95,7 +95,7 @@ TEST_CASE("what changes bytes is refused where they are packed, and is a risk el
     for (const Case& one : cases) {
         CAPTURE(one.safe.name);
         CHECK(weight_of(one.safe) == Weight::good);
-        const WireSetting unsafe{one.safe.name, one.unsafe, one.safe.source};
+        const SignalSetting unsafe{one.safe.name, one.unsafe, one.safe.source};
         CHECK(weight_of(unsafe) == Weight::refusal);
         CHECK(weight_of(unsafe, OutputMode::native_8bit) == Weight::risk);
         CHECK_THAT(finding_of(unsafe), Contains(one.unsafe) && Contains(one.command));
@@ -103,8 +103,8 @@ TEST_CASE("what changes bytes is refused where they are packed, and is a risk el
     CHECK(weight_of({"audio", "auto"}) == Weight::good);
     CHECK(weight_of({"max bpc", "10"}, OutputMode::native_10bit) == Weight::good);
     CHECK(weight_of({"max bpc", "8"}, OutputMode::native_10bit) == Weight::risk);
-    CHECK(judge_wire({}, packed, "DP-1").front().weight == Weight::risk);
-    CHECK(judge_wire({}, OutputMode::native_8bit, "DP-1").empty());
+    CHECK(judge_signal({}, packed, "DP-1").front().weight == Weight::risk);
+    CHECK(judge_signal({}, OutputMode::native_8bit, "DP-1").empty());
 }
 
 TEST_CASE("NVIDIA's settings are asked of its own program, and its silence is told", "[unit]") {
@@ -120,12 +120,12 @@ TEST_CASE("NVIDIA's settings are asked of its own program, and its silence is to
                               "esac\n";
     std::filesystem::permissions(program, std::filesystem::perms::owner_all);
     CHECK(read_nvidia_settings("DP-4", program) ==
-          std::vector<WireSetting>{{"ColorRange", "1", Source::nvidia},
-                                   {"ColorSpace", "0", Source::nvidia},
-                                   {"CurrentDithering", "0", Source::nvidia}});
+          std::vector<SignalSetting>{{"ColorRange", "1", Source::nvidia},
+                                     {"ColorSpace", "0", Source::nvidia},
+                                     {"CurrentDithering", "0", Source::nvidia}});
     for (const auto& [output, asked] :
          {std::pair{"DP-5", program.string()}, std::pair{"DP-4", std::string("no-such-program-here")}}) {
-        const std::vector<WireSetting> none = read_nvidia_settings(output, asked);
+        const std::vector<SignalSetting> none = read_nvidia_settings(output, asked);
         REQUIRE(none.size() == 1);
         CHECK(weight_of(none.front()) == Weight::refusal);
         CHECK_THAT(finding_of(none.front()), Contains("apt-get install nvidia-settings"));

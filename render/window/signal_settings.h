@@ -10,7 +10,7 @@
 namespace overt {
 
 /// One setting of an output, as the driver has it now.
-struct WireSetting {
+struct SignalSetting {
     enum class Source : std::uint8_t {
         randr,      ///< a property of the output
         randr_crtc, ///< what xrandr --rotate and --transform set
@@ -18,7 +18,7 @@ struct WireSetting {
     };
     std::string name, value; ///< numbers of an array stand apart by a blank
     Source source = Source::randr;
-    bool operator==(const WireSetting&) const = default;
+    bool operator==(const SignalSetting&) const = default;
 };
 
 /// All settings of an output, named as in MonitorInfo::name ("DP-1"), with its rotation and transformation;
@@ -26,15 +26,15 @@ struct WireSetting {
 /// colour space and dithering. Blocks of bytes, such as the EDID, and tables of more than 18 numbers are left
 /// out. Asks the server that DISPLAY names, over a connection of its own; empty where it tells nothing. Waits
 /// for NVIDIA's program 5 s at most. Never throws.
-std::vector<WireSetting> read_wire_settings(const std::string& output,
-                                            const std::string& nvidia_settings = "nvidia-settings");
+std::vector<SignalSetting> read_signal_settings(const std::string& output,
+                                                const std::string& nvidia_settings = "nvidia-settings");
 
 /// What is asked of NVIDIA's program. A program that does not answer gives one setting, "nvidia-settings",
 /// whose value says so. Never throws.
-std::vector<WireSetting> read_nvidia_settings(const std::string& output, const std::string& program);
+std::vector<SignalSetting> read_nvidia_settings(const std::string& output, const std::string& program);
 
 /// How a setting is, for a mode of the output.
-struct WireVerdict {
+struct SignalVerdict {
     bool is_safe = true;
     std::string finding; ///< the value, and where it is not safe what it does and the command that mends it
 };
@@ -42,6 +42,6 @@ struct WireVerdict {
 /// Of settings that change no byte: nothing is known against them. Property names and values: RandR
 /// properties of the Linux kernel's drivers (documentation "KMS properties"), of xf86-video-amdgpu and of
 /// nouveau; those of NVIDIA's driver are from memory of its README, and untried on its hardware.
-WireVerdict judge_wire_setting(const WireSetting& setting, OutputMode mode, const std::string& output);
+SignalVerdict judge_signal_setting(const SignalSetting& setting, OutputMode mode, const std::string& output);
 
 } // namespace overt
