@@ -1,4 +1,4 @@
-# overt_room(USES rooms… [LINKS libraries…] [EMBEDS header texts…] [APART patterns…] [COLD]): a folder of the program is
+# overt_room(USES rooms… [LINKS libraries…] [EMBEDS header texts…] [APART patterns…] [HOT]): a folder of the program is
 # a room, and a room is a library of the .cpp files that lie in it, not of those in folders below it. USES names the rooms
 # whose headers it may include; what those use, it may include too. A room can only use what was declared before it, so
 # arrows cannot run in a circle. LINKS are libraries that only its own .cpp files see. EMBEDS puts text files into a header
@@ -8,8 +8,8 @@
 # Any two of them can meet, in which case the words of their unnamed namespaces are common: what two files need is written
 # once, in a header. APART names files that are alike on purpose, a kind of thing each, and files with types that the linker
 # must not see; they are compiled alone.
-# COLD rooms are those whose work is never waited for (commands, keys, checks, talk with devices): compiled
-# with -O1, which takes a compiler two thirds of the time.
+# HOT rooms are those whose loops someone waits for (meshes, maps, light, statistics, reading and writing records): compiled
+# with all optimisation (Effort.cmake).
 #
 # A room's target is its folder with underscores: experiment/record/asc is overt_experiment_record_asc.
 set(OVERT_UNITY 6 CACHE STRING "How many files of a room are compiled together; 0: each alone")
@@ -26,7 +26,7 @@ function(overt_compile_together target)
 endfunction()
 
 function(overt_room room)
-    cmake_parse_arguments(PARSE_ARGV 1 ROOM "COLD" "" "USES;LINKS;EMBEDS;APART")
+    cmake_parse_arguments(PARSE_ARGV 1 ROOM "HOT" "" "USES;LINKS;EMBEDS;APART")
     if(ROOM_UNPARSED_ARGUMENTS)
         message(FATAL_ERROR "${room}: not understood: ${ROOM_UNPARSED_ARGUMENTS}")
     endif()
@@ -46,9 +46,10 @@ function(overt_room room)
     if(ROOM_EMBEDS)
         overt_embed_text(${target} ${ROOM_EMBEDS})
     endif()
-    overt_precompile(${target})
-    if(ROOM_COLD)
-        target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    if(ROOM_HOT)
+        overt_compile_with(${target} hot)
+    else()
+        overt_compile_with(${target} plain)
     endif()
     overt_compile_together(${target})
     foreach(pattern IN LISTS ROOM_APART)

@@ -1,1 +1,1 @@
-// Owns the precompiled header; see Precompiled.cmake.
+// Owns the precompiled header; see Effort.cmake.

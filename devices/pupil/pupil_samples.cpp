@@ -12,11 +12,11 @@ constexpr double pupil_reach_s = 0.034;
 
 } // namespace
 
-PupilSamples::PupilSamples(Eye eye, bool both_eyes, const SurfacePlace& surface,
+PupilSamples::PupilSamples(Eye eye, bool both_eyes, const SurfaceOnScreen& surface,
                            double least_confidence) noexcept
     : eye_(eye), both_eyes_(both_eyes), surface_(surface), least_confidence_(least_confidence) {}
 
-PupilSamples::PupilSamples(const TrackerWish& wish, const SurfacePlace& surface,
+PupilSamples::PupilSamples(const TrackerWish& wish, const SurfaceOnScreen& surface,
                            double least_confidence) noexcept
     : PupilSamples(wish.eye, wish.both_eyes, surface, least_confidence) {}
 

@@ -10,7 +10,7 @@
 namespace overt {
 
 /// Where a surface lies on the screen.
-struct SurfacePlace {
+struct SurfaceOnScreen {
     ScreenPoint top_left;
     double width_px = 0.0, height_px = 0.0;
     /// `place`: share of the surface with y upward.
@@ -23,7 +23,7 @@ struct SurfacePlace {
 class PupilSamples {
   public:
     /// Gaze of less confidence is lost.
-    PupilSamples(const TrackerWish& wish, const SurfacePlace& surface, double least_confidence) noexcept;
+    PupilSamples(const TrackerWish& wish, const SurfaceOnScreen& surface, double least_confidence) noexcept;
 
     void begin() noexcept { *this = PupilSamples(eye_, both_eyes_, surface_, least_confidence_); }
 
@@ -39,12 +39,12 @@ class PupilSamples {
     TrackerTime last_time() const noexcept { return last_time_; }
 
   private:
-    PupilSamples(Eye eye, bool both_eyes, const SurfacePlace& surface, double least_confidence) noexcept;
+    PupilSamples(Eye eye, bool both_eyes, const SurfaceOnScreen& surface, double least_confidence) noexcept;
     void put_eye(Eye eye, const SurfaceGaze& gaze, bool is_its_own, TrackerItemSink& sink) const noexcept;
 
     Eye eye_;
     bool both_eyes_;
-    SurfacePlace surface_;
+    SurfaceOnScreen surface_;
     double least_confidence_;
     std::array<std::optional<PupilDatum>, 2> pupils_; ///< left, right
     TrackerTime last_time_{};

@@ -69,7 +69,7 @@ TrackerDescription PupilTracker::connect(const TrackerWish& wish) {
     description.sample_rate_hz = measure_rate();
     description.eye = wish.eye;
     description.both_eyes = wish.both_eyes;
-    const SurfacePlace whole{{0.0, 0.0},
+    const SurfaceOnScreen whole{{0.0, 0.0},
                              static_cast<double>(wish.screen.screen_px.x),
                              static_cast<double>(wish.screen.screen_px.y)};
     samples_.emplace(wish, settings_.surface_place.value_or(whole), settings_.least_confidence);

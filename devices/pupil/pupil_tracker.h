@@ -21,7 +21,7 @@ struct PupilSettings {
     /// The surface that Pupil Capture knows by its markers, and where it lies on the screen; nothing: it is
     /// the whole screen.
     std::string surface = "screen";
-    std::optional<SurfacePlace> surface_place;
+    std::optional<SurfaceOnScreen> surface_place;
     /// Gaze and pupils of less confidence are lost (0 … 1). Pupil Capture's own plugins use 0.6.
     double least_confidence = 0.6;
     /// Whether Pupil Capture records, too, from the first recording of the session to its end.

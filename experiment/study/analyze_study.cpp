@@ -97,7 +97,7 @@ SculptureMaps maps_of_sculpture(const StudyResults& results, int sculpture, Scul
     const StudySculpture& shown = results.sculptures[static_cast<std::size_t>(sculpture)];
     const auto [least, widest] = sigma_range_mm(results, sculpture);
     SculptureMaps made;
-    std::optional<MapMaker> maker;
+    std::optional<DensityMaker> maker;
     if (surface.geometry && surface.scale && widest > 0.0) {
         if (HatSmoother::is_worth_while(*surface.geometry, least))
             surface.hats = std::make_unique<HatSmoother>(*surface.geometry, least, widest);

@@ -10,14 +10,14 @@
 
 namespace overt {
 
-MapMaker::MapMaker(const SculptureSurface& surface, const Mesh& mesh, const StudyOptions& options,
+DensityMaker::DensityMaker(const SculptureSurface& surface, const Mesh& mesh, const StudyOptions& options,
                    double widest_sigma_mm)
     : surface_(surface), mesh_(mesh), kernel_(options.kernel) {
     if (kernel_ == MapKernel::geodesic && !surface.hats)
         smoother_ = std::make_unique<SurfaceSmoother>(*surface.geometry, widest_sigma_mm);
 }
 
-std::vector<std::vector<double>> MapMaker::densities(std::span<const std::vector<SurfaceWeight>> maps) const {
+std::vector<std::vector<double>> DensityMaker::densities(std::span<const std::vector<SurfaceWeight>> maps) const {
     if (kernel_ == MapKernel::geodesic)
         return surface_.hats ? surface_.hats->densities(maps) : smoother_->densities(maps);
     std::vector<std::vector<double>> made(maps.size());
@@ -34,7 +34,7 @@ std::vector<std::vector<double>> MapMaker::densities(std::span<const std::vector
     return made;
 }
 
-std::vector<double> MapMaker::in_voxels(std::span<const SurfaceWeight> weights) const {
+std::vector<double> DensityMaker::in_voxels(std::span<const SurfaceWeight> weights) const {
     std::vector<double> density(mesh_.positions.size(), 0.0);
     double all = 0.0, sigma_mm = 0.0;
     for (const SurfaceWeight& weight : weights) {
@@ -101,7 +101,7 @@ double weight_in(MapWeighting weighting, const StudyFixation& fixation) {
 } // namespace
 
 std::vector<float> exposure_density(const StudyResults& results, int of, const SculptureSurface& surface,
-                                    const MapMaker& maker, const StudyOptions& options) {
+                                    const DensityMaker& maker, const StudyOptions& options) {
     const StudySculpture& sculpture = results.sculptures[static_cast<std::size_t>(of)];
     const auto [least, widest] = sigma_range_mm(results, of);
     const double all = std::accumulate(surface.pixel_seconds.begin(), surface.pixel_seconds.end(), 0.0);
@@ -161,7 +161,7 @@ void finish_map(StudyMap& map, const std::vector<double>& density, std::span<con
 } // namespace
 
 std::vector<StudyMap> maps_on(const StudyResults& results, int sculpture, const SculptureSurface& surface,
-                              const MapMaker* maker) {
+                              const DensityMaker* maker) {
     const StudySculpture& shown = results.sculptures[static_cast<std::size_t>(sculpture)];
     std::vector<StudyMap> maps;
     std::vector<std::vector<SurfaceWeight>> weights;

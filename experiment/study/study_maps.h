@@ -15,11 +15,11 @@
 namespace overt {
 
 /// Makes densities on one sculpture's mesh with the kernel that the options name.
-class MapMaker {
+class DensityMaker {
   public:
     /// `surface` must have a geometry and a scale, and outlive this, as `mesh` must; its hats are used if it
     /// has them. `widest_sigma_mm` > 0.
-    MapMaker(const SculptureSurface& surface, const Mesh& mesh, const StudyOptions& options,
+    DensityMaker(const SculptureSurface& surface, const Mesh& mesh, const StudyOptions& options,
              double widest_sigma_mm);
 
     /// Density by vertex in weight per mm^2 for each of the maps. Sigmas: those of counted fixations.
@@ -49,10 +49,10 @@ std::pair<double, double> sigma_range_mm(const StudyResults& results, int sculpt
 
 /// The exposure's density by vertex of one sculpture; empty without one.
 std::vector<float> exposure_density(const StudyResults& results, int of, const SculptureSurface& surface,
-                                    const MapMaker& maker, const StudyOptions& options);
+                                    const DensityMaker& maker, const StudyOptions& options);
 
 /// The maps of all groups on one sculpture, by duration and by count. May be called from any thread.
 std::vector<StudyMap> maps_on(const StudyResults& results, int sculpture, const SculptureSurface& surface,
-                              const MapMaker* maker);
+                              const DensityMaker* maker);
 
 } // namespace overt

@@ -141,9 +141,9 @@ void DisplayEncoder::encode_background(glm::ivec2 size_px, std::span<std::byte> 
         encode_row(row, size_px.x, into.data() + static_cast<std::size_t>(y) * stride);
 }
 
-ColourTable DisplayEncoder::colour_table() const {
+SignalColourTable DisplayEncoder::colour_table() const {
     const std::vector<LevelTable> tables = channel_tables(display_, 65535);
-    ColourTable colours{};
+    SignalColourTable colours{};
     for (std::size_t i = 0; i < colours.size(); ++i) {
         for (std::size_t channel = 0; channel < 3; ++channel)
             colours[i][channel] = static_cast<std::uint16_t>(

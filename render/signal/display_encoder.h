@@ -45,7 +45,7 @@ class DisplayEncoder {
     void encode_background(glm::ivec2 size_px, std::span<std::byte> into) const;
 
     /// The table of colours of Bits++: light of index i / 255, as 16 bits of each channel.
-    ColourTable colour_table() const;
+    SignalColourTable colour_table() const;
 
   private:
     using Row = std::vector<glm::dvec3>;

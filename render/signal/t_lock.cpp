@@ -39,7 +39,7 @@ constexpr int digital_output_group = 2;
 
 namespace t_lock {
 
-ColourTableRow row_of(const ColourTable& table) noexcept {
+ColourTableRow row_of(const SignalColourTable& table) noexcept {
     ColourTableRow row;
     row.fill(black);
     std::copy(colour_table_key.begin(), colour_table_key.end(), row.begin());

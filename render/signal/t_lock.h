@@ -15,7 +15,7 @@ namespace overt {
 using SignalPixel = std::array<std::uint8_t, 4>;
 
 /// The 16-bit colours that the 256 indices of Bits++ stand for.
-using ColourTable = std::array<std::array<std::uint16_t, 3>, 256>;
+using SignalColourTable = std::array<std::array<std::uint16_t, 3>, 256>;
 
 namespace t_lock {
 
@@ -39,7 +39,7 @@ struct Packet {
 };
 
 /// Key, four black pixels, and each entry as a pixel of high and one of low bytes.
-ColourTableRow row_of(const ColourTable& table) noexcept;
+ColourTableRow row_of(const SignalColourTable& table) noexcept;
 
 /// Key, the number of words less one in blue, then address, high and low byte in every second pixel.
 PacketRow row_of(const Packet& packet) noexcept;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <numeric>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -81,6 +82,27 @@ std::vector<std::string> wrong_includes(const Rooms& rooms, const std::string& f
     return wrong;
 }
 
+/// The types that a header defines outside of others, with the namespaces that they are in. Namespaces are not
+/// indented here, and what is within a type is.
+std::vector<std::string> types_defined_in(const std::string& text) {
+    const std::regex line(R"re(^(?:namespace ([\w:]+) \{|(\} // namespace)|)re"
+                          R"re((?:template <.*> )?(?:struct|class|enum class|enum|union) (?:alignas\(.*\) )?(\w+)\b(?!::| *;)|)re"
+                          R"re(using (\w+) =))re",
+                          std::regex::multiline);
+    std::vector<std::string> spaces, types;
+    for (auto match = std::sregex_iterator(text.begin(), text.end(), line); match != std::sregex_iterator();
+         ++match) {
+        if ((*match)[1].matched)
+            spaces.push_back((*match)[1].str() + "::");
+        else if ((*match)[2].matched)
+            spaces.pop_back();
+        else
+            types.push_back(std::accumulate(spaces.begin(), spaces.end(), std::string()) +
+                            ((*match)[3].matched ? (*match)[3] : (*match)[4]).str());
+    }
+    return types;
+}
+
 std::string source_of(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
@@ -118,6 +140,29 @@ TEST_CASE("render/ and devices/ never see each other, and nobody sees app/", "[u
                 CHECK(used.starts_with("experiment"));
         }
     }
+}
+
+// Two types of one name in one program share what the linker makes for them, such as a vector of them.
+TEST_CASE("no two headers of the program define a type of the same name", "[unit]") {
+    const fs::path root(OVERT_SOURCE_DIR);
+    std::map<std::string, std::string> header_of;
+    for (const char* const top : {"experiment", "render", "devices", "app"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+            if (entry.path().extension() != ".h")
+                continue;
+            const std::string file = entry.path().lexically_relative(root).generic_string();
+            for (const std::string& type : types_defined_in(source_of(entry.path()))) {
+                CAPTURE(type, file);
+                CHECK(header_of.try_emplace(type, file).first->second == file);
+            }
+        }
+    }
+    CHECK(header_of.size() > 500);
+    CHECK(header_of.contains("overt::Error"));
+    CHECK(types_defined_in("namespace a {\nstruct B {\n    struct Inner {};\n};\nclass Later;\nnamespace c {\n"
+                           "template <class T> class D final : public B {};\n} // namespace c\n"
+                           "enum class E : int { one };\nusing F = int;\n} // namespace a\n") ==
+          std::vector<std::string>{"a::B", "a::c::D", "a::E", "a::F"});
 }
 
 TEST_CASE("an include that points the wrong way is found", "[unit]") {

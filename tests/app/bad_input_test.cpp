@@ -191,7 +191,7 @@ TEST_CASE("no protocol, a folder, or a mesh instead of a protocol are refused", 
 
 TEST_CASE("observers, sessions and folders that cannot be are refused before anything is drawn",
           "[session]") {
-    const SmallExperiment experiment;
+    const SmallExperiment experiment(Cache::own);
     check_says(experiment.run({"--observer", "anna"}), 2, {"anna", "no number at its end", "anna01"});
     check_says(experiment.run({"--observer", "../P01"}), 2, {"../P01", "letters and digits only"});
     check_says(experiment.run({"--session", "0"}), 2, {"'0' is not a number above 0"});

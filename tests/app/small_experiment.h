@@ -109,17 +109,45 @@ inline Mesh tall_bust() {
     return mesh;
 }
 
-/// A cache that stays from one run of the tests to the next, for tests of what the shipped sculptures are
-/// needed for: making one takes seven seconds of a processor. What is in it is named by what made it.
-inline std::filesystem::path lasting_cache() {
+/// A folder that stays from one run of the tests to the next.
+inline std::filesystem::path lasting_folder() {
     return std::filesystem::path(OVERT_PROGRAM).parent_path().parent_path() / "tests/cache";
 }
 
-/// Its protocol and meshes in a folder of their own, with a place for sessions, and a cache there or
-/// elsewhere.
+/// A cache that stays, for tests of what the shipped sculptures are needed for: making one takes seven seconds
+/// of a processor. What is in it is named by what made it.
+inline std::filesystem::path lasting_cache() { return lasting_folder(); }
+
+/// A cache that stays until the program is built again: the stimuli of small experiments, made by this program
+/// and looked at by the tests of many things. Those that test how stimuli are made take a cache of their own.
+inline std::filesystem::path shared_cache() {
+    static const std::filesystem::path folder = [] {
+        namespace fs = std::filesystem;
+        const std::string begin = "made_by_";
+        const fs::path ours = lasting_folder() /
+                              (begin + std::to_string(fs::last_write_time(OVERT_PROGRAM).time_since_epoch().count()));
+        if (!fs::exists(ours) && fs::exists(lasting_folder())) {
+            for (const fs::directory_entry& entry : fs::directory_iterator(lasting_folder()))
+                if (entry.path().filename().string().starts_with(begin))
+                    fs::remove_all(entry.path());
+        }
+        fs::create_directories(ours);
+        return ours;
+    }();
+    return folder;
+}
+
+/// Whether a small experiment begins with an empty cache, which goes with it.
+enum class Cache { shared, own };
+
+/// Its protocol and meshes in a folder of their own, with a place for sessions.
 class SmallExperiment {
   public:
-    explicit SmallExperiment(std::string_view protocol = small_protocol, std::filesystem::path cache = {})
+    explicit SmallExperiment(std::string_view protocol = small_protocol, Cache cache = Cache::shared)
+        : SmallExperiment(protocol, cache == Cache::shared ? shared_cache() : std::filesystem::path()) {}
+    explicit SmallExperiment(Cache cache) : SmallExperiment(small_protocol, cache) {}
+    /// `cache`: where it is; empty: its own.
+    SmallExperiment(std::string_view protocol, std::filesystem::path cache)
         : cache_(cache.empty() ? folder_.path() / "cache" : std::move(cache)) {
         folder_.file("small.toml", protocol);
         std::filesystem::create_directories(folder_.path() / "meshes");

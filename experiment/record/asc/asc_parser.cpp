@@ -166,7 +166,7 @@ void AscParser::eye_event_end(std::string_view line, Kind kind) {
     event.duration = duration_of(duration, event.end - event.start);
     const auto take_place = [&](std::optional<ScreenPoint>& into) {
         const std::string_view x = words.next(), y = words.next();
-        const Place place = place_of(x, y);
+        const AscPoint place = place_of(x, y);
         into = format_.events_are_gaze ? place.point : std::nullopt;
         return place.is_valid;
     };

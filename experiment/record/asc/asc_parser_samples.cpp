@@ -50,7 +50,7 @@ void AscParser::sample_line(std::string_view line) {
                      : format_.has_left ? Eye::left
                                         : Eye::right;
         const std::string_view x = words.next(), y = words.next(), pupil_word = words.next();
-        const Place place = place_of(x, y);
+        const AscPoint place = place_of(x, y);
         const std::optional<double> pupil = is_missing(pupil_word) ? 0.0 : number_of(pupil_word);
         if (!place.is_valid || !pupil || std::abs(*pupil) > largest_pupil)
             return refuse(pupil_word.empty() ? "a sample without all its values"

@@ -14,13 +14,13 @@ namespace overt {
 inline constexpr double largest_coordinate_px = 32000.0;
 
 /// A place, nothing where it is missing, or an error.
-struct Place {
+struct AscPoint {
     bool is_valid = false;
     std::optional<ScreenPoint> point;
 };
 
 /// Of the words of its two coordinates; missing are also those beyond the largest.
-inline Place place_of(std::string_view x, std::string_view y) {
+inline AscPoint place_of(std::string_view x, std::string_view y) {
     if (is_missing(x) || is_missing(y))
         return {(is_missing(x) || number_of(x)) && (is_missing(y) || number_of(y)), std::nullopt};
     const std::optional<double> x_px = number_of(x), y_px = number_of(y);

@@ -19,7 +19,7 @@ namespace {
 
 using Kind = GazeEvent::Kind;
 
-struct PhysioEvent : EventRow {
+struct PhysioEvent : TrackerEventRow {
     bool is_of_eye;
     std::optional<bool> has_blink; ///< of a saccade: whether a blink lies in it
 };
@@ -64,7 +64,7 @@ RowLayout<PhysioEvent> physio_events_layout() {
             {{"message", "Text sent to the tracker or by it; BUTTON and INPUT are its own ports"},
              [](auto& row) { return when(!row.is_of_eye, message_of(row.event)); }},
         }};
-    layout.add<EventRow>(event_value_columns("pixel", "arbitrary"));
+    layout.add<TrackerEventRow>(event_value_columns("pixel", "arbitrary"));
     return layout;
 }
 

@@ -26,19 +26,19 @@ std::string_view detector_of(const GazeEventRow& row) {
 
 } // namespace
 
-std::vector<RowLayout<EventRow>::Column> event_value_columns(const std::string& pixels,
+std::vector<RowLayout<TrackerEventRow>::Column> event_value_columns(const std::string& pixels,
                                                              const std::string& of_pupil) {
     using Place = std::optional<ScreenPoint> GazeEvent::*;
     using Number = std::optional<double> GazeEvent::*;
     const auto coordinate = [](Place place, double ScreenPoint::*axis) {
-        return [=](const EventRow& row) {
+        return [=](const TrackerEventRow& row) {
             return of_maybe(row.event.*place, [axis](auto& point) {
                 return Fixed{point.*axis, pixel_decimals};
             });
         };
     };
     const auto number = [](Number value, int decimals) {
-        return [=](const EventRow& row) { return Fixed{row.event.*value, decimals}; };
+        return [=](const TrackerEventRow& row) { return Fixed{row.event.*value, decimals}; };
     };
     return {
         {{"x_px", "Mean place of a fixation, start of a saccade, to the right", pixels},
@@ -97,7 +97,7 @@ RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins) {
              tracker_us_of(&GazeEvent::start)},
             {{"tracker_end_us", "end_s by the tracker's own clock", "us"}, tracker_us_of(&GazeEvent::end)},
         }};
-    layout.add<EventRow>(event_value_columns("px", "the tracker's own unit"));
+    layout.add<TrackerEventRow>(event_value_columns("px", "the tracker's own unit"));
     layout.add<GazeEventRow>({
         {{"text", "Words and numbers of what is no fixation, saccade or blink"},
          [](auto& row) { return row.event.text; }},

@@ -11,15 +11,15 @@
 namespace overt {
 
 /// A row that is of an event of the tracker's.
-struct EventRow {
+struct TrackerEventRow {
     const GazeEvent& event;
 };
 
 /// Its places, pupil, size and speed; the same in each kind of export, but for the words of its units.
-std::vector<RowLayout<EventRow>::Column> event_value_columns(const std::string& pixels,
+std::vector<RowLayout<TrackerEventRow>::Column> event_value_columns(const std::string& pixels,
                                                              const std::string& of_pupil);
 
-struct GazeEventRow : EventRow {
+struct GazeEventRow : TrackerEventRow {
     int trial; ///< from 1; 0: outside of trials
     const std::optional<ClockMap>& clock_map;
     SessionRecord::EventOrigin::From origin; ///< of fixations, saccades and blinks

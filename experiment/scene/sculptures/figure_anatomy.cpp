@@ -7,8 +7,8 @@ namespace overt {
 namespace {
 
 /// Sections given in head heights.
-std::vector<Section> scaled(std::vector<Section> sections, double head_mm, double breadth = 1.0) {
-    for (Section& s : sections) {
+std::vector<LoftSection> scaled(std::vector<LoftSection> sections, double head_mm, double breadth = 1.0) {
+    for (LoftSection& s : sections) {
         s.half_side *= head_mm * breadth;
         s.half_front *= head_mm * breadth;
         s.side_shift *= head_mm;
@@ -17,7 +17,7 @@ std::vector<Section> scaled(std::vector<Section> sections, double head_mm, doubl
     return sections;
 }
 
-std::vector<Section> trunk_sections(bool is_woman) {
+std::vector<LoftSection> trunk_sections(bool is_woman) {
     if (is_woman)
         return {{0.0, 0.44, 0.33, 0, 0.0},     {0.13, 0.60, 0.40, 0, -0.01}, {0.24, 0.585, 0.385, 0, -0.01},
                 {0.42, 0.43, 0.315, 0, 0.0},   {0.56, 0.485, 0.345, 0, 0},   {0.70, 0.53, 0.37, 0, 0.0},

@@ -15,8 +15,8 @@ using Values = std::array<double, 4>; // half side, half front, side shift, fron
 /// Natural cubic spline through four numbers at once.
 class SectionSpline {
   public:
-    explicit SectionSpline(const std::vector<Section>& sections) {
-        for (const Section& s : sections) {
+    explicit SectionSpline(const std::vector<LoftSection>& sections) {
+        for (const LoftSection& s : sections) {
             along_.push_back(s.along);
             values_.push_back({s.half_side, s.half_front, s.side_shift, s.front_shift});
         }
@@ -71,7 +71,7 @@ constexpr double bound_suffices_mm = 45.0;
 
 class Loft {
   public:
-    Loft(const LoftAxis& axis, const std::vector<Section>& sections, double cap, double reach)
+    Loft(const LoftAxis& axis, const std::vector<LoftSection>& sections, double cap, double reach)
         : axis_(axis), curve_{axis.start, axis.control, axis.end}, spline_(sections), cap_(cap),
           reach_(reach) {
         const glm::dvec3 natural =
@@ -127,11 +127,11 @@ class Loft {
 
 } // namespace
 
-Shape loft(const LoftAxis& axis, const std::vector<Section>& sections, double cap) {
+Shape loft(const LoftAxis& axis, const std::vector<LoftSection>& sections, double cap) {
     Ball ball{axis.start, 0.0};
     double farthest = 0.0;
     const QuadraticCurve curve{axis.start, axis.control, axis.end};
-    for (const Section& s : sections) {
+    for (const LoftSection& s : sections) {
         // Splines may swing a little beyond the sections.
         const double reach =
             1.15 * std::max(s.half_side, s.half_front) + std::hypot(s.side_shift, s.front_shift);

@@ -10,7 +10,7 @@
 namespace overt {
 
 /// An elliptical section of a loft.
-struct Section {
+struct LoftSection {
     double along;             ///< share of the axis, 0 at its start, 1 at its end
     double half_side;         ///< mm
     double half_front;        ///< mm
@@ -34,6 +34,6 @@ struct LoftAxis {
 /// The solid through at least three sections, in ascending order from 0 to 1. Between them all five numbers
 /// run as natural cubic splines, so the surface has continuous curvature. Ends are rounded; `cap` is the
 /// height of the rounding relative to the end section's lesser half axis.
-Shape loft(const LoftAxis& axis, const std::vector<Section>& sections, double cap = 0.7);
+Shape loft(const LoftAxis& axis, const std::vector<LoftSection>& sections, double cap = 0.7);
 
 } // namespace overt

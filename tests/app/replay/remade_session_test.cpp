@@ -9,7 +9,7 @@ using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 TEST_CASE("of a session in real time all is made again that does not come from devices", "[session][waits]") {
-    const SmallExperiment experiment;
+    const SmallExperiment experiment(Cache::own);
     REQUIRE(experiment.overt(run_arguments(experiment, "P01", {"--trials", "2"})).exit_code == 0);
     fs::remove_all(experiment.cache());
     const ProgramRun run = replay(experiment);

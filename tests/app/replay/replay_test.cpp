@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 TEST_CASE("a session with faults, broken off and resumed, is presented again and comes out the same",
           "[session]") {
-    const SmallExperiment experiment(full_protocol());
+    const SmallExperiment experiment(full_protocol(), Cache::own);
     const std::string faults =
         experiment.folder()
             .file("faults.toml", std::string(faults_of_both) + std::string(an_unplugged_tracker))

@@ -43,7 +43,7 @@ TEST_CASE("gaze on a surface of tags is gaze on the screen between their black b
     CHECK_FALSE(pupil_settings_of(protocol).surface_place);
     protocol.display.output = OutputMode::native_8bit;
     protocol.display.tags_px = 200;
-    const std::optional<SurfacePlace> place = pupil_settings_of(protocol).surface_place;
+    const std::optional<SurfaceOnScreen> place = pupil_settings_of(protocol).surface_place;
     REQUIRE(place);
     const ScreenPoint top_right = place->on_screen({1.0, 1.0}), middle = place->on_screen({0.5, 0.5}),
                       bottom_left = place->on_screen({0.0, 0.0});

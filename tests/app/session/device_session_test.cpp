@@ -32,9 +32,9 @@ std::string little_endian(std::uint32_t value) {
 }
 
 /// An RB-730 of Cedrus, and what the cable told it.
-class Desk {
+class CedrusBox {
   public:
-    Desk()
+    CedrusBox()
         : cable_(std::make_unique<TerminalDevice>(
               cable_line_.master(),
               [this](std::string_view bytes, double now_s) { return told(bytes, now_s); })),
@@ -110,7 +110,7 @@ class Desk {
     std::unique_ptr<TerminalDevice> cable_, box_; ///< after what they use
 };
 
-std::string protocol_with(const Desk& desk) {
+std::string protocol_with(const CedrusBox& cedrus) {
     return fmt::format(R"({}
 [[button_box]]
 id = "pad"
@@ -136,7 +136,7 @@ kind = "t-lock"
 codes = ["onset 1"]
 refresh_codes = ["60 4"]
 )",
-                       small_protocol, desk.box_port(), desk.cable_port(), OVERT_FAKE_LIBLSL);
+                       small_protocol, cedrus.box_port(), cedrus.cable_port(), OVERT_FAKE_LIBLSL);
 }
 
 /// Runs two trials, calling `meanwhile` every few milliseconds.
@@ -157,8 +157,8 @@ int run_two_trials(const SmallExperiment& experiment, const std::filesystem::pat
 
 TEST_CASE("a box answers and a cable is told, and both are in the record and in every export",
           "[session][waits]") {
-    Desk desk;
-    const SmallExperiment experiment(protocol_with(desk));
+    CedrusBox cedrus;
+    const SmallExperiment experiment(protocol_with(cedrus));
     const std::filesystem::path said = experiment.folder().path() / "said";
     const int code = run_two_trials(experiment, said, [] {});
     INFO(text_of(said));
@@ -172,12 +172,12 @@ TEST_CASE("a box answers and a cable is told, and both are in the record and in 
         expected.insert(expected.end(),
                         {trial_code, onset_code + (trial.trial.condition.material == 1 ? matt_adds : 0),
                          end_code, response_code, result_code});
-    CHECK(desk.codes() == expected);
+    CHECK(cedrus.codes() == expected);
 
     // The presses, by the box's own clock, are the answers.
     const std::vector<RecordedButton> buttons = record.button_changes();
     REQUIRE(buttons.size() == 4);
-    REQUIRE(desk.presses_ms().size() == 2);
+    REQUIRE(cedrus.presses_ms().size() == 2);
     for (std::size_t i = 0; i < 2; ++i) {
         const TrialRecord& trial = record.trials()[i];
         const RecordedButton& down = buttons[2 * i];
@@ -187,7 +187,7 @@ TEST_CASE("a box answers and a cable is told, and both are in the record and in 
         CHECK(down.name == "2");
         CHECK(down.meaning == "answer right");
         CHECK(down.attempt_id == trial.id);
-        CHECK(down.device_time == BoxTime(std::chrono::milliseconds(desk.presses_ms()[i])));
+        CHECK(down.device_time == BoxTime(std::chrono::milliseconds(cedrus.presses_ms()[i])));
         CHECK(trial.outcome.responded_at == down.at);
         CHECK(trial.outcome.answer == "right");
         CHECK(trial.response_box == "pad");
@@ -232,7 +232,7 @@ TEST_CASE("a box answers and a cable is told, and both are in the record and in 
     REQUIRE(button_table.size() == 4);
     CHECK(button_table.text(0, "change") == "down");
     CHECK(button_table.text(0, "used_by") == "observer");
-    CHECK(button_table.integer(0, "device_time_us") == 1000L * desk.presses_ms()[0]);
+    CHECK(button_table.integer(0, "device_time_us") == 1000L * cedrus.presses_ms()[0]);
     CHECK(marker_table.size() == record.markers().size());
     CHECK(responses.text(0, "answer") == "right");
     CHECK(responses.text(0, "response_box") == "pad");
@@ -252,14 +252,14 @@ TEST_CASE("a box answers and a cable is told, and both are in the record and in 
 }
 
 TEST_CASE("a box that is unplugged in a trial is data, and the session goes on", "[session][waits]") {
-    Desk desk;
-    const SmallExperiment experiment(protocol_with(desk));
+    CedrusBox cedrus;
+    const SmallExperiment experiment(protocol_with(cedrus));
     const std::filesystem::path said = experiment.folder().path() / "said";
     bool is_gone = false;
     const int code = run_two_trials(experiment, said, [&] {
-        const std::vector<int> codes = desk.codes();
+        const std::vector<int> codes = cedrus.codes();
         if (!is_gone && std::ranges::any_of(codes, [](int one) { return one % matt_adds == onset_code; })) {
-            desk.unplug_box();
+            cedrus.unplug_box();
             is_gone = true;
         }
     });

@@ -10,7 +10,7 @@ using namespace overt;
 using namespace overt::test;
 
 TEST_CASE("the same seeds export the same bytes, other seeds do not", "[session]") {
-    const SmallExperiment experiment;
+    const SmallExperiment experiment(Cache::own);
     REQUIRE(experiment.run().exit_code == 0);
     // Drawn anew: nothing comes from the cache of the first.
     std::filesystem::remove_all(experiment.cache());
@@ -54,7 +54,7 @@ TEST_CASE("another simulated observer looks elsewhere in the same order of trial
 TEST_CASE("sessions drawn with OSMesa and with EGL in software export the same bytes", "[session]") {
     if (!make_headless_context(ContextKind::egl)->description().is_software)
         OVERT_SKIP("EGL draws with a graphics processor here");
-    const SmallExperiment experiment;
+    const SmallExperiment experiment(Cache::own);
     // Mesa's EGL library keeps memory until the end of the process, and is unloaded before leaks are looked
     // for.
     const std::vector<std::string> lenient{"ASAN_OPTIONS=detect_leaks=0"};
@@ -65,7 +65,7 @@ TEST_CASE("sessions drawn with OSMesa and with EGL in software export the same b
 }
 
 TEST_CASE("maps drawn live and maps drawn before give the same gaze on the surface", "[session]") {
-    const SmallExperiment experiment;
+    const SmallExperiment experiment(Cache::own);
     REQUIRE(experiment.run({"--maps", "prepared"}).exit_code == 0);
     std::filesystem::remove_all(experiment.cache());
     REQUIRE(experiment.run({"--maps", "live"}).exit_code == 0);

@@ -18,7 +18,7 @@ using namespace overt;
 using namespace overt::test;
 
 TEST_CASE("exported frames, given back as ready-made ones, are the same light", "[session]") {
-    const SmallExperiment experiment(traced_protocol());
+    const SmallExperiment experiment(traced_protocol(), Cache::own);
     const std::filesystem::path folder = experiment.folder().path();
     REQUIRE(bake(experiment,
                  {"--quality", "draft", "--only", "bust/smooth", "--out", (folder / "display").string()})
@@ -63,7 +63,7 @@ TEST_CASE("exported frames, given back as ready-made ones, are the same light", 
 }
 
 TEST_CASE("an exported frame names its channels and everything that made it", "[session]") {
-    const SmallExperiment experiment(traced_protocol());
+    const SmallExperiment experiment(traced_protocol(), Cache::own);
     const std::filesystem::path out = experiment.folder().path() / "out";
     const std::vector<std::string> wish{"--quality", "draft", "--only", "tall/matt", "--frames", "2-3"};
     const auto with_more = [&](std::vector<std::string> more) {
@@ -117,7 +117,7 @@ TEST_CASE("an exported frame names its channels and everything that made it", "[
 
 TEST_CASE("a PNG has the light over the background in 16 bits, and says what it clipped", "[session]") {
     const SmallExperiment experiment(
-        with(traced_protocol(), "[animation]\n", "[light]\nexposure = 4\n[animation]\n"));
+        with(traced_protocol(), "[animation]\n", "[light]\nexposure = 4\n[animation]\n"), Cache::own);
     const std::filesystem::path out = experiment.folder().path() / "out";
     const std::vector<std::string> wish{"--quality", "draft", "--only", "bust/smooth",
                                         "--frames",  "0",     "--out",  (out / "p").string(),
@@ -148,7 +148,7 @@ TEST_CASE("a PNG has the light over the background in 16 bits, and says what it 
 }
 
 TEST_CASE("frames for other programs keep 16 bits; half floats are made on request only", "[session]") {
-    const SmallExperiment experiment(traced_protocol());
+    const SmallExperiment experiment(traced_protocol(), Cache::own);
     const std::filesystem::path out = experiment.folder().path() / "out";
     const auto wish = [&](const char* folder, std::vector<std::string> more) {
         more.insert(more.end(), {"--quality", "draft", "--only", "bust/matt", "--frames", "0", "--out",
@@ -178,7 +178,7 @@ TEST_CASE("frames for other programs keep 16 bits; half floats are made on reque
 }
 
 TEST_CASE("nothing that was made otherwise is replaced unless it is said", "[session]") {
-    const SmallExperiment experiment(traced_protocol());
+    const SmallExperiment experiment(traced_protocol(), Cache::own);
     const std::string out = (experiment.folder().path() / "out").string();
     const std::vector<std::string> wish{"--only", "bust/matt", "--frames",  "1",
                                         "--out",  out,         "--quality", "draft"};
@@ -200,7 +200,7 @@ TEST_CASE("nothing that was made otherwise is replaced unless it is said", "[ses
 }
 
 TEST_CASE("sheet and strip are pictures of all that was asked for", "[session]") {
-    const SmallExperiment experiment(traced_protocol());
+    const SmallExperiment experiment(traced_protocol(), Cache::own);
     const std::filesystem::path folder = experiment.folder().path();
     const ProgramRun run =
         bake(experiment, {"--quality", "preview", "--sheet", (folder / "sheet.png").string()});

@@ -18,7 +18,7 @@ using namespace overt;
 using namespace overt::test;
 
 TEST_CASE("the shards of a bake, joined, are the whole, bit for bit", "[session]") {
-    const SmallExperiment experiment(traced_protocol());
+    const SmallExperiment experiment(traced_protocol(), Cache::own);
     const std::filesystem::path whole = experiment.folder().path() / "whole",
                                 joined = experiment.folder().path() / "joined";
     CHECK(bake(experiment, {"--quality", "draft"}, whole).exit_code == 0);
@@ -37,7 +37,7 @@ TEST_CASE("the shards of a bake, joined, are the whole, bit for bit", "[session]
 }
 
 TEST_CASE("a bake that is killed goes on with what it had, to the same frames", "[session]") {
-    const SmallExperiment experiment(traced_protocol());
+    const SmallExperiment experiment(traced_protocol(), Cache::own);
     const std::filesystem::path whole = experiment.folder().path() / "whole",
                                 killed = experiment.folder().path() / "killed";
     const std::vector<std::string> wish{"--quality", "draft", "--samples", "200"};
@@ -85,7 +85,7 @@ TEST_CASE("a bake that is killed goes on with what it had, to the same frames", 
 }
 
 TEST_CASE("Ctrl-C ends a bake between two frames and says how to go on", "[session]") {
-    const SmallExperiment experiment(traced_protocol());
+    const SmallExperiment experiment(traced_protocol(), Cache::own);
     const std::filesystem::path said = experiment.folder().path() / "said";
     RunningProgram program(
         {"bake", experiment.protocol().string(), "--context", "osmesa", "--samples", "2000"},
@@ -104,7 +104,7 @@ TEST_CASE("Ctrl-C ends a session's preparation with what was rendered, and the s
           "[session]") {
     // Previews of many poses take longer than it takes to look for the first.
     const SmallExperiment experiment(
-        with(traced_protocol(), "width_px = 40\nheight_px = 48\n", "width_px = 160\nheight_px = 160\n"));
+        with(traced_protocol(), "width_px = 40\nheight_px = 48\n", "width_px = 160\nheight_px = 160\n"), Cache::own);
     const std::filesystem::path said = experiment.folder().path() / "said";
     const std::vector<std::string> arguments{"run",
                                              experiment.protocol().string(),
@@ -143,7 +143,7 @@ TEST_CASE("a disk that takes no more ends a bake with what it had, whole", "[ses
 #if defined(__SANITIZE_THREAD__)
     OVERT_SKIP("the thread sanitizer's own files do not fit into such a limit");
 #endif
-    const SmallExperiment experiment(traced_protocol());
+    const SmallExperiment experiment(traced_protocol(), Cache::own);
     // The maps are there; frames of noise are larger than the limit on files.
     REQUIRE(bake(experiment, {"--quality", "preview"}).exit_code == 0);
     const auto before = files_below(experiment.cache() / "frames");
@@ -162,7 +162,7 @@ TEST_CASE("a disk that takes no more ends a bake with what it had, whole", "[ses
 
 TEST_CASE("a bake on a real disk that fills up keeps what is finished, and goes on when there is room",
           "[session]") {
-    const SmallExperiment experiment(traced_protocol());
+    const SmallExperiment experiment(traced_protocol(), Cache::own);
     const std::filesystem::path whole = experiment.folder().path() / "whole",
                                 disk_folder = experiment.folder().path() / "disk",
                                 said = experiment.folder().path() / "said";
@@ -193,7 +193,7 @@ TEST_CASE("a bake on a real disk that fills up keeps what is finished, and goes 
 }
 
 TEST_CASE("a bake that makes no sense is refused before anything is rendered", "[session]") {
-    const SmallExperiment experiment(traced_protocol());
+    const SmallExperiment experiment(traced_protocol(), Cache::own);
     const auto refusal = [&](const std::vector<std::string>& more, const std::string& reason) {
         const ProgramRun run = bake(experiment, more);
         INFO(run.err);
@@ -219,14 +219,14 @@ TEST_CASE("a bake that makes no sense is refused before anything is rendered", "
     refusal({"--out", file.string()}, "is no folder");
     CHECK(files_below(experiment.cache() / "frames").empty());
     const SmallExperiment dark(
-        with(traced_protocol(), "[animation]\n", "[light]\nprobe = \"no.exr\"\n[animation]\n"));
+        with(traced_protocol(), "[animation]\n", "[light]\nprobe = \"no.exr\"\n[animation]\n"), Cache::own);
     const ProgramRun run = bake(dark, {});
     CHECK(run.exit_code == 2);
     CHECK(run.err.find("there is no file") != std::string::npos);
 }
 
 TEST_CASE("a session takes the best quality that is there of all stimuli, and records it", "[session]") {
-    const SmallExperiment experiment(traced_protocol());
+    const SmallExperiment experiment(traced_protocol(), Cache::own);
     const ProgramRun first = experiment.run({"--trials", "1"});
     INFO(first.err);
     CHECK(first.exit_code == 0);
@@ -246,7 +246,7 @@ TEST_CASE("a session takes the best quality that is there of all stimuli, and re
 
 TEST_CASE("a session that asks for more than is there is refused, with what to do", "[session]") {
     const SmallExperiment experiment(
-        with(traced_protocol(), "[tracker]\n", "[bake]\nquality = \"standard\"\n[tracker]\n"));
+        with(traced_protocol(), "[tracker]\n", "[bake]\nquality = \"standard\"\n[tracker]\n"), Cache::own);
     const ProgramRun refused = experiment.run({"--trials", "1"});
     CHECK(refused.exit_code == 2);
     CHECK(refused.err.find("run `overt bake") != std::string::npos);
@@ -262,7 +262,7 @@ TEST_CASE("a session that asks for more than is there is refused, with what to d
 }
 
 TEST_CASE("a look at one frame renders one preview, a look at another one more", "[session]") {
-    const SmallExperiment experiment(traced_protocol());
+    const SmallExperiment experiment(traced_protocol(), Cache::own);
     const auto look = [&](const std::string& frame) {
         return experiment.overt({"play", experiment.protocol().string(), "--stimulus", "bust/matt", "--frame",
                                  frame, "--picture", (experiment.folder().path() / "p.png").string()});
@@ -288,7 +288,7 @@ TEST_CASE("a person is not shown previews unless somebody says so", "[session]")
                                  experiment.sessions().string()},
                                 x_server_alone);
     };
-    const SmallExperiment experiment(text);
+    const SmallExperiment experiment(text, Cache::own);
     const ProgramRun run = refused(experiment);
     INFO(run.err);
     CHECK(run.exit_code == 2);

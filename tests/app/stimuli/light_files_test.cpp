@@ -14,7 +14,7 @@ using namespace overt::test;
 
 TEST_CASE("a session keeps the light of its stimuli, as their frames have it", "[session]") {
     // Of 40 x 48 pixels, so that a square is one of them.
-    const SmallExperiment experiment(traced_protocol());
+    const SmallExperiment experiment(traced_protocol(), Cache::own);
     const fs::path out = experiment.folder().path() / "out";
     REQUIRE(
         bake(experiment, {"--quality", "draft", "--only", "bust/smooth", "--out", out.string()}).exit_code ==
@@ -57,7 +57,7 @@ TEST_CASE("a session keeps the light of its stimuli, as their frames have it", "
 TEST_CASE(
     "of ready-made frames without alpha no light is kept, for what they show of the object is not known",
     "[session]") {
-    const SmallExperiment experiment(traced_protocol());
+    const SmallExperiment experiment(traced_protocol(), Cache::own);
     const fs::path folder = experiment.folder().path();
     REQUIRE(bake(experiment, {"--quality", "draft"}).exit_code == 0);
     for (const auto& [name, more] : {std::pair<std::string, std::string>{"png", "--png16"}, {"exr", ""}}) {

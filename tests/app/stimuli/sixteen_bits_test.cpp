@@ -53,7 +53,7 @@ glm::dvec3 predicted(std::span<const float> light, double share, const glm::dmat
 
 TEST_CASE("every level of a ramp comes through film, cache, frame store and encoder within one code",
           "[gl]") {
-    const SmallExperiment files(ramp_protocol());
+    const SmallExperiment files(ramp_protocol(), Cache::own);
     Diagnostics diagnostics;
     const auto experiment =
         read_experiment(files.protocol(), files.cache(), InputDepth::sculptures, diagnostics);

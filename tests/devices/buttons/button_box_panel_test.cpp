@@ -85,7 +85,7 @@ class KeyPanel final : public ResponsePanel {
     std::optional<ResponsePress> next;
 };
 
-struct Desk {
+struct AnsweringDevices {
     SteadyClock clock;
     Board observers, operators;
     KeyPanel keyboard;
@@ -107,7 +107,7 @@ struct Desk {
         all.push_back(box(operators, "desk", true, {"A pause", "B yes", "C no", "D 2"}));
         return all;
     }
-    explicit Desk(const std::vector<const char*>& observers_buttons = {"A answer gold", "B answer silver",
+    explicit AnsweringDevices(const std::vector<const char*>& observers_buttons = {"A answer gold", "B answer silver",
                                                                        "C back", "D yes", "E no"})
         : panel(boxes(observers_buttons), clock, &keyboard,
                 [this](const std::string& sentence) { told.push_back(sentence); }) {}
@@ -148,20 +148,20 @@ struct Desk {
 } // namespace
 
 TEST_CASE("a press at a box answers with its own time and words, and is recorded with both edges", "[unit]") {
-    Desk desk;
-    desk.panel.entered(SessionPhase::response_screen, 4);
-    desk.panel.await_response({}, desk.clock.now());
-    desk.press(desk.observers, 1);
-    desk.press(desk.observers, 1, false);
-    desk.press(desk.observers, 6); // that means nothing
-    const auto press = desk.said();
+    AnsweringDevices devices;
+    devices.panel.entered(SessionPhase::response_screen, 4);
+    devices.panel.await_response({}, devices.clock.now());
+    devices.press(devices.observers, 1);
+    devices.press(devices.observers, 1, false);
+    devices.press(devices.observers, 6); // that means nothing
+    const auto press = devices.said();
     REQUIRE(press);
     CHECK(press->key == Key::next);
-    CHECK(desk.panel.answer() == "silver");
-    CHECK(desk.says_nothing());
-    desk.panel.write_down(desk.log);
-    REQUIRE(desk.log.all.size() == 3);
-    const RecordedButton& down = desk.log.all[0];
+    CHECK(devices.panel.answer() == "silver");
+    CHECK(devices.says_nothing());
+    devices.panel.write_down(devices.log);
+    REQUIRE(devices.log.all.size() == 3);
+    const RecordedButton& down = devices.log.all[0];
     CHECK(down.at == press->pressed_at);
     CHECK(down.uncertainty == 700us);
     CHECK(down.device_time == BoxTime(1234us));
@@ -170,135 +170,135 @@ TEST_CASE("a press at a box answers with its own time and words, and is recorded
     CHECK(down.name == "B");
     CHECK(down.meaning == "answer silver");
     CHECK(down.is_down);
-    CHECK_FALSE(desk.log.all[1].is_down);
-    CHECK(desk.log.all[2].meaning.empty());
+    CHECK_FALSE(devices.log.all[1].is_down);
+    CHECK(devices.log.all[2].meaning.empty());
 
     // A key that answers after all is the keyboard's answer.
-    desk.panel.await_response({}, desk.clock.now());
-    desk.keyboard.next = ResponsePress{Key::next, desk.clock.now(), 0};
-    CHECK(desk.said());
-    CHECK(desk.panel.answer() == "typed");
+    devices.panel.await_response({}, devices.clock.now());
+    devices.keyboard.next = ResponsePress{Key::next, devices.clock.now(), 0};
+    CHECK(devices.said());
+    CHECK(devices.panel.answer() == "typed");
 }
 
 TEST_CASE("neither answers for the other", "[unit]") {
-    Desk desk;
+    AnsweringDevices devices;
     // The operator's question: the observer's yes is none, nor is any other of their buttons.
-    desk.panel.await_decision(false, desk.clock.now());
+    devices.panel.await_decision(false, devices.clock.now());
     for (int button = 0; button < 5; ++button)
-        desk.press(desk.observers, button);
-    CHECK(desk.says_nothing());
-    desk.press(desk.operators, 1);
-    CHECK(desk.said()->key == Key::yes);
-    desk.press(desk.operators, 3);
-    const auto reason = desk.said();
+        devices.press(devices.observers, button);
+    CHECK(devices.says_nothing());
+    devices.press(devices.operators, 1);
+    CHECK(devices.said()->key == Key::yes);
+    devices.press(devices.operators, 3);
+    const auto reason = devices.said();
     REQUIRE(reason);
     CHECK(reason->character == U'2');
 
     // The observer's consent, a text and a question: the operator's yes is none, and pauses stay pauses.
-    desk.panel.await_decision(true, desk.clock.now());
-    desk.press(desk.operators, 1);
-    desk.press(desk.operators, 2);
-    CHECK(desk.says_nothing());
-    desk.press(desk.observers, 4);
-    CHECK(desk.said()->key == Key::no);
-    desk.panel.await_key(desk.clock.now());
-    desk.press(desk.operators, 1);
-    desk.press(desk.observers, 3); // yes, where nothing is decided
-    CHECK(desk.says_nothing());
-    desk.press(desk.operators, 0);
-    CHECK(desk.said()->key == Key::pause);
-    desk.press(desk.observers, 2);
-    CHECK(desk.said()->key == Key::back);
-    desk.panel.await_response({}, desk.clock.now());
-    desk.press(desk.operators, 2);
-    CHECK(desk.says_nothing());
+    devices.panel.await_decision(true, devices.clock.now());
+    devices.press(devices.operators, 1);
+    devices.press(devices.operators, 2);
+    CHECK(devices.says_nothing());
+    devices.press(devices.observers, 4);
+    CHECK(devices.said()->key == Key::no);
+    devices.panel.await_key(devices.clock.now());
+    devices.press(devices.operators, 1);
+    devices.press(devices.observers, 3); // yes, where nothing is decided
+    CHECK(devices.says_nothing());
+    devices.press(devices.operators, 0);
+    CHECK(devices.said()->key == Key::pause);
+    devices.press(devices.observers, 2);
+    CHECK(devices.said()->key == Key::back);
+    devices.panel.await_response({}, devices.clock.now());
+    devices.press(devices.operators, 2);
+    CHECK(devices.says_nothing());
     // While a form is filled in, the observer types.
-    desk.panel.await_entry(desk.clock.now());
-    desk.press(desk.observers, 0);
-    CHECK(desk.says_nothing());
+    devices.panel.await_entry(devices.clock.now());
+    devices.press(devices.observers, 0);
+    CHECK(devices.says_nothing());
 }
 
 TEST_CASE("what was pressed before a question stood there does not answer it; the operator's stays",
           "[unit]") {
-    Desk desk(std::vector<const char*>{});
-    desk.panel.await_key(desk.clock.now());
-    desk.press(desk.observers, 0);
-    desk.press(desk.operators, 0);
+    AnsweringDevices devices(std::vector<const char*>{});
+    devices.panel.await_key(devices.clock.now());
+    devices.press(devices.observers, 0);
+    devices.press(devices.operators, 0);
     std::this_thread::sleep_for(20ms); // the threads have them
-    desk.panel.await_response({}, desk.clock.now());
-    const auto press = desk.said();
+    devices.panel.await_response({}, devices.clock.now());
+    const auto press = devices.said();
     REQUIRE(press);
     CHECK(press->key == Key::pause);
-    CHECK(desk.says_nothing());
+    CHECK(devices.says_nothing());
     // A change that arrives late was before it, too.
-    desk.panel.await_response({}, desk.clock.now() + 10s);
-    desk.press(desk.observers, 0);
-    CHECK(desk.says_nothing());
+    devices.panel.await_response({}, devices.clock.now() + 10s);
+    devices.press(devices.observers, 0);
+    CHECK(devices.says_nothing());
     // Without a mapping any button goes on, and answers nothing.
-    desk.panel.await_response({}, desk.clock.now());
-    desk.press(desk.observers, 3);
-    CHECK(desk.said()->key == Key::next);
-    CHECK(desk.panel.answer().empty());
-    desk.panel.write_down(desk.log);
-    CHECK(desk.log.all.size() == 4);
+    devices.panel.await_response({}, devices.clock.now());
+    devices.press(devices.observers, 3);
+    CHECK(devices.said()->key == Key::next);
+    CHECK(devices.panel.answer().empty());
+    devices.panel.write_down(devices.log);
+    CHECK(devices.log.all.size() == 4);
 }
 
 TEST_CASE("what is recorded before anybody asks is told afterwards, and recorded once", "[unit]") {
-    Desk desk;
-    desk.panel.await_response({}, desk.clock.now());
-    desk.press(desk.observers, 0);
-    desk.wait_for([&] { return desk.log.all.size() == 1; });
-    const auto press = desk.said();
+    AnsweringDevices devices;
+    devices.panel.await_response({}, devices.clock.now());
+    devices.press(devices.observers, 0);
+    devices.wait_for([&] { return devices.log.all.size() == 1; });
+    const auto press = devices.said();
     REQUIRE(press);
-    CHECK(press->pressed_at == desk.log.all[0].at);
-    CHECK(desk.panel.answer() == "gold");
-    CHECK(desk.says_nothing());
-    desk.press(desk.observers, 0, false);
-    desk.wait_for([&] { return desk.log.all.size() == 2; });
-    CHECK(desk.says_nothing());
+    CHECK(press->pressed_at == devices.log.all[0].at);
+    CHECK(devices.panel.answer() == "gold");
+    CHECK(devices.says_nothing());
+    devices.press(devices.observers, 0, false);
+    devices.wait_for([&] { return devices.log.all.size() == 2; });
+    CHECK(devices.says_nothing());
 }
 
 TEST_CASE("a box that is gone is data, is said, and is found again; the keyboard goes on", "[unit]") {
-    Desk desk;
+    AnsweringDevices devices;
     {
-        const std::scoped_lock lock(desk.observers.mutex);
-        desk.observers.is_there = false;
-        desk.observers.is_lost = true;
+        const std::scoped_lock lock(devices.observers.mutex);
+        devices.observers.is_there = false;
+        devices.observers.is_lost = true;
     }
-    desk.wait_for([&] { return desk.told.size() == 1; });
-    CHECK_THAT(desk.told[0], Catch::Contains("\"pad\" does not answer any more"));
-    desk.panel.await_response({}, desk.clock.now());
-    desk.keyboard.next = ResponsePress{Key::next, desk.clock.now(), 0};
-    CHECK(desk.said());
+    devices.wait_for([&] { return devices.told.size() == 1; });
+    CHECK_THAT(devices.told[0], Catch::Contains("\"pad\" does not answer any more"));
+    devices.panel.await_response({}, devices.clock.now());
+    devices.keyboard.next = ResponsePress{Key::next, devices.clock.now(), 0};
+    CHECK(devices.said());
     {
-        const std::scoped_lock lock(desk.observers.mutex);
-        desk.observers.is_there = true;
+        const std::scoped_lock lock(devices.observers.mutex);
+        devices.observers.is_there = true;
     }
-    desk.wait_for([&] { return desk.told.size() == 2; });
-    CHECK_THAT(desk.told[1], Catch::Contains("\"pad\" is there again"));
-    CHECK(std::ranges::count(desk.log.events, "response box lost: pad: a board") == 1);
-    CHECK(std::ranges::count(desk.log.events, "response box regained: pad: a board") == 1);
-    CHECK(std::ranges::count(desk.log.events,
+    devices.wait_for([&] { return devices.told.size() == 2; });
+    CHECK_THAT(devices.told[1], Catch::Contains("\"pad\" is there again"));
+    CHECK(std::ranges::count(devices.log.events, "response box lost: pad: a board") == 1);
+    CHECK(std::ranges::count(devices.log.events, "response box regained: pad: a board") == 1);
+    CHECK(std::ranges::count(devices.log.events,
                              "response box: pad: a board, of the observer, with a clock of its own") == 1);
-    desk.panel.await_response({}, desk.clock.now());
-    desk.press(desk.observers, 0);
-    CHECK(desk.said());
-    CHECK(desk.panel.answer() == "gold");
-    REQUIRE(desk.panel.closing_warnings().size() == 1);
-    CHECK_THAT(desk.panel.closing_warnings()[0], Catch::Contains("it was gone 1 time"));
+    devices.panel.await_response({}, devices.clock.now());
+    devices.press(devices.observers, 0);
+    CHECK(devices.said());
+    CHECK(devices.panel.answer() == "gold");
+    REQUIRE(devices.panel.closing_warnings().size() == 1);
+    CHECK_THAT(devices.panel.closing_warnings()[0], Catch::Contains("it was gone 1 time"));
 }
 
 TEST_CASE("a box reads its clock before each trial, and a button that it lacks is refused", "[unit]") {
-    Desk desk;
-    desk.panel.entered(SessionPhase::trial, 0);
-    desk.wait_for([&] {
-        const std::scoped_lock lock(desk.observers.mutex);
-        return desk.observers.begun == 1;
+    AnsweringDevices devices;
+    devices.panel.entered(SessionPhase::trial, 0);
+    devices.wait_for([&] {
+        const std::scoped_lock lock(devices.observers.mutex);
+        return devices.observers.begun == 1;
     });
     std::vector<BoxInHand> boxes;
-    boxes.push_back(desk.box(desk.operators, "desk", false, {"seventh next"}));
-    CHECK_THROWS_WITH(ButtonBoxPanel(std::move(boxes), desk.clock, nullptr, [](const std::string&) {}),
+    boxes.push_back(devices.box(devices.operators, "desk", false, {"seventh next"}));
+    CHECK_THROWS_WITH(ButtonBoxPanel(std::move(boxes), devices.clock, nullptr, [](const std::string&) {}),
                       Catch::Contains("board boxes have no button \"seventh\""));
-    desk.observers.is_there = false;
-    CHECK_THROWS_AS(desk.box(desk.observers, "pad", false, {}), DeviceError);
+    devices.observers.is_there = false;
+    CHECK_THROWS_AS(devices.box(devices.observers, "pad", false, {}), DeviceError);
 }

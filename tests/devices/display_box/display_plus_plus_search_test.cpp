@@ -15,8 +15,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// A desk with boxes and with devices that say nothing, by port.
-struct Desk {
+/// A machine with boxes and with devices that say nothing, by port.
+struct MachineWithPorts {
     VirtualClock clock;
     std::map<std::string, std::unique_ptr<InMemoryBitsBox>> boxes;
     std::map<std::string, std::unique_ptr<FarEnd>> mute;
@@ -55,82 +55,82 @@ struct Desk {
 } // namespace
 
 TEST_CASE("the box is found among devices that do not answer", "[unit]") {
-    Desk desk;
-    desk.add_mute("/dev/ttyACM0", 0x2341, 0x0043);
-    desk.add_box("/dev/ttyACM1", "7");
-    CHECK(desk.find()->identity().port == "/dev/ttyACM1");
-    CHECK(desk.opened.size() == 2);
+    MachineWithPorts machine;
+    machine.add_mute("/dev/ttyACM0", 0x2341, 0x0043);
+    machine.add_box("/dev/ttyACM1", "7");
+    CHECK(machine.find()->identity().port == "/dev/ttyACM1");
+    CHECK(machine.opened.size() == 2);
 }
 
 TEST_CASE("devices of other makers are left in peace when one of the vendor's answers, its other instruments "
           "always",
           "[unit]") {
-    Desk desk;
-    desk.add_mute("/dev/ttyACM0", 0x2341, 0x0043);
-    desk.add_mute("/dev/ttyACM1", 0x0861, 0x1001);
-    desk.add_box("/dev/ttyACM2", "7", crs_vendor_id);
-    CHECK(desk.find()->identity().port == "/dev/ttyACM2");
-    CHECK(desk.opened == std::vector<std::string>{"/dev/ttyACM2"});
+    MachineWithPorts machine;
+    machine.add_mute("/dev/ttyACM0", 0x2341, 0x0043);
+    machine.add_mute("/dev/ttyACM1", 0x0861, 0x1001);
+    machine.add_box("/dev/ttyACM2", "7", crs_vendor_id);
+    CHECK(machine.find()->identity().port == "/dev/ttyACM2");
+    CHECK(machine.opened == std::vector<std::string>{"/dev/ttyACM2"});
 }
 
 TEST_CASE("no box, or two, is an error that names each port and what came of it", "[unit]") {
-    Desk desk;
-    CHECK_THROWS_WITH(desk.find(), Contains("no USB serial port"));
-    desk.add_mute("/dev/ttyACM0", 0x2341, 0x0043);
-    desk.add_mute("/dev/ttyACM1", 0x0861, 0x1001);
-    desk.ports.push_back({"/dev/ttyACM2", {}, {}, {}, {}, {}});
-    CHECK_THROWS_WITH(desk.find(), Contains("ttyACM0: no line beginning with \"#ProductType;\"") &&
+    MachineWithPorts machine;
+    CHECK_THROWS_WITH(machine.find(), Contains("no USB serial port"));
+    machine.add_mute("/dev/ttyACM0", 0x2341, 0x0043);
+    machine.add_mute("/dev/ttyACM1", 0x0861, 0x1001);
+    machine.ports.push_back({"/dev/ttyACM2", {}, {}, {}, {}, {}});
+    CHECK_THROWS_WITH(machine.find(), Contains("ttyACM0: no line beginning with \"#ProductType;\"") &&
                                        Contains("ttyACM1 (0861:1001") &&
                                        Contains("ttyACM2 cannot be opened"));
-    desk.add_box("/dev/ttyACM3", "7");
-    desk.add_box("/dev/ttyACM4", "8");
-    CHECK_THROWS_WITH(desk.find(),
+    machine.add_box("/dev/ttyACM3", "7");
+    machine.add_box("/dev/ttyACM4", "8");
+    CHECK_THROWS_WITH(machine.find(),
                       Contains("ttyACM3") && Contains("serial number 8") && Contains("name the port"));
-    CHECK(desk.find("/dev/ttyACM4")->identity().serial_number == "8");
+    CHECK(machine.find("/dev/ttyACM4")->identity().serial_number == "8");
 }
 
 TEST_CASE("a box left switched by a crash is switched back at the next start, on whatever port it is then",
           "[unit]") {
     const TemporaryFolder folder;
-    Desk desk;
-    desk.settings.record_folder = folder.path() / "state";
-    InMemoryBitsBox& box = desk.add_box("/dev/ttyACM0", "7");
-    CHECK_FALSE(recover_display(desk.ports, desk.opener(), desk.clock, desk.settings));
+    MachineWithPorts machine;
+    machine.settings.record_folder = folder.path() / "state";
+    InMemoryBitsBox& box = machine.add_box("/dev/ttyACM0", "7");
+    CHECK_FALSE(recover_display(machine.ports, machine.opener(), machine.clock, machine.settings));
 
-    auto display = desk.find();
+    auto display = machine.find();
     display->set_mode(BoxMode::color_plus_plus);
     box.far.unplugged = true; // nothing that is said from here on is heard: as good as a crash
     display.reset();
     CHECK(box.model.mode == "colorPlusPlus");
-    CHECK(read_switch_record(desk.settings.record_folder) == SwitchRecord{"/dev/ttyACM0", "7", "Color++"});
-    CHECK_THROWS_WITH(recover_display(desk.ports, desk.opener(), desk.clock, desk.settings),
+    CHECK(read_switch_record(machine.settings.record_folder) == SwitchRecord{"/dev/ttyACM0", "7", "Color++"});
+    CHECK_THROWS_WITH(recover_display(machine.ports, machine.opener(), machine.clock, machine.settings),
                       Contains("Color++"));
-    CHECK(read_switch_record(desk.settings.record_folder));
+    CHECK(read_switch_record(machine.settings.record_folder));
 
     box.far.unplugged = false;
     box.model.rate_hz = 0.0; // the screen sleeps, which is no reason to leave it in Color++
     SECTION("on the same port") {}
     SECTION("on another port, with another box on the old one") {
-        auto node = desk.boxes.extract("/dev/ttyACM0");
+        auto node = machine.boxes.extract("/dev/ttyACM0");
         node.key() = "/dev/ttyACM5";
         node.mapped()->far.port = "/dev/ttyACM5";
-        desk.boxes.insert(std::move(node));
-        desk.ports.front().path = "/dev/ttyACM5";
-        desk.add_box("/dev/ttyACM0", "99");
+        machine.boxes.insert(std::move(node));
+        machine.ports.front().path = "/dev/ttyACM5";
+        machine.add_box("/dev/ttyACM0", "99");
     }
-    const auto done = recover_display(desk.ports, desk.opener(), desk.clock, desk.settings);
+    const auto done = recover_display(machine.ports, machine.opener(), machine.clock, machine.settings);
     REQUIRE(done);
     CHECK_THAT(*done, Contains(box.far.port) && Contains("back in Bits++"));
     CHECK(box.model.mode == "BitsPlusPlus");
-    CHECK_FALSE(read_switch_record(desk.settings.record_folder));
+    CHECK_FALSE(read_switch_record(machine.settings.record_folder));
 }
 
 TEST_CASE("the note that the box is switched is there before the command and gone after the way back",
           "[unit]") {
     const TemporaryFolder folder;
-    Desk desk;
-    desk.settings.record_folder = folder.path();
-    InMemoryBitsBox& box = desk.add_box("/dev/ttyACM0", "7");
+    MachineWithPorts machine;
+    machine.settings.record_folder = folder.path();
+    InMemoryBitsBox& box = machine.add_box("/dev/ttyACM0", "7");
     const auto answer = box.far.answer;
     bool noted_first = false;
     box.far.answer = [&](std::string_view bytes) {
@@ -138,7 +138,7 @@ TEST_CASE("the note that the box is switched is there before the command and gon
             noted_first = read_switch_record(folder.path()).has_value();
         return answer(bytes);
     };
-    auto display = desk.find();
+    auto display = machine.find();
     display->set_mode(BoxMode::mono_plus_plus);
     CHECK(noted_first);
     display->leave();
@@ -156,29 +156,29 @@ TEST_CASE("a note that cannot be written or read is an error that names the file
 
 TEST_CASE("a mode that is kept on purpose outlives its program, and only its user undoes it", "[unit]") {
     const TemporaryFolder folder;
-    Desk desk;
-    desk.settings.record_folder = folder.path();
-    InMemoryBitsBox& box = desk.add_box("/dev/ttyACM0", "7");
+    MachineWithPorts machine;
+    machine.settings.record_folder = folder.path();
+    InMemoryBitsBox& box = machine.add_box("/dev/ttyACM0", "7");
     {
-        auto display = desk.find();
+        auto display = machine.find();
         display->set_mode(BoxMode::mono_plus_plus);
         display->keep_mode();
     }
     CHECK(box.model.mode == "monoPlusPlus");
     CHECK(read_switch_record(folder.path()) == SwitchRecord{"/dev/ttyACM0", "7", "Mono++", true});
-    CHECK_FALSE(recover_display(desk.ports, desk.opener(), desk.clock, desk.settings));
+    CHECK_FALSE(recover_display(machine.ports, machine.opener(), machine.clock, machine.settings));
     CHECK(box.model.mode == "monoPlusPlus");
-    desk.find()->restore_desktop();
+    machine.find()->restore_desktop();
     CHECK(box.model.mode == "BitsPlusPlus");
     CHECK_FALSE(read_switch_record(folder.path()));
 }
 
 TEST_CASE("the way back waits for a box that is deaf while it changes its mode", "[unit]") {
     const TemporaryFolder folder;
-    Desk desk;
-    desk.settings.record_folder = folder.path();
-    InMemoryBitsBox& box = desk.add_box("/dev/ttyACM0", "7");
-    auto display = desk.find();
+    MachineWithPorts machine;
+    machine.settings.record_folder = folder.path();
+    InMemoryBitsBox& box = machine.add_box("/dev/ttyACM0", "7");
+    auto display = machine.find();
     box.model.mode_change_s = 3.0;
     display->set_mode(BoxMode::color_plus_plus);
     display->leave();
@@ -187,11 +187,11 @@ TEST_CASE("the way back waits for a box that is deaf while it changes its mode",
 }
 
 TEST_CASE("asking at all ports says of each what came of it, and leaves a box as it was", "[unit]") {
-    Desk desk;
-    desk.add_mute("/dev/ttyACM0", 0x2341, 0x0043);
-    desk.add_mute("/dev/ttyACM1", 0x0861, 0x1001);
-    const auto ask = [&desk](const std::optional<std::string>& port = std::nullopt) {
-        return ask_for_display_boxes(desk.ports, port, desk.opener(), desk.clock, desk.settings);
+    MachineWithPorts machine;
+    machine.add_mute("/dev/ttyACM0", 0x2341, 0x0043);
+    machine.add_mute("/dev/ttyACM1", 0x0861, 0x1001);
+    const auto ask = [&machine](const std::optional<std::string>& port = std::nullopt) {
+        return ask_for_display_boxes(machine.ports, port, machine.opener(), machine.clock, machine.settings);
     };
     auto asked = ask();
     REQUIRE(asked.size() == 2);
@@ -199,14 +199,14 @@ TEST_CASE("asking at all ports says of each what came of it, and leaves a box as
     CHECK_THAT(asked[0].otherwise, Contains("ttyACM0: no line beginning"));
     CHECK_THAT(asked[1].otherwise, Contains("another kind of instrument"));
 
-    InMemoryBitsBox& box = desk.add_box("/dev/ttyACM2", "7", crs_vendor_id);
-    desk.opened.clear();
+    InMemoryBitsBox& box = machine.add_box("/dev/ttyACM2", "7", crs_vendor_id);
+    machine.opened.clear();
     asked = ask();
     REQUIRE(asked.size() == 3);
     REQUIRE(asked[0].box);
     CHECK(asked[0].box->serial_number == "7");
     CHECK(asked[0].video_rate_hz == 120.0);
-    CHECK(desk.opened == std::vector<std::string>{"/dev/ttyACM2"});
+    CHECK(machine.opened == std::vector<std::string>{"/dev/ttyACM2"});
     for (const std::string& command : box.model.commands)
         CHECK(command.find("PlusPlus") == std::string::npos);
     CHECK_THAT(ask("/dev/ttyACM9").front().otherwise, Contains("cannot be opened"));

@@ -211,7 +211,7 @@ TEST_CASE("Bits++ sends the index of a grey in all channels, and a table that un
     for (int i = 0; i < 256; ++i)
         ramp.at(i, 0) = glm::vec4(glm::vec3(static_cast<float>(i / 255.0)), 1.0f);
     const auto bytes = sent(display, ramp);
-    const ColourTable table = DisplayEncoder(display).colour_table();
+    const SignalColourTable table = DisplayEncoder(display).colour_table();
     for (std::size_t i = 0; i < 256; ++i) {
         for (std::size_t channel = 0; channel < 3; ++channel) {
             CHECK(bytes[4 * i + channel] == static_cast<int>(i));

@@ -103,7 +103,7 @@ TEST_CASE("what no encoder of ours would send is refused", "[unit]") {
 
 TEST_CASE("messages come back as they were sent, in the rows they were sent in", "[unit]") {
     Screen600 screen;
-    ColourTable table;
+    SignalColourTable table;
     for (std::size_t i = 0; i < 256; ++i)
         table[i] = colour(static_cast<int>(65535 - 3 * i), static_cast<int>(i * i), static_cast<int>(i));
     t_lock::Packet packet = t_lock::pulse(0b1000000101, 1.5, 3.2);

@@ -29,7 +29,7 @@ const SignalPixel black{0, 0, 0, 255};
 
 TEST_CASE("a table of colours is a row of 524 pixels: key, four black, high and low bytes in turn",
           "[unit]") {
-    ColourTable table;
+    SignalColourTable table;
     for (std::size_t i = 0; i < 256; ++i)
         table[i].fill(static_cast<std::uint16_t>(257 * i));
     table[7] = {0x1234, 0xABCD, 0x8000};

@@ -25,7 +25,7 @@ std::vector<Key> keys_of(ResponsePanel& panel) {
     return keys;
 }
 
-struct Desk {
+struct WindowWithKeyboard {
     WindowContext window{WindowRequest{{320, 200}, "test"}};
     SteadyClock clock;
     OperatorSettings operators;
@@ -38,11 +38,11 @@ struct Desk {
 
 TEST_CASE("keys of a window mean what is waited for", "[gl]") {
     const auto screen = test::VirtualScreen::start(640, 480, 24);
-    Desk desk;
-    desk.operators.repeat = "r";
-    desk.consent.accept_key = "j";
-    WindowResponsePanel panel = desk.panel();
-    test::Keyboard& keyboard = desk.keyboard;
+    WindowWithKeyboard typed_at;
+    typed_at.operators.repeat = "r";
+    typed_at.consent.accept_key = "j";
+    WindowResponsePanel panel = typed_at.panel();
+    test::Keyboard& keyboard = typed_at.keyboard;
 
     panel.await_key({});
     for (const KeySym symbol : {XK_space, XK_Return, XK_Left, XK_BackSpace, XK_F5, XK_r, XK_q, XK_Escape})
@@ -75,12 +75,12 @@ TEST_CASE("keys of a window mean what is waited for", "[gl]") {
 
 TEST_CASE("the operator's keys are kept while something is prepared, the observer's are forgotten", "[gl]") {
     const auto screen = test::VirtualScreen::start(640, 480, 24);
-    Desk desk;
-    WindowResponsePanel panel = desk.panel();
+    WindowWithKeyboard typed_at;
+    WindowResponsePanel panel = typed_at.panel();
     panel.await_key({});
-    desk.keyboard.type(XK_space);
-    desk.keyboard.type(XK_F2);
-    desk.keyboard.type(XK_Escape);
+    typed_at.keyboard.type(XK_space);
+    typed_at.keyboard.type(XK_F2);
+    typed_at.keyboard.type(XK_Escape);
     panel.await_key({});
     CHECK(keys_of(panel) == std::vector{Key::recalibrate, Key::abort});
     // Each is given once.

@@ -48,7 +48,7 @@ struct Lab {
 const std::string layout = "PRESCALER\t1\nVPRESCALER\t1\nPUPIL\tAREA\n"
                            "EVENTS\tGAZE\tLEFT\tRATE\t1000.00\tTRACKING\tCR\tFILTER\t2\n"
                            "SAMPLES\tGAZE\tLEFT\tRATE\t1000.00\tTRACKING\tCR\tFILTER\t2\n";
-const std::string header = "** DATE: Wed Aug 20 06:48:58 2014\n** VERSION: EYELINK II 1\n"
+const std::string file_header = "** DATE: Wed Aug 20 06:48:58 2014\n** VERSION: EYELINK II 1\n"
                            "** EYELINK II CL v5.03 Jul  3 2014\n\n";
 
 std::string samples(int from, int to, const std::string& ending = "\t...\n") {
@@ -61,7 +61,7 @@ std::string samples(int from, int to, const std::string& ending = "\t...\n") {
 /// One recording over two trials; each ends with its result, and goes on for 30 ms. A fixation spans the
 /// second TRIALID.
 std::string continuous() {
-    return header +
+    return file_header +
            "MSG\t999 RECCFG CR 1000 2 1 L\nMSG\t999 ELCLCFG MTABLER\n"
            "MSG\t999 GAZE_COORDS 0.00 0.00 1023.00 767.00\nSTART\t1000 \tLEFT\tSAMPLES\tEVENTS\n" +
            layout + samples(1000, 1010) + "MSG\t1010 TRIALID 1 easy left\n" + samples(1010, 1050) +
@@ -158,7 +158,7 @@ TEST_CASE("a recording that goes on over its trials stays one, and its export th
 
 TEST_CASE("set-up lines that come twice are exported as they were, again and again", "[unit]") {
     Lab lab;
-    std::string text = header;
+    std::string text = file_header;
     for (int trial = 0; trial < 2; ++trial) {
         const int start = 2000 + 1000 * trial;
         text += fmt::format("MSG\t{} TRIALID {}\n", start - 9, trial + 1);
@@ -189,7 +189,7 @@ TEST_CASE("no sample of an export stands after END, and a layout without TRACKIN
     const std::string bare = "EVENTS\tGAZE\tLEFT\tRATE\t1000.00\tFILTER\t2\n"
                              "SAMPLES\tGAZE\tLEFT\tRATE\t1000.00\tFILTER\t2\n";
     const std::string text = lab.asc(
-        lab.record(header + "MSG\t999 TRIALID 1\nSTART\t1000 \tLEFT\tSAMPLES\tEVENTS\n" + bare +
+        lab.record(file_header + "MSG\t999 TRIALID 1\nSTART\t1000 \tLEFT\tSAMPLES\tEVENTS\n" + bare +
                    samples(1000, 1020, "\n") + "END\t1020 \tSAMPLES\tEVENTS\tRES\t  35.00\t  35.00\n" +
                    samples(1030, 1050, "\n") + "MSG\t1060 TRIAL_RESULT 0\n"));
     CHECK_THAT(text, !Contains("TRACKING") && Contains("RATE\t1000.00\tFILTER\t2\n"));

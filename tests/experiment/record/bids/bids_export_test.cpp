@@ -40,7 +40,7 @@ struct Dataset {
 
 const std::string physio = "sub-AB7_ses-01_task-tiny_run-01_recording-eye1_physio";
 const std::string gaze_events = "sub-AB7_ses-01_task-tiny_run-01_recording-eye1_physioevents";
-const std::string events = "sub-AB7_ses-01_task-tiny_run-01_events";
+const std::string events_file = "sub-AB7_ses-01_task-tiny_run-01_events";
 
 void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
 
@@ -105,7 +105,7 @@ TEST_CASE("the checker of the rules finds each of them broken", "[unit]") {
         return json.dump();
     };
     const std::string samples = unpacked(dataset.beh(physio + ".tsv.gz"));
-    const std::string rows = bytes_of(dataset.beh(events + ".tsv"));
+    const std::string rows = bytes_of(dataset.beh(events_file + ".tsv"));
     const std::string gaze_rows = unpacked(dataset.beh(gaze_events + ".tsv.gz"));
     const std::string second_line = samples.substr(samples.find('\n') + 1);
     struct Case {
@@ -138,21 +138,21 @@ TEST_CASE("the checker of the rules finds each of them broken", "[unit]") {
         {"DURATION_UNITS", gaze_events + ".json",
          json_with(gaze_events + ".json", "duration", {{"Description", "x"}, {"Units", "ms"}})},
         {"EVENTS_UNSORTED", gaze_events + ".tsv.gz", gaze_rows + gaze_rows},
-        {"SCREEN_DISTANCE", events + ".json", json_without(events + ".json", {"StimulusPresentation"})},
-        {"SCREEN_DISTANCE", events + ".json",
-         json_without(events + ".json", {"StimulusPresentation", "ScreenDistance"})},
-        {"SCREEN_ORIGIN", events + ".json",
-         json_without(events + ".json", {"StimulusPresentation", "ScreenOrigin"})},
-        {"SCREEN_RESOLUTION", events + ".json",
-         json_without(events + ".json", {"StimulusPresentation", "ScreenResolution"})},
-        {"SCREEN_SIZE", events + ".json",
-         json_without(events + ".json", {"StimulusPresentation", "ScreenSize"})},
-        {"COLUMN_UNDESCRIBED", events + ".json", json_without(events + ".json", {"status"})},
-        {"VALUE_NOT_IN_LEVELS", events + ".tsv", replaced(rows, "\tpresentation\t", "\tshow\t")},
-        {"ONSET_DURATION_FIRST", events + ".tsv", replaced(rows, "onset\tduration", "duration\tonset")},
-        {"EVENTS_UNSORTED", events + ".tsv", rows + rows.substr(rows.find('\n') + 1)},
-        {"STIMULUS_MISSING", events + ".tsv", replaced(rows, "tiny/bust_silver.png", "tiny/nothing.png")},
-        {"EMPTY_CELL", events + ".tsv", replaced(rows, "\tn/a\t", "\t\t")}};
+        {"SCREEN_DISTANCE", events_file + ".json", json_without(events_file + ".json", {"StimulusPresentation"})},
+        {"SCREEN_DISTANCE", events_file + ".json",
+         json_without(events_file + ".json", {"StimulusPresentation", "ScreenDistance"})},
+        {"SCREEN_ORIGIN", events_file + ".json",
+         json_without(events_file + ".json", {"StimulusPresentation", "ScreenOrigin"})},
+        {"SCREEN_RESOLUTION", events_file + ".json",
+         json_without(events_file + ".json", {"StimulusPresentation", "ScreenResolution"})},
+        {"SCREEN_SIZE", events_file + ".json",
+         json_without(events_file + ".json", {"StimulusPresentation", "ScreenSize"})},
+        {"COLUMN_UNDESCRIBED", events_file + ".json", json_without(events_file + ".json", {"status"})},
+        {"VALUE_NOT_IN_LEVELS", events_file + ".tsv", replaced(rows, "\tpresentation\t", "\tshow\t")},
+        {"ONSET_DURATION_FIRST", events_file + ".tsv", replaced(rows, "onset\tduration", "duration\tonset")},
+        {"EVENTS_UNSORTED", events_file + ".tsv", rows + rows.substr(rows.find('\n') + 1)},
+        {"STIMULUS_MISSING", events_file + ".tsv", replaced(rows, "tiny/bust_silver.png", "tiny/nothing.png")},
+        {"EMPTY_CELL", events_file + ".tsv", replaced(rows, "\tn/a\t", "\t\t")}};
     for (const Case& broken : cases) {
         CAPTURE(broken.rule, broken.file);
         const fs::path file = dataset.beh(broken.file);
@@ -166,7 +166,7 @@ TEST_CASE("the checker of the rules finds each of them broken", "[unit]") {
     CHECK(BidsRules(dataset.path).breaks("GZIP_HEADER"));
     write(dataset.beh(physio + ".tsv.gz"), packed);
     for (const auto& [rule, file] :
-         {std::pair{"SIDECAR_MISSING", physio + ".json"}, {"SIDECAR_MISSING", events + ".json"}}) {
+         {std::pair{"SIDECAR_MISSING", physio + ".json"}, {"SIDECAR_MISSING", events_file + ".json"}}) {
         fs::rename(dataset.beh(file), dataset.root.path() / "aside");
         CHECK(BidsRules(dataset.path).breaks(rule));
         fs::rename(dataset.root.path() / "aside", dataset.beh(file));
@@ -208,11 +208,11 @@ TEST_CASE("the samples of a dataset are those of the session, in the tracker's o
     CHECK(dataset.json(dataset.beh(physio + ".json"))["AverageCalibrationError"] == 0.312);
     CHECK(dataset.json(dataset.beh(physio + ".json"))["MaximalCalibrationError"] == 0.754);
     CHECK(dataset.json(dataset.beh(physio + ".json"))["CalibrationCount"] == 1);
-    CHECK_THAT(bytes_of(dataset.beh(events + ".tsv")), Contains("\tSchauen Sie sich um; ganz frei\t"));
+    CHECK_THAT(bytes_of(dataset.beh(events_file + ".tsv")), Contains("\tSchauen Sie sich um; ganz frei\t"));
     CHECK(dataset.json(dataset.beh(physio + ".json"))["StartTime"] == 0.0);
     // The first sample was taken 900.137 ms after its trial's begin: so the trial's onset is that much
     // earlier.
-    const std::string rows = bytes_of(dataset.beh(events + ".tsv"));
+    const std::string rows = bytes_of(dataset.beh(events_file + ".tsv"));
     CHECK_THAT(rows, Contains("\n-0.900137000\t4.000000000\ttrial\t"));
     CHECK_THAT(rows, Contains("\taborted\t"));
     CHECK_THAT(rows, Contains("vierzig, \"oder\"\\tfünfzig"));

@@ -16,7 +16,7 @@ using json = nlohmann::ordered_json;
 
 namespace {
 
-const Table table{"mixed",
+const Table mixed_table{"mixed",
                   "One column for each kind of cell.",
                   {{"text", "", "", {}},
                    {"first \"half\"", "", "", {}},
@@ -32,7 +32,7 @@ const std::vector<std::string> texts{"plain",       "tab\there",       "line\nbr
 
 /// The table's lines.
 std::vector<std::string> written(const TemporaryFolder& folder, TableFormat format) {
-    TableWriter row(folder.path(), table, format);
+    TableWriter row(folder.path(), mixed_table, format);
     for (int i = 0; i < 40; ++i) {
         const std::string &text = texts[static_cast<std::size_t>(i) % texts.size()],
                           &other = texts[static_cast<std::size_t>(i / 8) % texts.size()];
@@ -74,11 +74,11 @@ TEST_CASE(
         CAPTURE(objects[i]);
         const json object = json::parse(objects[i]);
         const auto cells = cells_of(tabbed[i + 1]);
-        REQUIRE(object.size() == table.columns.size());
+        REQUIRE(object.size() == mixed_table.columns.size());
         std::size_t column = 0;
         for (const auto& [name, value] : object.items()) {
             CAPTURE(name);
-            CHECK(name == table.columns[column].name);
+            CHECK(name == mixed_table.columns[column].name);
             const std::string& cell = cells[column];
             if (value.is_string())
                 CHECK(text_cell(value.get<std::string>(), TableFormat::tsv) == cell);
