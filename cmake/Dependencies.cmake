@@ -15,6 +15,7 @@ find_package(Eigen3 REQUIRED NO_MODULE) # sparse Cholesky; headers only, of whic
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
+pkg_check_modules(EXR REQUIRED IMPORTED_TARGET OpenEXR) # the frames and maps that overt itself makes
 pkg_check_modules(X11 REQUIRED IMPORTED_TARGET x11 xcb xcb-present xcb-randr xcb-screensaver)
 pkg_check_modules(GIO REQUIRED IMPORTED_TARGET gio-2.0) # the session's D-Bus
 pkg_check_modules(DRM REQUIRED IMPORTED_TARGET libdrm)
@@ -23,7 +24,7 @@ pkg_check_modules(CRYPTO REQUIRED IMPORTED_TARGET libcrypto)
 pkg_check_modules(SQLITE REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(PORTAUDIO REQUIRED IMPORTED_TARGET portaudio-2.0)
 # Their -pthread would be a flag that the precompiled headers were not compiled with.
-set_property(TARGET PkgConfig::PANGO PkgConfig::GIO PkgConfig::PORTAUDIO PROPERTY INTERFACE_COMPILE_OPTIONS "")
+set_property(TARGET PkgConfig::EXR PkgConfig::PANGO PkgConfig::GIO PkgConfig::PORTAUDIO PROPERTY INTERFACE_COMPILE_OPTIONS "")
 pkg_check_modules(SNDFILE REQUIRED IMPORTED_TARGET sndfile)
 pkg_check_modules(ZMQ REQUIRED IMPORTED_TARGET libzmq) # the language of Pupil Capture
 pkg_check_modules(HIDAPI REQUIRED IMPORTED_TARGET hidapi-hidraw) # eye trackers and button boxes without a driver of the kernel's

@@ -225,7 +225,8 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
                     plan.fields);
     note_faults(options.faults, rig.clock(), records);
     // Maps drawn live are written between trials, where loading the library would take its time.
-    picture_library();
+    if (rig.maps_are_live())
+        picture_library();
     note_thread(prepare_thread({options.realtime, options.processor}), rig.clock(), records);
     if (options.refresh_check_s > 0.0)
         rehearse_timing(rig, protocol, plan.schedule, folder.header, folder.path, store);

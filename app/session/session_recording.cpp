@@ -163,10 +163,8 @@ void put_all_files(const SessionDirectory& directory, const SessionHeader& heade
         }
         if (!with_pictures)
             continue;
-        const std::filesystem::path file = directory.path() / preview_file(header, stimulus.condition);
-        std::filesystem::create_directories(file.parent_path());
-        write_srgb_png(file,
-                       library.page(stimulus.condition, library.page_of_frame(stimulus.condition).front()));
+        copy_into(library.first_frame_file(stimulus.condition),
+                  directory.path() / preview_file(header, stimulus.condition));
     }
     write_to(directory.path() / "protocol.toml", header.protocol.text);
     for (const RecordedProtocol::Included& included : header.protocol.included) {

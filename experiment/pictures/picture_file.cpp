@@ -8,6 +8,7 @@
 #include "experiment/base/error.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/pictures/picture_library.h"
+#include "experiment/pictures/plain_exr.h"
 
 namespace overt {
 
@@ -41,7 +42,9 @@ std::string fault_of(const PictureHeader& header) {
 PictureFile::PictureFile(std::filesystem::path file, std::string_view kind, StraightColours straight)
     : file_(std::move(file)), kind_(kind) {
     std::string fault;
-    decoder_ = picture_library().open(file_.string(), straight == StraightColours::as_they_stand, fault);
+    decoder_ = open_plain_exr(file_.string());
+    if (!decoder_)
+        decoder_ = picture_library().open(file_.string(), straight == StraightColours::as_they_stand, fault);
     if (!decoder_)
         throw InputError(fmt::format("{}: cannot be read as a {}: {}", file_.string(), kind_, fault));
     if (fault = fault_of(header()); !fault.empty())

@@ -82,6 +82,11 @@ class StimulusCache {
         return folder_ / "light" / (frames.substr(0, 24) + ".exr");
     }
 
+    /// Where the first frame of frames with this hash lies, for looking at.
+    std::filesystem::path first_frame_file(const ContentHash& frame) const {
+        return folder_ / "first_frames" / (frame.substr(0, 24) + ".png");
+    }
+
     /// The box of a sculpture with ready-made maps, and where the camera stood: the field of view is 0 if the
     /// maps do not say. The maps must be there (MapMaker).
     SceneView scene_of_given_maps(int sculpture) const;

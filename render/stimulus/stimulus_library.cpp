@@ -183,6 +183,20 @@ std::optional<std::filesystem::path> StimulusLibrary::light_file(const Condition
     return file;
 }
 
+std::filesystem::path StimulusLibrary::first_frame_file(const Condition& condition) const {
+    const int first = page_of_frame(condition).front();
+    ContentHasher hasher;
+    hasher.add(std::string_view(frames_hash(condition)));
+    if (!cache_.is_ready_made(condition))
+        hasher.add(cache_.angle_of({first}).value);
+    const std::filesystem::path file = cache_.first_frame_file(hasher.finish());
+    if (!std::filesystem::exists(file)) {
+        std::filesystem::create_directories(file.parent_path());
+        write_srgb_png(file, page(condition, first));
+    }
+    return file;
+}
+
 std::size_t StimulusLibrary::index_of(const Condition& condition) const {
     return static_cast<std::size_t>(condition.sculpture) * protocol_->materials.size() +
            static_cast<std::size_t>(condition.material);

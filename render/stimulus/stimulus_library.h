@@ -58,6 +58,10 @@ class StimulusLibrary final : public FrameSource {
     /// InputError, RecordError.
     std::optional<std::filesystem::path> light_file(const Condition& condition, bool make) const;
 
+    /// The first frame for looking at (write_srgb_png), from the cache; made if it is not there. Throws
+    /// likewise.
+    std::filesystem::path first_frame_file(const Condition& condition) const;
+
   private:
     LightPictures light_of(const Condition& condition) const;
     std::size_t index_of(const Condition& condition) const;
