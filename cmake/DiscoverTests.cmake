@@ -3,8 +3,8 @@
 # unit or gl are one test, named after program and file: hundreds of programs that each load some 280 libraries for a case of
 # milliseconds take longer than the cases. A test case without such a tag stops the build, for it would never be run; one
 # that is tagged [.long] is run by hand (tests/README.md). A test that is also tagged [waits], or a file with such a case,
-# spends most of its time waiting for a screen, a device or an observer in real time: ./test runs three of them where it runs
-# one other, and runs them first.
+# spends most of its time waiting for a screen, a device or an observer in real time: ./test runs up to three of them beside
+# one other for each processor, and begins with them.
 cmake_policy(VERSION 3.25)
 
 function(list_of_program result pattern)
@@ -26,7 +26,7 @@ if(unlabelled)
 endif()
 
 set(waits PROCESSORS 1 COST 1000)
-set(computes PROCESSORS 3)
+set(computes PROCESSORS 4)
 set(script "")
 get_filename_component(program "${PROGRAM}" NAME)
 function(add_program_test name label specification)

@@ -175,7 +175,7 @@ class KilledSessions {
 } // namespace
 
 TEST_CASE("a session killed at random instants goes on each time and ends as planned", "[session]") {
-    KilledSessions(std::random_device{}()).kill(10);
+    KilledSessions(std::random_device{}()).kill(7);
 }
 
 TEST_CASE("a session killed at 200 random instants goes on each time and ends as planned", "[.long]") {
