@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "experiment/scene/ply_writer.h"
 #include "tests/support/figures.h"
 #include "tests/support/program.h"
@@ -114,22 +116,25 @@ inline std::filesystem::path lasting_folder() {
     return std::filesystem::path(OVERT_PROGRAM).parent_path().parent_path() / "tests/cache";
 }
 
-/// A cache that stays, for tests of what the shipped sculptures are needed for: making one takes seven seconds
-/// of a processor. What is in it is named by what made it.
+/// A cache that stays, for tests of what the shipped sculptures are needed for: making one takes seven
+/// seconds of a processor. What is in it is named by what made it.
 inline std::filesystem::path lasting_cache() { return lasting_folder(); }
 
-/// A cache that stays until the program is built again: the stimuli of small experiments, made by this program
-/// and looked at by the tests of many things. Those that test how stimuli are made take a cache of their own.
+/// A cache that stays until the program is built again: the stimuli of small experiments, made by this
+/// program and looked at by the tests of many things. Those that test how stimuli are made take a cache of
+/// their own.
 inline std::filesystem::path shared_cache() {
     static const std::filesystem::path folder = [] {
         namespace fs = std::filesystem;
         const std::string begin = "made_by_";
-        const fs::path ours = lasting_folder() /
-                              (begin + std::to_string(fs::last_write_time(OVERT_PROGRAM).time_since_epoch().count()));
+        const fs::path ours =
+            lasting_folder() /
+            (begin + fmt::format("{:x}", fs::last_write_time(OVERT_PROGRAM).time_since_epoch().count()));
         if (!fs::exists(ours) && fs::exists(lasting_folder())) {
+            std::error_code error; // another test may be removing the same
             for (const fs::directory_entry& entry : fs::directory_iterator(lasting_folder()))
                 if (entry.path().filename().string().starts_with(begin))
-                    fs::remove_all(entry.path());
+                    fs::remove_all(entry.path(), error);
         }
         fs::create_directories(ours);
         return ours;
