@@ -1,5 +1,5 @@
-// What nearly every file includes; see Effort.cmake. nlohmann/json.hpp stays out: its literals would have each file make its
-// parser anew, a third of a second, also one that knows nothing of JSON.
+// What nearly every file includes; see Effort.cmake. nlohmann/json.hpp stays out: its literals would have
+// each file make its parser anew, a third of a second, also one that knows nothing of JSON.
 #pragma once
 
 #include <algorithm>

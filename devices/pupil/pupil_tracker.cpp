@@ -70,8 +70,8 @@ TrackerDescription PupilTracker::connect(const TrackerWish& wish) {
     description.eye = wish.eye;
     description.both_eyes = wish.both_eyes;
     const SurfaceOnScreen whole{{0.0, 0.0},
-                             static_cast<double>(wish.screen.screen_px.x),
-                             static_cast<double>(wish.screen.screen_px.y)};
+                                static_cast<double>(wish.screen.screen_px.x),
+                                static_cast<double>(wish.screen.screen_px.y)};
     samples_.emplace(wish, settings_.surface_place.value_or(whole), settings_.least_confidence);
     return description;
 }

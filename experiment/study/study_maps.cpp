@@ -11,13 +11,14 @@
 namespace overt {
 
 DensityMaker::DensityMaker(const SculptureSurface& surface, const Mesh& mesh, const StudyOptions& options,
-                   double widest_sigma_mm)
+                           double widest_sigma_mm)
     : surface_(surface), mesh_(mesh), kernel_(options.kernel) {
     if (kernel_ == MapKernel::geodesic && !surface.hats)
         smoother_ = std::make_unique<SurfaceSmoother>(*surface.geometry, widest_sigma_mm);
 }
 
-std::vector<std::vector<double>> DensityMaker::densities(std::span<const std::vector<SurfaceWeight>> maps) const {
+std::vector<std::vector<double>>
+DensityMaker::densities(std::span<const std::vector<SurfaceWeight>> maps) const {
     if (kernel_ == MapKernel::geodesic)
         return surface_.hats ? surface_.hats->densities(maps) : smoother_->densities(maps);
     std::vector<std::vector<double>> made(maps.size());

@@ -20,7 +20,7 @@ class DensityMaker {
     /// `surface` must have a geometry and a scale, and outlive this, as `mesh` must; its hats are used if it
     /// has them. `widest_sigma_mm` > 0.
     DensityMaker(const SculptureSurface& surface, const Mesh& mesh, const StudyOptions& options,
-             double widest_sigma_mm);
+                 double widest_sigma_mm);
 
     /// Density by vertex in weight per mm^2 for each of the maps. Sigmas: those of counted fixations.
     std::vector<std::vector<double>> densities(std::span<const std::vector<SurfaceWeight>> maps) const;

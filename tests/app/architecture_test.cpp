@@ -82,13 +82,14 @@ std::vector<std::string> wrong_includes(const Rooms& rooms, const std::string& f
     return wrong;
 }
 
-/// The types that a header defines outside of others, with the namespaces that they are in. Namespaces are not
-/// indented here, and what is within a type is.
+/// The types that a header defines outside of others, with the namespaces that they are in. Namespaces are
+/// not indented here, and what is within a type is.
 std::vector<std::string> types_defined_in(const std::string& text) {
-    const std::regex line(R"re(^(?:namespace ([\w:]+) \{|(\} // namespace)|)re"
-                          R"re((?:template <.*> )?(?:struct|class|enum class|enum|union) (?:alignas\(.*\) )?(\w+)\b(?!::| *;)|)re"
-                          R"re(using (\w+) =))re",
-                          std::regex::multiline);
+    const std::regex line(
+        R"re(^(?:namespace ([\w:]+) \{|(\} // namespace)|)re"
+        R"re((?:template <.*> )?(?:struct|class|enum class|enum|union) (?:alignas\(.*\) )?(\w+)\b(?!::| *;)|)re"
+        R"re(using (\w+) =))re",
+        std::regex::multiline);
     std::vector<std::string> spaces, types;
     for (auto match = std::sregex_iterator(text.begin(), text.end(), line); match != std::sregex_iterator();
          ++match) {
@@ -159,10 +160,11 @@ TEST_CASE("no two headers of the program define a type of the same name", "[unit
     }
     CHECK(header_of.size() > 500);
     CHECK(header_of.contains("overt::Error"));
-    CHECK(types_defined_in("namespace a {\nstruct B {\n    struct Inner {};\n};\nclass Later;\nnamespace c {\n"
-                           "template <class T> class D final : public B {};\n} // namespace c\n"
-                           "enum class E : int { one };\nusing F = int;\n} // namespace a\n") ==
-          std::vector<std::string>{"a::B", "a::c::D", "a::E", "a::F"});
+    CHECK(
+        types_defined_in("namespace a {\nstruct B {\n    struct Inner {};\n};\nclass Later;\nnamespace c {\n"
+                         "template <class T> class D final : public B {};\n} // namespace c\n"
+                         "enum class E : int { one };\nusing F = int;\n} // namespace a\n") ==
+        std::vector<std::string>{"a::B", "a::c::D", "a::E", "a::F"});
 }
 
 TEST_CASE("an include that points the wrong way is found", "[unit]") {

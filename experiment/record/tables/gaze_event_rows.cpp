@@ -27,7 +27,7 @@ std::string_view detector_of(const GazeEventRow& row) {
 } // namespace
 
 std::vector<RowLayout<TrackerEventRow>::Column> event_value_columns(const std::string& pixels,
-                                                             const std::string& of_pupil) {
+                                                                    const std::string& of_pupil) {
     using Place = std::optional<ScreenPoint> GazeEvent::*;
     using Number = std::optional<double> GazeEvent::*;
     const auto coordinate = [](Place place, double ScreenPoint::*axis) {

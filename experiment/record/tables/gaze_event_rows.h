@@ -17,7 +17,7 @@ struct TrackerEventRow {
 
 /// Its places, pupil, size and speed; the same in each kind of export, but for the words of its units.
 std::vector<RowLayout<TrackerEventRow>::Column> event_value_columns(const std::string& pixels,
-                                                             const std::string& of_pupil);
+                                                                    const std::string& of_pupil);
 
 struct GazeEventRow : TrackerEventRow {
     int trial; ///< from 1; 0: outside of trials

@@ -111,9 +111,10 @@ TEST_CASE("more observers find more", "[unit]") {
 TEST_CASE("studies are the same on any number of threads, and with observers to follow", "[unit]") {
     const Experiment experiment = busts(2);
     const auto same = [](const PowerPoint& a, const PowerPoint& b) {
-        return std::ranges::equal(a.studies, b.studies, [](const StudyOutcome& one, const StudyOutcome& other) {
-            return one.p == other.p && one.estimate == other.estimate;
-        });
+        return std::ranges::equal(a.studies, b.studies,
+                                  [](const StudyOutcome& one, const StudyOutcome& other) {
+                                      return one.p == other.p && one.estimate == other.estimate;
+                                  });
     };
     const std::vector<std::string> effects{"head:material=rough:odds=1.6:sd=0.3", "cc:task=free:share=0.2"};
     const PowerResults one = power_of(experiment, effects, {6, 8}, 4, 1),

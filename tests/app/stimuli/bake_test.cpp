@@ -104,7 +104,8 @@ TEST_CASE("Ctrl-C ends a session's preparation with what was rendered, and the s
           "[session]") {
     // Previews of many poses take longer than it takes to look for the first.
     const SmallExperiment experiment(
-        with(traced_protocol(), "width_px = 40\nheight_px = 48\n", "width_px = 160\nheight_px = 160\n"), Cache::own);
+        with(traced_protocol(), "width_px = 40\nheight_px = 48\n", "width_px = 160\nheight_px = 160\n"),
+        Cache::own);
     const std::filesystem::path said = experiment.folder().path() / "said";
     const std::vector<std::string> arguments{"run",
                                              experiment.protocol().string(),

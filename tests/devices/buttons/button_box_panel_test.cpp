@@ -107,8 +107,9 @@ struct AnsweringDevices {
         all.push_back(box(operators, "desk", true, {"A pause", "B yes", "C no", "D 2"}));
         return all;
     }
-    explicit AnsweringDevices(const std::vector<const char*>& observers_buttons = {"A answer gold", "B answer silver",
-                                                                       "C back", "D yes", "E no"})
+    explicit AnsweringDevices(const std::vector<const char*>& observers_buttons = {"A answer gold",
+                                                                                   "B answer silver",
+                                                                                   "C back", "D yes", "E no"})
         : panel(boxes(observers_buttons), clock, &keyboard,
                 [this](const std::string& sentence) { told.push_back(sentence); }) {}
 

@@ -80,8 +80,8 @@ TEST_CASE("no box, or two, is an error that names each port and what came of it"
     machine.add_mute("/dev/ttyACM1", 0x0861, 0x1001);
     machine.ports.push_back({"/dev/ttyACM2", {}, {}, {}, {}, {}});
     CHECK_THROWS_WITH(machine.find(), Contains("ttyACM0: no line beginning with \"#ProductType;\"") &&
-                                       Contains("ttyACM1 (0861:1001") &&
-                                       Contains("ttyACM2 cannot be opened"));
+                                          Contains("ttyACM1 (0861:1001") &&
+                                          Contains("ttyACM2 cannot be opened"));
     machine.add_box("/dev/ttyACM3", "7");
     machine.add_box("/dev/ttyACM4", "8");
     CHECK_THROWS_WITH(machine.find(),

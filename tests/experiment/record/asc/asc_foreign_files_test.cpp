@@ -49,7 +49,7 @@ const std::string layout = "PRESCALER\t1\nVPRESCALER\t1\nPUPIL\tAREA\n"
                            "EVENTS\tGAZE\tLEFT\tRATE\t1000.00\tTRACKING\tCR\tFILTER\t2\n"
                            "SAMPLES\tGAZE\tLEFT\tRATE\t1000.00\tTRACKING\tCR\tFILTER\t2\n";
 const std::string file_header = "** DATE: Wed Aug 20 06:48:58 2014\n** VERSION: EYELINK II 1\n"
-                           "** EYELINK II CL v5.03 Jul  3 2014\n\n";
+                                "** EYELINK II CL v5.03 Jul  3 2014\n\n";
 
 std::string samples(int from, int to, const std::string& ending = "\t...\n") {
     std::string text;

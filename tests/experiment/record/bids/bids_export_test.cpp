@@ -138,7 +138,8 @@ TEST_CASE("the checker of the rules finds each of them broken", "[unit]") {
         {"DURATION_UNITS", gaze_events + ".json",
          json_with(gaze_events + ".json", "duration", {{"Description", "x"}, {"Units", "ms"}})},
         {"EVENTS_UNSORTED", gaze_events + ".tsv.gz", gaze_rows + gaze_rows},
-        {"SCREEN_DISTANCE", events_file + ".json", json_without(events_file + ".json", {"StimulusPresentation"})},
+        {"SCREEN_DISTANCE", events_file + ".json",
+         json_without(events_file + ".json", {"StimulusPresentation"})},
         {"SCREEN_DISTANCE", events_file + ".json",
          json_without(events_file + ".json", {"StimulusPresentation", "ScreenDistance"})},
         {"SCREEN_ORIGIN", events_file + ".json",
@@ -151,7 +152,8 @@ TEST_CASE("the checker of the rules finds each of them broken", "[unit]") {
         {"VALUE_NOT_IN_LEVELS", events_file + ".tsv", replaced(rows, "\tpresentation\t", "\tshow\t")},
         {"ONSET_DURATION_FIRST", events_file + ".tsv", replaced(rows, "onset\tduration", "duration\tonset")},
         {"EVENTS_UNSORTED", events_file + ".tsv", rows + rows.substr(rows.find('\n') + 1)},
-        {"STIMULUS_MISSING", events_file + ".tsv", replaced(rows, "tiny/bust_silver.png", "tiny/nothing.png")},
+        {"STIMULUS_MISSING", events_file + ".tsv",
+         replaced(rows, "tiny/bust_silver.png", "tiny/nothing.png")},
         {"EMPTY_CELL", events_file + ".tsv", replaced(rows, "\tn/a\t", "\t\t")}};
     for (const Case& broken : cases) {
         CAPTURE(broken.rule, broken.file);

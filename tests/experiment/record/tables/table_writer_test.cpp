@@ -17,15 +17,15 @@ using json = nlohmann::ordered_json;
 namespace {
 
 const Table mixed_table{"mixed",
-                  "One column for each kind of cell.",
-                  {{"text", "", "", {}},
-                   {"first \"half\"", "", "", {}},
-                   {"second half", "", "", {}},
-                   {"word", "", "", {}},
-                   {"integer", "", "", {}},
-                   {"fixed", "", "", {}},
-                   {"seconds", "", "", {}},
-                   {"missing", "", "", {}}}};
+                        "One column for each kind of cell.",
+                        {{"text", "", "", {}},
+                         {"first \"half\"", "", "", {}},
+                         {"second half", "", "", {}},
+                         {"word", "", "", {}},
+                         {"integer", "", "", {}},
+                         {"fixed", "", "", {}},
+                         {"seconds", "", "", {}},
+                         {"missing", "", "", {}}}};
 
 const std::vector<std::string> texts{"plain",       "tab\there",       "line\nbreak\r", "a \"quoted\" word",
                                      "back\\slash", "Wie alt? 何歳？", "n/a",           ""};
