@@ -12,7 +12,7 @@
 # with all optimisation (Effort.cmake).
 #
 # A room's target is its folder with underscores: experiment/record/asc is overt_experiment_record_asc.
-set(OVERT_UNITY 6 CACHE STRING "How many files of a room are compiled together; 0: each alone")
+set(OVERT_UNITY 8 CACHE STRING "How many files of a room are compiled together; 0: each alone")
 
 function(overt_room_target room result)
     string(REPLACE "/" "_" name ${room})

@@ -26,7 +26,7 @@ BenchFigures bench_lut(const BenchOptions& options); ///< the hidden pass: its e
 BenchFigures bench_reproject(const BenchOptions& options);
 /// A flip of a 1920 x 1080 Color++ frame with its page: time, processor time, packing and memory.
 BenchFigures bench_present(const BenchOptions& options);
-/// Ready-made frames from files to the frame store, against OpenImageIO alone.
+/// Ready-made frames from files to the frame store, against the libraries of pictures alone.
 BenchFigures bench_frames(const BenchOptions& options);
 /// A baked frame of each material: its time beside that of its rays, its errors against many samples, and
 /// what a whole bake takes.

@@ -139,7 +139,7 @@ void measure_kind(const GlContext& context, const FileKind& kind, int size_px, B
     }
     const auto best = [](const std::vector<double>& times) { return *std::ranges::min_element(times); };
     const std::string what = fmt::format("61 frames, {}", kind.name);
-    figures.push_back({what + ", read by OpenImageIO alone", best(library_s), "s"});
+    figures.push_back({what + ", read by its library alone", best(library_s), "s"});
     figures.push_back({what + ", decoded to linear light", best(decoding_s), "s"});
     figures.push_back(at_most(what + ", ratio of the two", best(decoding_s) / best(library_s), "", 1.5));
     figures.push_back({what + ", decoded, packed for Color++ and uploaded", best(loading_s), "s"});

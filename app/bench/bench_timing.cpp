@@ -35,18 +35,18 @@ void measure_onsets(BenchFigures& figures) {
     std::vector<double> onset_errors_ms, refresh_errors_ms;
     double covered = 0.0;
     for (int sitting = 0; sitting < sittings; ++sitting) {
-        std::vector<SimulatedPresentation> presentations;
+        std::vector<SimulatedPresentation> simulated;
         std::vector<RefreshFit> lines;
         FaultScript script;
         script.faults.drift_ppm = 37.0;
         script.faults.jitter_sd_ms = 1.0;
         for (int trial = 0; trial < trials; ++trial) {
             script.faults.seed = static_cast<std::uint64_t>(sitting * trials + trial);
-            presentations.push_back(simulate_presentation(script));
-            lines.push_back(fit_of(presentations.back(), script).line());
+            simulated.push_back(simulate_presentation(script));
+            lines.push_back(fit_of(simulated.back(), script).line());
         }
         const std::optional<KnownInterval> interval = common_interval(lines);
-        for (const SimulatedPresentation& presentation : presentations) {
+        for (const SimulatedPresentation& presentation : simulated) {
             const LedgerFit fit(presentation.flips, script.refresh_hz, interval);
             const auto error_ms = [&](std::size_t refresh) {
                 return 1e3 * std::abs(to_seconds(fit.begin_of(static_cast<int>(refresh)).time -

@@ -18,8 +18,8 @@ namespace overt {
 
 namespace {
 
-constexpr double rate_hz = Metronome::rate_hz, refresh_hz = 120.0;
-constexpr int frames = 8;
+constexpr double rate_hz = Metronome::rate_hz, display_hz = 120.0;
+constexpr int shown_frames = 8;
 
 /// Pages of one grey each.
 class GreyPages final : public FrameSource {
@@ -29,7 +29,7 @@ class GreyPages final : public FrameSource {
             pixel = glm::vec4(glm::vec3(0.3F), 1.0F);
     }
     std::vector<int> page_of_frame(const Condition&) const override {
-        std::vector<int> pages(frames);
+        std::vector<int> pages(shown_frames);
         std::iota(pages.begin(), pages.end(), 0);
         return pages;
     }
@@ -78,7 +78,7 @@ Presentation present(const BenchOptions& options, bool with_tracker) {
     OpenDisplay display({.context = options.context,
                          .size_px = geometry.screen_px,
                          .title = "overt bench",
-                         .refresh_hz = refresh_hz,
+                         .refresh_hz = display_hz,
                          .windowed = true,
                          .headless = true});
     display.start();
@@ -86,10 +86,10 @@ Presentation present(const BenchOptions& options, bool with_tracker) {
     settings.output = OutputMode::native_8bit;
     PagePresenter presenter(display.context(), display.surface(), pages, geometry, settings, {});
     Animation animation;
-    animation.frame_count = frames;
+    animation.frame_count = shown_frames;
     animation.frame_rate_hz = 30.0;
     animation.duration_s = options.seconds;
-    const PageCycle cycle = make_page_cycle(animation, refresh_hz);
+    const PageCycle cycle = make_page_cycle(animation, display_hz);
     RefreshLedger ledger(cycle, animation.when_late);
     presenter.load_frames({0, 0});
 
@@ -148,11 +148,11 @@ void measure_virtual_time(BenchFigures& figures) {
             }
         } while (count == items.size());
     };
-    constexpr int refreshes = 600 * static_cast<int>(refresh_hz);
+    constexpr int refreshes = 600 * static_cast<int>(display_hz);
     tracker.start_recording();
     const double before_s = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
     for (int refresh = 0; refresh < refreshes; ++refresh) {
-        clock.wait_until(SessionTime(from_seconds((refresh + 1) / refresh_hz)));
+        clock.wait_until(SessionTime(from_seconds((refresh + 1) / display_hz)));
         take();
     }
     tracker.stop_recording();

@@ -13,6 +13,7 @@
 #include "app/replay/movie_file.h"
 #include "app/replay/recorded_experiment.h"
 #include "app/replay/stimuli_again.h"
+#include "experiment/base/error.h"
 #include "experiment/base/json_text.h"
 #include "render/image/text_layout.h"
 

@@ -54,15 +54,15 @@ SignalFindings check_row(const ReceivedLight& received, const SignalPrediction& 
 
 /// The largest error of the mean over tiles in which the light is the same everywhere.
 double worst_mean(const ReceivedLight& received, const SignalPrediction& prediction, int first_row) {
-    constexpr int side = 64;
+    constexpr int tile_px = 64;
     double worst = 0.0;
-    for (int top = first_row; top + side <= received.size.y; top += side) {
-        for (int left = 0; left + side <= received.size.x; left += side) {
+    for (int top = first_row; top + tile_px <= received.size.y; top += tile_px) {
+        for (int left = 0; left + tile_px <= received.size.x; left += tile_px) {
             const auto light = prediction.shown_light_at(left, top);
             std::array<std::int64_t, 3> sums{};
             bool plain = true;
-            for (int y = top; y < top + side && plain; ++y) {
-                for (int x = left; x < left + side && plain; ++x) {
+            for (int y = top; y < top + tile_px && plain; ++y) {
+                for (int x = left; x < left + tile_px && plain; ++x) {
                     plain = prediction.shown_light_at(x, y) == light;
                     for (std::size_t channel = 0; channel < 3; ++channel)
                         sums[channel] += received.at(x, y)[channel];
@@ -84,7 +84,7 @@ double worst_mean(const ReceivedLight& received, const SignalPrediction& predict
                 const double share = (light[channel] - light_of(low)) / (light_of(low + 1.0) - light_of(low));
                 const double scale = 65535.0 / received.highest;
                 const double code = std::floor((low + share) * scale + 0.5);
-                const double mean = static_cast<double>(sums[channel]) / (side * side);
+                const double mean = static_cast<double>(sums[channel]) / (tile_px * tile_px);
                 worst = std::max(worst, std::abs(mean * scale - code));
             }
         }

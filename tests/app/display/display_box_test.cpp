@@ -92,7 +92,7 @@ struct Rigged {
     }
 };
 
-std::vector<std::string> kinds_of(const SessionRecord& record) {
+std::vector<std::string> event_kinds_of(const SessionRecord& record) {
     std::vector<std::string> kinds;
     for (const RecordedEvent& event : record.events())
         kinds.push_back(event.kind);
@@ -136,7 +136,7 @@ TEST_CASE("a session on a screen switches the display box, relates its clock and
     CHECK(box.port == rig.box->port());
     CHECK(box.video_rate_hz == rate_hz);
     CHECK(box.settled_after > SessionDuration::zero());
-    CHECK(holds(kinds_of(record), "display box left"));
+    CHECK(holds(event_kinds_of(record), "display box left"));
 
     // The box's clock and the session's are the same machine's: no drift, and a second is a second.
     const auto readings = record.box_clock_readings(1);
@@ -212,7 +212,7 @@ TEST_CASE("a display box that was restarted within a session ends it", "[session
     INFO(text_of(rig.said()));
     CHECK_THAT(text_of(rig.said()), Contains("restarted or reset") && Contains("Color++"));
     const SessionRecord record(rig.experiment->session());
-    CHECK(holds(kinds_of(record), "display box lost"));
+    CHECK(holds(event_kinds_of(record), "display box lost"));
     CHECK(record.trials().size() < 9);
 }
 

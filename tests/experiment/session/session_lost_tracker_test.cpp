@@ -12,7 +12,7 @@ using Step = BlinkingTracker::Step;
 namespace {
 
 /// Answers the operator's questions with no.
-void decline(Sitting& sitting) {
+void decline_to_go_on(Sitting& sitting) {
     sitting.panel.tell = [](ScriptedPanel& panel) -> std::optional<ResponsePress> {
         return panel.is_deciding() ? std::optional(ResponsePress{Pressed::no, {}}) : std::nullopt;
     };
@@ -59,7 +59,7 @@ TEST_CASE("a tracker that is gone at any step is asked for, connected and calibr
 
         Sitting ended(short_protocol(""));
         ended.tracker.fails_at = step;
-        decline(ended);
+        decline_to_go_on(ended);
         const SessionResult result = ended.run();
         CHECK(result.aborted);
         CHECK(result.reason == "the eye tracker was lost");
