@@ -35,7 +35,7 @@ inline void take_protocol(std::string_view bytes) {
 }
 
 inline std::filesystem::path put(const ScratchFolder& folder, const char* name, std::string_view bytes) {
-    const std::filesystem::path file = folder.path() / name;
+    std::filesystem::path file = folder.path() / name;
     std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     return file;
 }

@@ -117,7 +117,7 @@ class BidsRules {
         }
         for (const auto& entry : std::filesystem::directory_iterator(root_))
             if (const std::string name = entry.path().filename().string();
-                name.starts_with("sub-") && participants_.count(name) == 0)
+                name.starts_with("sub-") && !participants_.contains(name))
                 found("PARTICIPANT_MISSING", entry.path());
     }
 
@@ -137,7 +137,7 @@ class BidsRules {
             R"(sub-([A-Za-z0-9]+)_ses-([A-Za-z0-9]+)_task-[A-Za-z0-9]+(_acq-[A-Za-z0-9]+)?_run-\d+)"
             R"((_recording-eye[123])?_(physio|physioevents|events)\.(tsv|tsv\.gz|json))");
         for (const auto& entry : std::filesystem::recursive_directory_iterator(dataset)) {
-            const std::filesystem::path file = entry.path();
+            const std::filesystem::path& file = entry.path();
             const std::string relative = std::filesystem::relative(file, dataset).string();
             if (!entry.is_regular_file() || !relative.starts_with("sub-"))
                 continue;
@@ -179,7 +179,7 @@ class BidsRules {
             found("COLUMNS", file);
             return {};
         }
-        const auto columns = json["Columns"].get<std::vector<std::string>>();
+        auto columns = json["Columns"].get<std::vector<std::string>>();
         if (std::set<std::string>(columns.begin(), columns.end()).size() != columns.size())
             found("COLUMNS", file);
         for (const std::string& column : columns)

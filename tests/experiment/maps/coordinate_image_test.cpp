@@ -295,7 +295,7 @@ TEST_CASE("pictures that are no maps are refused by name and reason", "[unit]") 
         try {
             read_coordinate_image(file, known);
         } catch (const InputError& error) {
-            const std::string message = error.what();
+            std::string message = error.what();
             CHECK(message.find(file.filename().string()) != std::string::npos);
             return message;
         }

@@ -20,7 +20,7 @@ constexpr glm::ivec2 size(37, 29);
 /// A picture of noise with these channels, and what makes it overt's own.
 std::filesystem::path noise(const TemporaryFolder& folder, const std::vector<std::string>& channels,
                             PixelType type, const std::string& compression) {
-    const std::filesystem::path file = folder.path() / "noise.exr";
+    std::filesystem::path file = folder.path() / "noise.exr";
     PictureHeader header{size, channels, type, -1, {{"compression", compression}}};
     header.alpha_channel = header.channel("A");
     header.attributes.emplace_back("overt:light", std::string("overcast"));

@@ -32,7 +32,7 @@ TEST_CASE("the words of kinds of events differ, and are typed nowhere else where
     CHECK(words.size() > 20);
     for (const char* folder : {"app", "devices", "experiment", "render"}) {
         for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-            const fs::path file = entry.path();
+            const fs::path& file = entry.path();
             if ((file.extension() != ".cpp" && file.extension() != ".h") ||
                 file.filename() == "event_kinds.h")
                 continue;

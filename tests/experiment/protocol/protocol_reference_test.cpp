@@ -131,9 +131,9 @@ TEST_CASE("the defaults are in the ranges of their keys", "[unit]") {
             const void* const object = section.home.left_out_struct();
             if (const int* whole = key.get_if<int>(object))
                 check(key.rule, *whole);
-            if (const double* number = key.get_if<double>(object))
+            if (const auto* number = key.get_if<double>(object))
                 check(key.rule, *number);
-            if (const Degrees* angle = key.get_if<Degrees>(object))
+            if (const auto* angle = key.get_if<Degrees>(object))
                 check(key.rule, angle->value);
         }
     }

@@ -60,7 +60,7 @@ inline std::filesystem::path make_eye_session(const std::filesystem::path& root,
                                               const std::string& observer = "AB7",
                                               SessionHeader header = eye_session_header()) {
     header.schedule.observer.label = observer;
-    const std::filesystem::path session = make_session(root, header);
+    std::filesystem::path session = make_session(root, header);
     std::filesystem::create_directories(session / "stimuli");
     for (const char* name : {"bust_gold", "bust_silver", "vase_gold"})
         std::ofstream(session / "stimuli" / (std::string(name) + ".png")) << "picture of " << name;

@@ -164,7 +164,7 @@ TEST_CASE("ASC and BIDS tell of each eye's validation and its targets", "[unit]"
     CHECK(left["CalibrationCount"] == 1);
     CHECK(left["CalibrationType"] == "HV2");
     CHECK(left["CalibrationUnit"] == "pixel");
-    CHECK(left["CalibrationPosition"] == nlohmann::json::parse("[[100.0, 200.0], [900.0, 800.0]]"));
+    CHECK(left["CalibrationPosition"] == nlohmann::ordered_json::parse("[[100.0, 200.0], [900.0, 800.0]]"));
     CHECK(left["AverageCalibrationError"] == 0.5);
     CHECK(left["MaximalCalibrationError"] == 0.75);
     CHECK(bids_tracker(record, 1, Eye::right)["MaximalCalibrationError"] == 0.5);

@@ -51,7 +51,7 @@ std::vector<GazeSample> planted_samples(std::uint64_t trial) {
 /// Records two trials; the events are found meanwhile by these settings, if there are any.
 fs::path record_session(const fs::path& root, const std::optional<EventSettings>& settings) {
     const SessionHeader header = header_with_trials();
-    const fs::path session = make_session(root, header);
+    fs::path session = make_session(root, header);
     SessionStore::Options options = patient();
     if (settings)
         options.detection = SittingDetection{*settings, header.display.screen};

@@ -112,8 +112,8 @@ inline void write_killed_session(const std::filesystem::path& session) {
 /// Turns one bit of a file over, and back in the end.
 class FlippedBit {
   public:
-    FlippedBit(const std::filesystem::path& file, std::uint64_t byte, int bit)
-        : file_(file), byte_(byte), bit_(bit) {
+    FlippedBit(std::filesystem::path file, std::uint64_t byte, int bit)
+        : file_(std::move(file)), byte_(byte), bit_(bit) {
         turn();
     }
     ~FlippedBit() { turn(); }

@@ -84,8 +84,11 @@ TEST_CASE("eyelinker, MNE, pymovements and PyGazeAnalyser find every sample of a
             CHECK(reading.failure == "");
             REQUIRE(reading.samples.size() == recorded.size());
             for (std::size_t i = 0; i < recorded.size(); ++i) {
-                REQUIRE(reading.samples[i].time ==
-                        static_cast<double>(recorded[i].sampled_at.time_since_epoch().count() / 1000));
+                REQUIRE(
+                    reading.samples[i].time ==
+                    static_cast<double>(std::chrono::floor<std::chrono::milliseconds>(recorded[i].sampled_at)
+                                            .time_since_epoch()
+                                            .count()));
                 REQUIRE(reading.samples[i].x.has_value() == recorded[i].gaze.has_value());
                 if (recorded[i].gaze) {
                     REQUIRE(*reading.samples[i].x == Approx(recorded[i].gaze->x_px).margin(5.1e-4));

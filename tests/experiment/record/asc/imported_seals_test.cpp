@@ -52,7 +52,7 @@ TEST_CASE(
     REQUIRE(verify_session(session).is_sound());
     REQUIRE(verify_session(session).seals > 2);
     std::vector<std::string> files = files_of_session(session, true);
-    files.push_back(manifest_file_name);
+    files.emplace_back(manifest_file_name);
     REQUIRE(files.size() == (is_copy ? 5 : 2));
     RandomStream random(7, "flips");
     for (std::size_t round = 0; round < 150; ++round) {

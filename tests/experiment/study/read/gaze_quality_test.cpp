@@ -62,7 +62,8 @@ TEST_CASE("precision is the median over fixations of five samples and more, and 
     const std::array steps_deg{0.1, 0.3, 0.2};
     for (int i = 0; i < 60; ++i) {
         double& x = samples[static_cast<std::size_t>(i)].gaze.x_px;
-        x += i < 48 ? px * (5.0 * (i / 16 - 1) + (i % 2) * steps_deg[static_cast<std::size_t>(i / 16)])
+        x += i < 48 ? px * (5.0 * static_cast<int>(i / 16 - 1) +
+                            (i % 2) * steps_deg[static_cast<std::size_t>(i / 16)])
                     : px * 3.0 * (i % 2);
     }
     const std::array events{event_of(GazeEvent::Kind::fixation, samples, 0, 15),
