@@ -41,6 +41,14 @@ void make_light(StimulusLibrary& library, const Progress& show) {
         show("light of the stimuli", count, count, 1.0);
 }
 
+/// Of all stimuli: the session keeps them for looking at.
+void make_first_frames(StimulusLibrary& library) {
+    const Protocol& protocol = library.cache().protocol();
+    for (int sculpture = 0; sculpture < static_cast<int>(protocol.sculptures.size()); ++sculpture)
+        for (int material = 0; material < static_cast<int>(protocol.materials.size()); ++material)
+            library.first_frame_file({sculpture, material});
+}
+
 } // namespace
 
 void prepare_stimuli(StimulusLibrary& library, MapsNow maps, BakeQuality least,
@@ -49,6 +57,7 @@ void prepare_stimuli(StimulusLibrary& library, MapsNow maps, BakeQuality least,
         make_maps(library, maps, show);
         library.prepare_frames(show, least);
         make_light(library, show);
+        make_first_frames(library);
     });
 }
 

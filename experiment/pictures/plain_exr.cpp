@@ -137,8 +137,11 @@ std::unique_ptr<PictureDecoder> open_plain_exr(const std::string& file) {
     if (!file.ends_with(".exr"))
         return nullptr;
     try {
-        // Before anything is made for what a damaged header claims.
-        Imf::Header::setMaxImageSize(most_picture_side_px, most_picture_side_px);
+        // Before anything is made for what a damaged header claims. Of the whole library, so once.
+        [[maybe_unused]] static const bool is_bounded = [] {
+            Imf::Header::setMaxImageSize(most_picture_side_px, most_picture_side_px);
+            return true;
+        }();
         bool is_tiled = false, is_deep = false, has_parts = false;
         if (!Imf::isOpenExrFile(file.c_str(), is_tiled, is_deep, has_parts) || is_tiled || is_deep ||
             has_parts)

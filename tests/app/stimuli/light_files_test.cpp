@@ -1,5 +1,7 @@
 /// The small pictures of light that a session keeps, against frames exported for other programs.
 #include <filesystem>
+#include <numeric>
+#include <set>
 
 #include <catch2/catch.hpp>
 
@@ -77,4 +79,29 @@ TEST_CASE(
         CHECK(fs::exists(stimuli / "bust_matt_light.exr"));
         experiment.folder().file("small.toml", traced_protocol());
     }
+}
+
+TEST_CASE("the first frames that a session keeps are those of its own light, whatever the cache has",
+          "[session]") {
+    const SmallExperiment experiment(Cache::own);
+    const auto first_frames = [&](const std::string& protocol, int session) {
+        experiment.folder().file("small.toml", protocol);
+        REQUIRE(experiment.run({"--trials", "1"}).exit_code == 0);
+        std::vector<std::vector<float>> pictures;
+        for (const char* const stimulus : {"bust_smooth", "bust_matt", "tall_smooth", "tall_matt"})
+            pictures.push_back(
+                values_in(experiment.session(session) / "stimuli" / (std::string(stimulus) + ".png")));
+        return pictures;
+    };
+    const std::string other = with(small_protocol, "[schedule]\n", "[light]\nexposure = 0.5\n[schedule]\n");
+    const auto plain = first_frames(std::string(small_protocol), 1), dark = first_frames(other, 2),
+               again = first_frames(std::string(small_protocol), 3);
+    CHECK(plain == again);
+    const auto sum = [](const std::vector<float>& values) {
+        return std::accumulate(values.begin(), values.end(), 0.0);
+    };
+    for (std::size_t stimulus = 0; stimulus < plain.size(); ++stimulus)
+        CHECK(sum(dark[stimulus]) < 0.9 * sum(plain[stimulus]));
+    // Each is that of its own stimulus.
+    CHECK(std::set(plain.begin(), plain.end()).size() == 4);
 }
