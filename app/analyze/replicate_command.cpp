@@ -280,7 +280,7 @@ void add_replicate_command(CLI::App& app, ChosenCommand& chosen) {
     option(command, "--seed", options.seed, "N",
            "Of the first observer, and of the analysis; the others' follow", seed_number(), shown_default);
     option(command, "--trials", options.trials, "N",
-           "Only the first N trials of each observer, for a rehearsal", above_zero());
+           "Only the first N trials of each observer, to try a protocol", above_zero());
     option(command, "--jobs", options.jobs, "N", "Sessions at once", above_zero(), shown_default);
     add_context_option(command, options.context);
     command.add_flag("--overwrite", options.overwrite, "Replace an analysis that is there");

@@ -21,8 +21,9 @@ void add_characterise(CLI::App& display, ChosenCommand& chosen) {
         "Show nothing: take the readings of this table, with columns level_r,level_g,level_b (0 to 1),X,Y,Z");
     auto* typed = command.add_flag("--typed", options.typed,
                                    "Ask at the terminal for what an instrument shows, patch by patch");
-    CLI::Option* const simulated = option(command, "--simulated", options.simulated, "SEED",
-                                          "A simulated photometer before a simulated display: a rehearsal");
+    CLI::Option* const simulated =
+        option(command, "--simulated", options.simulated, "SEED",
+               "A simulated photometer before a simulated display: to learn the procedure");
     readings->excludes(typed)->excludes(simulated);
     typed->excludes(simulated);
     option(command, "--port", options.port, "PORT", "Serial port of the ColorCAL (default: the only one)")
@@ -159,7 +160,7 @@ void add_doctor(CLI::App& app, ChosenCommand& chosen) {
         "  overt doctor --window --monitor 1 --seconds 30 --report rig.md");
     command.add_flag("--json", options.json, "Print JSON");
     command.add_flag("--window", options.window,
-                     "Show a dark screen, measure its refreshes, and say what may spoil their times");
+                     "Show a dark screen, measure its refreshes, and say what may disturb their times");
     command.add_flag("--photodiode", options.photodiode,
                      "Show a square in a corner that changes, and compare what a sensor sees with the times "
                      "of the flips");

@@ -132,7 +132,7 @@ MeasuredLight measure_light(const DoctorOptions& options) {
         plan.use == RecordedBox::Use::box ? std::optional(require_box(plan)) : std::nullopt;
     OpenDisplay display = open_display(screen, options, headless);
     if (display.is_real() && screen.is_of_protocol)
-        refuse_spoilt_screen(judge_screen(facts_of(*display.window()), screen.display));
+        refuse_unfit_screen(judge_screen(facts_of(*display.window()), screen.display));
     display.start();
     Clock& clock = display.clock();
     if (options.sensor.starts_with('/') && !display.is_real())

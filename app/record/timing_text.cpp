@@ -65,7 +65,7 @@ void print_timing(const TimingReport& report) {
     }
     fmt::print("\ntiming of the completed trials\n");
     if (report.has_simulated_faults)
-        fmt::print("  THE DISPLAY'S FAULTS WERE SIMULATED: a rehearsal, no measurement\n");
+        fmt::print("  THE DISPLAY'S FAULTS WERE SIMULATED: a trial run, no measurement\n");
     else if (report.is_virtual)
         fmt::print("  in virtual time: nothing could come late\n");
     if (report.is_unproven)

@@ -79,7 +79,7 @@ BoxIdentity require_box(const BoxPlan& plan) {
         throw InputError(fmt::format(
             "this session needs its display box, which reads the 16-bit signal:\n{}\n"
             "Connect the box and see what `overt display status` finds; or write box = \"none\" in [display] "
-            "if the display needs none; or take --virtual-time for a rehearsal without one",
+            "if the display needs none; or take --virtual-time for a trial run without one",
             error.what()));
     }
 }

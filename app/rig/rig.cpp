@@ -45,7 +45,7 @@ DisplayRequest display_of(const Protocol& protocol, const RigRequest& request) {
 
 std::vector<ScreenFinding> examine_screen(const WindowContext& window, const Protocol& protocol) {
     std::vector<ScreenFinding> findings = judge_screen(facts_of(window), protocol.display);
-    refuse_spoilt_screen(findings);
+    refuse_unfit_screen(findings);
     return findings;
 }
 
@@ -58,7 +58,7 @@ void refuse_doubtful_times(const std::vector<std::string>& doubts) {
             "(`overt doctor --window` "
             "measures it, docs/vblank_sources.md says what is needed), without another screen's or a "
             "compositor's "
-            "refreshes. For a rehearsal write timing = \"unproven\" under [display]: the record, its exports "
+            "refreshes. For a trial run write timing = \"unproven\" under [display]: the record, its exports "
             "and its reports then say so. Nothing was recorded.",
             fmt::join(doubts, "\n  ")));
 }
@@ -174,7 +174,7 @@ std::vector<ScreenFinding> Rig::check_timing(double seconds,
         refuse_doubtful_times(doubts_about_times(facts));
     else
         findings = without_claim(std::move(findings));
-    refuse_spoilt_screen(findings);
+    refuse_unfit_screen(findings);
     screen_findings_.insert(screen_findings_.end(), findings.begin(), findings.end());
     return findings;
 }

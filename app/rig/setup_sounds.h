@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "experiment/ports/setup_stage.h"
+#include "experiment/ports/setup_screen.h"
 
 namespace overt {
 

@@ -13,6 +13,7 @@
 #include "app/rig/rig.h"
 #include "app/rig/setup_sounds.h"
 #include "app/session/further_records.h"
+#include "app/session/presentation_check.h"
 #include "app/session/recorded_options.h"
 #include "app/session/session_boxes.h"
 #include "app/session/session_circumstances.h"
@@ -21,7 +22,6 @@
 #include "app/session/session_plan.h"
 #include "app/session/session_recording.h"
 #include "app/session/session_room.h"
-#include "app/session/timing_rehearsal.h"
 #include "devices/host/thread_priority.h"
 #include "experiment/base/error.h"
 #include "experiment/design/schedule.h"
@@ -229,7 +229,7 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
         picture_library();
     note_thread(prepare_thread({options.realtime, options.processor}), rig.clock(), records);
     if (options.refresh_check_s > 0.0)
-        rehearse_timing(rig, protocol, plan.schedule, folder.header, folder.path, store);
+        check_presentation(rig, protocol, plan.schedule, folder.header, folder.path, store);
     SessionResult result;
     try {
         result = session.run(

@@ -60,7 +60,7 @@ void add_session_commands(CLI::App& app, ChosenCommand& chosen) {
            "The screen to take: its number as `overt doctor` lists them, or the name of its output or of its "
            "EDID (default: [display] monitor, or the only one with the protocol's resolution and rate)");
     option(command, "--sessions", options.sessions, "DIR", "Folder for sessions", shown_default);
-    option(command, "--trials", options.trials, "N", "Only the first N trials, for a rehearsal",
+    option(command, "--trials", options.trials, "N", "Only the first N trials, to try a protocol",
            above_zero());
     option(command, "--print-session-to", options.print_session_to, "FILE",
            "Write the session's path to this file, for scripts");
@@ -71,10 +71,10 @@ void add_session_commands(CLI::App& app, ChosenCommand& chosen) {
     command.add_flag("--verify-output", options.verify_output,
                      "Decode every page before the first trial, compare it with its prediction, and "
                      "record the result with the hash of what is sent");
-    option(
-        command, "--faults", options.faults, "FILE",
-        "Rehearse with a display and a simulated eye tracker that do wrong what this file (TOML) says: late "
-        "pictures, skipped refreshes, jitter of time stamps; silence, gaps, a tracker that is unplugged");
+    option(command, "--faults", options.faults, "FILE",
+           "Try a session with a display and a simulated eye tracker that do wrong what this file (TOML) "
+           "says: late "
+           "pictures, skipped refreshes, jitter of time stamps; silence, gaps, a tracker that is unplugged");
     command
         .add_option_function<std::string>(
             "--operator-socket",
@@ -92,7 +92,7 @@ void add_session_commands(CLI::App& app, ChosenCommand& chosen) {
     option(command, "--pin", options.processor, "CPU", "Run the session's thread on this processor only",
            not_negative());
     option(command, "--refresh-check", options.refresh_check_s, "SECONDS",
-           "How long the refresh of a real screen is measured before the session; less for a rehearsal, 0 "
+           "How long the refresh of a real screen is measured before the session; less for a trial run, 0 "
            "not at all",
            CLI::Range(0.0, 600.0), shown_default);
     add_quality_option(command, options.quality,

@@ -34,7 +34,7 @@ void say_frames(const StimulusLibrary& library, bool to_people) {
     fmt::print("frames: {}\n", library.source_of(rendered.front()));
     if (to_people && library.quality_of_frames(rendered.front()).level == BakeQuality::preview)
         fmt::print(stderr, "risk: frames: previews have half the resolution and few light paths: they are "
-                           "for rehearsals, not for observers whose data count\n");
+                           "for trial runs, not for observers whose data count\n");
 }
 
 void say_risks(const std::vector<ScreenFinding>& findings) {

@@ -23,7 +23,7 @@ struct SessionPlan {
 SessionPlan plan_session(const RunOptions& options, const SessionPlace& place, const Protocol& protocol,
                          const Observer& observer);
 
-/// What is simulated has a seed of its own, so that one order can be rehearsed with several observers.
+/// What is simulated has a seed of its own, so that one order can be tried with several observers.
 std::uint64_t seed_of_simulated(const RunOptions& options, const SessionPlan& plan);
 
 } // namespace overt

@@ -155,12 +155,12 @@ std::string EyelinkDriver::sentence_of_calibration() const {
     return text.data();
 }
 
-SetupOutcome EyelinkDriver::set_up(SetupStage& stage) {
+SetupOutcome EyelinkDriver::set_up(SetupScreen& setup_screen) {
     SetupOutcome outcome;
     outcome.method = "tracker";
     if (settings_.is_dummy)
         return outcome;
-    EyelinkSetup setup(library_, &stage, {settings_.target_deg}, *clock_, SessionTime::max());
+    EyelinkSetup setup(library_, &setup_screen, {settings_.target_deg}, *clock_, SessionTime::max());
     library_->do_tracker_setup();
     setup.check();
     if (library_->eyelink_is_connected() != 1)
@@ -170,7 +170,7 @@ SetupOutcome EyelinkDriver::set_up(SetupStage& stage) {
     const std::int16_t result = library_->eyelink_cal_result();
     outcome.message = sentence_of_calibration();
     outcome.validation = eyelink_validation(outcome.message);
-    if (stage.is_cancelled() || result == aborted_by_escape) {
+    if (setup_screen.is_cancelled() || result == aborted_by_escape) {
         outcome.kind = SetupOutcome::Kind::cancelled;
     } else if (result == 1) {
         outcome.message = fmt::format("The tracker calls the calibration poor. {}", outcome.message);

@@ -31,7 +31,7 @@ class EyelinkDriver final : public TrackerDriver {
     bool calibrates_itself() const noexcept override { return !settings_.is_dummy; }
 
     /// The tracker's own dialogue, until the operator leaves it there or by Esc.
-    SetupOutcome set_up(SetupStage& stage) override;
+    SetupOutcome set_up(SetupScreen& setup_screen) override;
 
     /// The tracker's own check, accepted at its host. Esc there: set-up is wanted. Where the tracker tells no
     /// number, drift is measured from samples.

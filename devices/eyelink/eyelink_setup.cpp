@@ -119,9 +119,9 @@ std::uint16_t eyelink_key(const SetupKey& key) noexcept {
     return known == std::end(codes) ? std::uint16_t{0} : known->second;
 }
 
-EyelinkSetup::EyelinkSetup(const EyelinkLibrary& library, SetupStage* stage, Degrees target,
+EyelinkSetup::EyelinkSetup(const EyelinkLibrary& library, SetupScreen* setup_screen, Degrees target,
                            const Clock& clock, SessionTime until)
-    : library_(&library), stage_(stage), target_(target), clock_(&clock), until_(until) {
+    : library_(&library), setup_screen_(setup_screen), target_(target), clock_(&clock), until_(until) {
     OVERT_EXPECTS(!active_setup);
     active_setup = this;
     hooks2_ = {.major = 1,
@@ -177,7 +177,7 @@ template <class Work> std::int16_t EyelinkSetup::guarded(const Work& work) noexc
     if (thrown_)
         return -1;
     try {
-        if (stage_)
+        if (setup_screen_)
             work();
         return 0;
     } catch (...) {
@@ -190,32 +190,32 @@ void EyelinkSetup::end_dialogue() noexcept { (*library_)->exit_calibration(); }
 
 std::int16_t EyelinkSetup::set_up() noexcept {
     return guarded([&] {
-        stage_->show_text("Set-up of the EyeLink. Enter: camera image. C: calibrate. V: validate. "
-                          "Esc: back, and at last to the experiment.");
+        setup_screen_->show_text("Set-up of the EyeLink. Enter: camera image. C: calibrate. V: validate. "
+                                 "Esc: back, and at last to the experiment.");
     });
 }
 
 std::int16_t EyelinkSetup::clear() noexcept {
-    return guarded([&] { stage_->clear(); });
+    return guarded([&] { setup_screen_->clear(); });
 }
 
 std::int16_t EyelinkSetup::draw_target(double x_px, double y_px) noexcept {
-    return guarded([&] { stage_->show_target({x_px, y_px}, target_); });
+    return guarded([&] { setup_screen_->show_target({x_px, y_px}, target_); });
 }
 
 std::int16_t EyelinkSetup::beep(int which) noexcept {
     return guarded([&] {
         switch (which) {
         case -2:
-            return stage_->beep(SetupBeep::drift_bad);
+            return setup_screen_->beep(SetupBeep::drift_bad);
         case -1:
-            return stage_->beep(SetupBeep::calibration_bad);
+            return setup_screen_->beep(SetupBeep::calibration_bad);
         case 0:
-            return stage_->beep(SetupBeep::calibration_good);
+            return setup_screen_->beep(SetupBeep::calibration_good);
         case 2:
-            return stage_->beep(SetupBeep::drift_good);
+            return setup_screen_->beep(SetupBeep::drift_good);
         default:
-            return stage_->beep(SetupBeep::target_appears);
+            return setup_screen_->beep(SetupBeep::target_appears);
         }
     });
 }
@@ -252,7 +252,7 @@ std::int16_t EyelinkSetup::image_line(int width, int line, int lines, const std:
             if (const std::size_t colour = 4u * indices[x]; colour + 4 <= palette_.size())
                 std::memcpy(to, palette_.data() + colour, 4);
         if (line == lines)
-            stage_->show_camera(camera_);
+            setup_screen_->show_camera(camera_);
     });
 }
 
@@ -264,25 +264,26 @@ std::int16_t EyelinkSetup::image(int width, int height, const std::uint8_t* rgba
         camera_.height_px = height;
         const auto* bytes = reinterpret_cast<const std::byte*>(rgba);
         camera_.rgba.assign(bytes, bytes + 4 * std::ptrdiff_t{width} * height);
-        stage_->show_camera(camera_);
+        setup_screen_->show_camera(camera_);
     });
 }
 
 std::int16_t EyelinkSetup::alert(std::string text) noexcept {
-    return guarded([&] { stage_->show_text(text); });
+    return guarded([&] { setup_screen_->show_text(text); });
 }
 
 std::int16_t EyelinkSetup::input_key(void* event) noexcept {
     std::optional<SetupKey> key;
     guarded([&] {
-        key = stage_->next_key();
+        key = setup_screen_->next_key();
         if (!key)
-            stage_->wait(std::chrono::milliseconds(2)); // the library asks again and again
+            setup_screen_->wait(std::chrono::milliseconds(2)); // the library asks again and again
     });
     is_out_of_time_ = is_out_of_time_ || clock_->now() >= until_;
     is_connection_lost_ = is_connection_lost_ || (*library_)->eyelink_is_connected() == 0;
-    const bool ends = thrown_ || is_out_of_time_ || is_connection_lost_ || (stage_ && stage_->is_cancelled());
-    const std::uint16_t code = ends  ? (stage_ ? terminate_key : escape_key)
+    const bool ends =
+        thrown_ || is_out_of_time_ || is_connection_lost_ || (setup_screen_ && setup_screen_->is_cancelled());
+    const std::uint16_t code = ends  ? (setup_screen_ ? terminate_key : escape_key)
                                : key ? eyelink_key(*key)
                                      : std::uint16_t{0};
     if (ends)

@@ -1,5 +1,5 @@
 /// The dialogue of an EyeLink's set-up on overt's own screen: what the library asks for through its hooks,
-/// done on the set-up stage.
+/// done on the set-up screen.
 #pragma once
 
 #include <cstdint>
@@ -10,26 +10,27 @@
 
 #include "devices/eyelink/eyelink_library.h"
 #include "experiment/ports/clock.h"
-#include "experiment/ports/setup_stage.h"
+#include "experiment/ports/setup_screen.h"
 
 namespace overt {
 
 /// What the library knows a key by; 0: it knows none.
 std::uint16_t eyelink_key(const SetupKey& key) noexcept;
 
-/// Lends a stage to the library while it lives: one at a time, on the thread that calls the library. What the
-/// stage throws never passes through the library: the dialogue is ended and check() throws it again.
+/// Lends a set-up screen to the library while it lives: one at a time, on the thread that calls the library.
+/// What the set-up screen throws never passes through the library: the dialogue is ended and check() throws
+/// it again.
 class EyelinkSetup {
   public:
-    /// Without a stage (nullptr) nothing is drawn and no key comes: a check of drift, whose target is shown
-    /// already. From `until` on the dialogue is ended from here.
-    EyelinkSetup(const EyelinkLibrary& library, SetupStage* stage, Degrees target, const Clock& clock,
+    /// Without a set-up screen (nullptr) nothing is drawn and no key comes: a check of drift, whose target is
+    /// shown already. From `until` on the dialogue is ended from here.
+    EyelinkSetup(const EyelinkLibrary& library, SetupScreen* setup_screen, Degrees target, const Clock& clock,
                  SessionTime until);
     ~EyelinkSetup();
     EyelinkSetup(const EyelinkSetup&) = delete;
     EyelinkSetup& operator=(const EyelinkSetup&) = delete;
 
-    /// Throws what the stage threw, or DeviceError if the connection was lost.
+    /// Throws what the set-up screen threw, or DeviceError if the connection was lost.
     void check() const;
 
     /// It was ended because the time was over.
@@ -54,7 +55,7 @@ class EyelinkSetup {
     void end_dialogue() noexcept;
 
     const EyelinkLibrary* library_;
-    SetupStage* stage_;
+    SetupScreen* setup_screen_;
     Degrees target_;
     const Clock* clock_;
     SessionTime until_;

@@ -45,7 +45,7 @@ class LslGazeRelay final : public TrackerDriver {
     TrackerDescription connect(const TrackerWish& wish) override;
     bool tells_events() const noexcept override { return tracker_->tells_events(); }
     bool calibrates_itself() const noexcept override { return tracker_->calibrates_itself(); }
-    SetupOutcome set_up(SetupStage& stage) override { return tracker_->set_up(stage); }
+    SetupOutcome set_up(SetupScreen& setup_screen) override { return tracker_->set_up(setup_screen); }
     std::optional<DriftOutcome> drift_check(ScreenPoint target) override {
         return tracker_->drift_check(target);
     }

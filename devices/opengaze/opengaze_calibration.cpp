@@ -54,7 +54,7 @@ struct Course {
     bool is_cancelled = false;
 };
 
-Course follow(OpenGazeLink& link, SetupStage& stage, const OpenGazeCalibration& calibration,
+Course follow(OpenGazeLink& link, SetupScreen& setup_screen, const OpenGazeCalibration& calibration,
               SessionTime give_up) {
     Course course;
     while (!course.result && calibration.clock.now() < give_up) {
@@ -63,13 +63,13 @@ Course follow(OpenGazeLink& link, SetupStage& stage, const OpenGazeCalibration& 
                 fmt::format("The eye tracker's server at {} was lost during the calibration: {}; start it "
                             "again and connect anew.",
                             link.name(), link.loss()));
-        if (stage.wants_out()) {
+        if (setup_screen.wants_out()) {
             course.is_cancelled = true;
             return course;
         }
         const std::optional<OpenGazeAnswer> said = link.next_calibration_message(calibration.clock.now());
         if (!said) {
-            stage.wait(looking_slice);
+            setup_screen.wait(looking_slice);
             continue;
         }
         const OpenGazeMessage message = said->message();
@@ -78,8 +78,8 @@ Course follow(OpenGazeLink& link, SetupStage& stage, const OpenGazeCalibration& 
             course.result = said;
         else if (message.value("ID") == "CALIB_START_PT" && x && y &&
                  !calibration.settings.own_calibration_screen) {
-            stage.show_target(place_of({*x, *y}, calibration.wish.screen), target_diameter);
-            stage.beep(SetupBeep::target_appears);
+            setup_screen.show_target(place_of({*x, *y}, calibration.wish.screen), target_diameter);
+            setup_screen.beep(SetupBeep::target_appears);
         }
     }
     return course;
@@ -130,7 +130,7 @@ SetupOutcome outcome_of(const OpenGazeMessage& result, const OpenGazeSettings& s
     return outcome;
 }
 
-SetupOutcome calibrate_opengaze(OpenGazeLink& link, SetupStage& stage,
+SetupOutcome calibrate_opengaze(OpenGazeLink& link, SetupScreen& setup_screen,
                                 const OpenGazeCalibration& calibration) {
     const OpenGazeSettings& settings = calibration.settings;
     link.forget();
@@ -138,9 +138,9 @@ SetupOutcome calibrate_opengaze(OpenGazeLink& link, SetupStage& stage,
     choose_times(link, settings);
     set_state(link, "CALIBRATE_SHOW", settings.own_calibration_screen);
     if (settings.own_calibration_screen)
-        stage.show_text("The targets are shown by the tracker's own window.\nEscape breaks off.");
+        setup_screen.show_text("The targets are shown by the tracker's own window.\nEscape breaks off.");
     else
-        stage.clear();
+        setup_screen.clear();
     const std::optional<OpenGazeAnswer> begun = link.set("CALIBRATE_START", "STATE=\"1\"");
     if (!begun || !begun->is_granted)
         throw DeviceError(
@@ -150,11 +150,11 @@ SetupOutcome calibrate_opengaze(OpenGazeLink& link, SetupStage& stage,
     const SessionTime give_up =
         calibration.clock.now() + patience +
         std::clamp(points, 1, most_points) * (settings.target_delay + settings.target_time + target_patience);
-    const Course course = follow(link, stage, calibration, give_up);
+    const Course course = follow(link, setup_screen, calibration, give_up);
     if (!course.result)
         set_state(link, "CALIBRATE_START", false);
     set_state(link, "CALIBRATE_SHOW", false);
-    stage.clear();
+    setup_screen.clear();
     if (course.is_cancelled)
         return {SetupOutcome::Kind::cancelled, {}, {}, "the calibration was broken off"};
     if (!course.result)

@@ -1,4 +1,4 @@
-/// A calibration by an Open Gaze server, whose targets the setup stage shows.
+/// A calibration by an Open Gaze server, whose targets the set-up screen shows.
 #pragma once
 
 #include "devices/opengaze/opengaze_link.h"
@@ -12,10 +12,10 @@ struct OpenGazeCalibration {
     const Clock& clock;
 };
 
-/// Has the server go through its targets, shows each on the stage when the server comes to it, and gives
-/// where each eye was measured. These are the errors of the calibration at its own targets; the server has no
-/// validation. Throws DeviceError if the line is lost or the server does not begin.
-SetupOutcome calibrate_opengaze(OpenGazeLink& link, SetupStage& stage,
+/// Has the server go through its targets, shows each on the set-up screen when the server comes to it, and
+/// gives where each eye was measured. These are the errors of the calibration at its own targets; the server
+/// has no validation. Throws DeviceError if the line is lost or the server does not begin.
+SetupOutcome calibrate_opengaze(OpenGazeLink& link, SetupScreen& setup_screen,
                                 const OpenGazeCalibration& calibration);
 
 /// What a calibration's result says of the eyes that are measured. Targets of an eye that was not valid have

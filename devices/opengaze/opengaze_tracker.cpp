@@ -170,9 +170,9 @@ TrackerDescription OpenGazeTracker::connect(const TrackerWish& wish) {
     return description;
 }
 
-SetupOutcome OpenGazeTracker::set_up(SetupStage& stage) {
+SetupOutcome OpenGazeTracker::set_up(SetupScreen& setup_screen) {
     OVERT_EXPECTS(link_);
-    return calibrate_opengaze(*link_, stage, {settings_, wish_, clock_});
+    return calibrate_opengaze(*link_, setup_screen, {settings_, wish_, clock_});
 }
 
 void OpenGazeTracker::stream(bool on) {

@@ -23,7 +23,8 @@ struct OpenGazeSettings {
     /// Where the stimulus screen lies on the desktop of the tracker's machine, in px; the tracker is told to
     /// track that screen. Nothing: it tracks the one that it is set to.
     std::optional<glm::ivec2> screen_origin_px;
-    /// Whether targets are shown by the tracker's own window, on its own machine, and not on the stage.
+    /// Whether targets are shown by the tracker's own window, on its own machine, and not on the set-up
+    /// screen.
     bool own_calibration_screen = false;
     /// Targets of a calibration, as shares of the screen; empty: those that the tracker has.
     std::vector<glm::dvec2> calibration_points;
@@ -49,7 +50,7 @@ class OpenGazeTracker final : public TrackerDriver {
 
     TrackerDescription connect(const TrackerWish& wish) override;
     bool calibrates_itself() const noexcept override { return true; }
-    SetupOutcome set_up(SetupStage& stage) override;
+    SetupOutcome set_up(SetupScreen& setup_screen) override;
     void start() override;
     void stop() noexcept override;
     RecordingState read(TrackerItemSink& sink, SessionTime deadline) noexcept override;

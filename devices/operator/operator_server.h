@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "experiment/base/spsc_ring.h"
-#include "experiment/ports/setup_stage.h"
+#include "experiment/ports/setup_screen.h"
 #include "experiment/watch/operator_command.h"
 #include "experiment/watch/view_news.h"
 

@@ -20,7 +20,7 @@ class PointerDriver final : public TrackerDriver {
     TrackerDescription connect(const TrackerWish& wish) override;
     /// There is nothing to calibrate: the pointer is where it is.
     bool calibrates_itself() const noexcept override { return true; }
-    SetupOutcome set_up(SetupStage&) override {
+    SetupOutcome set_up(SetupScreen&) override {
         return {SetupOutcome::Kind::done, {}, "tracker", "the pointer needs no calibration"};
     }
     void start() override;

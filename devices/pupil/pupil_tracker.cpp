@@ -101,12 +101,13 @@ double PupilTracker::measure_rate() {
     return std::round(static_cast<double>(times_s.size() - 1) / (times_s.back() - times_s.front()));
 }
 
-SetupOutcome PupilTracker::set_up(SetupStage& stage) {
+SetupOutcome PupilTracker::set_up(SetupScreen& setup_screen) {
     OVERT_EXPECTS(link_);
     const std::string topic(calibration_topic);
     link_->subscribe(topic);
     drop_published();
-    stage.show_text("Pupil Capture calibrates: the observer looks at its targets.\nEscape breaks off.");
+    setup_screen.show_text(
+        "Pupil Capture calibrates: the observer looks at its targets.\nEscape breaks off.");
     if (!link_->ask("C", clock_.now() + settings_.patience))
         throw DeviceError(fmt::format("Pupil Capture at {} does not answer; start it again and connect anew.",
                                       link_->name()));
@@ -128,14 +129,14 @@ SetupOutcome PupilTracker::set_up(SetupStage& stage) {
                                       ? "Pupil Capture tells no error of its calibration"
                                       : "Pupil Capture could not calibrate: its own window says why";
         }
-        is_cancelled = stage.wants_out();
+        is_cancelled = setup_screen.wants_out();
         if (!is_over)
-            stage.wait(calibration_slice);
+            setup_screen.wait(calibration_slice);
     }
     if (!is_over)
         link_->ask("c", clock_.now() + settings_.patience);
     link_->unsubscribe(topic);
-    stage.clear();
+    setup_screen.clear();
     if (!is_over && is_cancelled)
         return {SetupOutcome::Kind::cancelled, {}, {}, "the calibration was broken off"};
     return outcome;

@@ -42,7 +42,7 @@ class PupilTracker final : public TrackerDriver {
     TrackerDescription connect(const TrackerWish& wish) override;
     bool calibrates_itself() const noexcept override { return true; }
     /// Has Pupil Capture calibrate with its own targets, and waits for its end.
-    SetupOutcome set_up(SetupStage& stage) override;
+    SetupOutcome set_up(SetupScreen& setup_screen) override;
     void start() override;
     void stop() noexcept override;
     RecordingState read(TrackerItemSink& sink, SessionTime deadline) noexcept override;

@@ -40,7 +40,7 @@ TrackerDescription ReplayTracker::description() const {
             fmt::format("gaze of {}, by {}", recording_path_.filename().string(), recorded.name)};
 }
 
-SetupOutcome ReplayTracker::set_up(SetupStage&) {
+SetupOutcome ReplayTracker::set_up(SetupScreen&) {
     const std::optional<RecordedCalibration> recorded = source_.calibration(++set_ups_);
     if (!recorded)
         return {SetupOutcome::Kind::done, std::nullopt, "replay", "the recording tells of no validation"};

@@ -21,7 +21,7 @@ class ReplayTracker final : public EyeTracker {
     TrackerDescription description() const override;
     bool tells_events() const noexcept override { return source_.tells_events(); }
     /// The recording's own validations, one after the other.
-    SetupOutcome set_up(SetupStage& stage) override;
+    SetupOutcome set_up(SetupScreen& setup_screen) override;
     /// What the recording's drift check found in this trial. Takes the tenth of a second that one takes.
     DriftOutcome drift_check(ScreenPoint target) override;
     std::optional<ClockPair> read_clocks() noexcept override;

@@ -52,7 +52,7 @@ void FaultyTracker::require_connection() const {
         throw DeviceError(std::string(unplugged));
 }
 
-SetupOutcome FaultyTracker::set_up(SetupStage& stage) {
+SetupOutcome FaultyTracker::set_up(SetupScreen& setup_screen) {
     require_connection();
     ++set_ups_;
     for (const TrackerFault& fault : faults_.given)
@@ -60,7 +60,7 @@ SetupOutcome FaultyTracker::set_up(SetupStage& stage) {
             struck_.push_back(sentence_on(fault));
             return {SetupOutcome::Kind::failed, {}, {}, "the simulated eye tracker found no eye"};
         }
-    return tracker_->set_up(stage);
+    return tracker_->set_up(setup_screen);
 }
 
 DriftOutcome FaultyTracker::drift_check(ScreenPoint target) {

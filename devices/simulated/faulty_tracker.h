@@ -1,4 +1,4 @@
-/// An eye tracker with which goes wrong what a script says, for rehearsals.
+/// An eye tracker with which goes wrong what a script says, for trial runs.
 #pragma once
 
 #include <map>
@@ -27,7 +27,7 @@ class FaultyTracker final : public EyeTracker {
     bool measures_gaze() const noexcept override { return tracker_->measures_gaze(); }
     bool tells_events() const noexcept override { return tracker_->tells_events(); }
     bool calibrates_itself() const noexcept override { return tracker_->calibrates_itself(); }
-    SetupOutcome set_up(SetupStage& stage) override;
+    SetupOutcome set_up(SetupScreen& setup_screen) override;
     DriftOutcome drift_check(ScreenPoint target) override;
     std::optional<ClockPair> read_clocks() noexcept override;
     void start_recording() override;

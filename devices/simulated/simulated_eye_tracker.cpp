@@ -76,7 +76,7 @@ TrackerDescription SimulatedEyeTracker::description() const {
     return {"simulated", settings_.rate_hz, settings_.eye, settings_.both_eyes};
 }
 
-SetupOutcome SimulatedEyeTracker::set_up(SetupStage&) {
+SetupOutcome SimulatedEyeTracker::set_up(SetupScreen&) {
     RandomStream random(seed_, "validation", calibrations_++);
     draw_offset();
     const glm::dvec2 screen_px = observer_->scene().screen.screen_px;

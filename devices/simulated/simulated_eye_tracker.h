@@ -49,7 +49,7 @@ class SimulatedEyeTracker final : public EyeTracker {
 
     /// Nine targets, each missed by a draw from the same distribution as the recordings' offsets. Takes no
     /// time.
-    SetupOutcome set_up(SetupStage& stage) override;
+    SetupOutcome set_up(SetupScreen& setup_screen) override;
 
     /// Averages the gaze of 100 ms, with the offset of the recording to come; waits up to 2 s for an open
     /// eye.

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "experiment/ports/setup_stage.h"
+#include "experiment/ports/setup_screen.h"
 
 namespace overt {
 

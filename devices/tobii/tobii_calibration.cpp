@@ -24,9 +24,9 @@ constexpr std::int32_t valid_and_used = 1;
 
 class Course {
   public:
-    Course(std::shared_ptr<const TobiiLibrary> library, TobiiEyeTracker* tracker, SetupStage& stage,
+    Course(std::shared_ptr<const TobiiLibrary> library, TobiiEyeTracker* tracker, SetupScreen& setup_screen,
            const TobiiSettings& settings)
-        : library_(std::move(library)), tracker_(tracker), stage_(stage), settings_(settings) {
+        : library_(std::move(library)), tracker_(tracker), setup_screen_(setup_screen), settings_(settings) {
         if (const TobiiStatus status = library_->enter_calibration(tracker_); status != tobii_ok)
             throw DeviceError(fmt::format("The eye tracker does not begin to calibrate ({}).",
                                           describe_tobii_status(status)));
@@ -34,13 +34,13 @@ class Course {
     Course(const Course&) = delete;
     Course& operator=(const Course&) = delete;
     ~Course() {
-        stage_.clear();
+        setup_screen_.clear();
         if (answers_)
             library_->leave_calibration(tracker_);
     }
 
     bool is_cancelled() {
-        is_cancelled_ = stage_.wants_out() || is_cancelled_;
+        is_cancelled_ = setup_screen_.wants_out() || is_cancelled_;
         return is_cancelled_;
     }
 
@@ -48,10 +48,10 @@ class Course {
     bool measure(ScreenPoint target) {
         for (int step = steps_of_shrinking; step >= 0; --step) {
             const double factor = 1.0 + (appears_larger - 1.0) * step / steps_of_shrinking;
-            stage_.show_target(target, Degrees{factor * settings_.target.value});
+            setup_screen_.show_target(target, Degrees{factor * settings_.target.value});
             if (step == steps_of_shrinking)
-                stage_.beep(SetupBeep::target_appears);
-            stage_.wait(settings_.target_delay / (steps_of_shrinking + 1));
+                setup_screen_.beep(SetupBeep::target_appears);
+            setup_screen_.wait(settings_.target_delay / (steps_of_shrinking + 1));
             if (is_cancelled())
                 return false;
         }
@@ -82,7 +82,7 @@ class Course {
 
   private:
     std::pair<float, float> share_of(ScreenPoint target) const {
-        const glm::dvec2 size = stage_.screen().screen_px;
+        const glm::dvec2 size = setup_screen_.geometry().screen_px;
         return {static_cast<float>(target.x_px / size.x), static_cast<float>(target.y_px / size.y)};
     }
 
@@ -92,23 +92,23 @@ class Course {
         std::packaged_task<TobiiStatus()> task(std::move(call));
         std::future<TobiiStatus> status = task.get_future();
         std::thread(std::move(task)).detach();
-        const SessionTime give_up = stage_.now() + settings_.calibration_patience;
+        const SessionTime give_up = setup_screen_.now() + settings_.calibration_patience;
         while (status.wait_for(0s) != std::future_status::ready) {
             is_cancelled();
-            if (stage_.now() >= give_up) {
+            if (setup_screen_.now() >= give_up) {
                 answers_ = false;
                 throw DeviceError(
                     "The eye tracker does not end what it was to do for its calibration: see its "
                     "cables, and begin the session anew.");
             }
-            stage_.wait(looking_slice);
+            setup_screen_.wait(looking_slice);
         }
         return status.get();
     }
 
     std::shared_ptr<const TobiiLibrary> library_;
     TobiiEyeTracker* tracker_;
-    SetupStage& stage_;
+    SetupScreen& setup_screen_;
     const TobiiSettings& settings_;
     bool is_cancelled_ = false, answers_ = true;
 };
@@ -181,23 +181,24 @@ SetupOutcome outcome_of(const TobiiCalibrationResult& result, const TrackerWish&
 } // namespace
 
 SetupOutcome calibrate_tobii(std::shared_ptr<const TobiiLibrary> library, TobiiEyeTracker* tracker,
-                             SetupStage& stage, const TobiiSettings& settings, const TrackerWish& wish) {
-    Course course(std::move(library), tracker, stage, settings);
+                             SetupScreen& setup_screen, const TobiiSettings& settings,
+                             const TrackerWish& wish) {
+    Course course(std::move(library), tracker, setup_screen, settings);
     for (const ScreenPoint target : settings.calibration_points) {
         if (course.measure(target))
             continue;
         if (course.is_cancelled())
             break;
         course.discard(target);
-        stage.beep(SetupBeep::calibration_bad);
+        setup_screen.beep(SetupBeep::calibration_bad);
         course.measure(target);
     }
     if (course.is_cancelled())
         return {SetupOutcome::Kind::cancelled, {}, {}, "the calibration was broken off"};
     const std::shared_ptr<TobiiCalibrationResult> result = course.compute();
     SetupOutcome outcome = outcome_of(*result, wish);
-    stage.beep(outcome.kind == SetupOutcome::Kind::done ? SetupBeep::calibration_good
-                                                        : SetupBeep::calibration_bad);
+    setup_screen.beep(outcome.kind == SetupOutcome::Kind::done ? SetupBeep::calibration_good
+                                                               : SetupBeep::calibration_bad);
     return outcome;
 }
 

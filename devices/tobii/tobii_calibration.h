@@ -1,4 +1,4 @@
-/// A calibration by a tracker of Tobii's, at targets that the setup stage shows.
+/// A calibration by a tracker of Tobii's, at targets that the set-up screen shows.
 #pragma once
 
 #include "devices/tobii/tobii_driver.h"
@@ -10,6 +10,7 @@ namespace overt {
 /// it. Gives what the tracker measured at its own targets: it has no validation. Throws DeviceError if the
 /// tracker cannot calibrate, or if the library does not answer within settings.calibration_patience.
 SetupOutcome calibrate_tobii(std::shared_ptr<const TobiiLibrary> library, TobiiEyeTracker* tracker,
-                             SetupStage& stage, const TobiiSettings& settings, const TrackerWish& wish);
+                             SetupScreen& setup_screen, const TobiiSettings& settings,
+                             const TrackerWish& wish);
 
 } // namespace overt

@@ -176,9 +176,9 @@ TrackerDescription TobiiDriver::connect(const TrackerWish& wish) {
     return description_;
 }
 
-SetupOutcome TobiiDriver::set_up(SetupStage& stage) {
+SetupOutcome TobiiDriver::set_up(SetupScreen& setup_screen) {
     OVERT_EXPECTS(tracker_);
-    return calibrate_tobii(library_, tracker_, stage, settings_, wish_);
+    return calibrate_tobii(library_, tracker_, setup_screen, settings_, wish_);
 }
 
 void TobiiDriver::start() {

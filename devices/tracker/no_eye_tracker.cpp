@@ -11,7 +11,7 @@ class NoEyeTracker final : public EyeTracker {
 
     TrackerDescription description() const override { return {"none", 0.0, eye_}; }
     bool measures_gaze() const noexcept override { return false; }
-    SetupOutcome set_up(SetupStage&) override { return {}; }
+    SetupOutcome set_up(SetupScreen&) override { return {}; }
     DriftOutcome drift_check(ScreenPoint) override { return {}; }
     std::optional<ClockPair> read_clocks() noexcept override { return std::nullopt; }
     void start_recording() override {}

@@ -66,7 +66,7 @@ ThreadedTracker::~ThreadedTracker() {
     }
 }
 
-SetupOutcome ThreadedTracker::set_up(SetupStage& stage) { return driver_->set_up(stage); }
+SetupOutcome ThreadedTracker::set_up(SetupScreen& setup_screen) { return driver_->set_up(setup_screen); }
 
 std::optional<ClockPair> ThreadedTracker::read_clocks() noexcept {
     // Of the recording under way, the thread reads them.

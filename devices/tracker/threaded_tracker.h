@@ -26,7 +26,7 @@ class ThreadedTracker final : public EyeTracker {
     TrackerDescription description() const override { return description_; }
     bool tells_events() const noexcept override { return driver_->tells_events(); }
     bool calibrates_itself() const noexcept override { return driver_->calibrates_itself(); }
-    SetupOutcome set_up(SetupStage& stage) override;
+    SetupOutcome set_up(SetupScreen& setup_screen) override;
     /// Where the driver has no check of its own: median of the first 100 ms within 2 s in which gaze of each
     /// measured eye stayed within 1 degree.
     DriftOutcome drift_check(ScreenPoint target) override;

@@ -43,7 +43,7 @@ class TrackerDriver {
     /// Whether set_up() does anything; else gaze is calibrated by the program where the protocol says so.
     virtual bool calibrates_itself() const noexcept { return false; }
     /// Throws DeviceError if the tracker is lost.
-    virtual SetupOutcome set_up(SetupStage&) { return {}; }
+    virtual SetupOutcome set_up(SetupScreen&) { return {}; }
 
     /// Nothing: the tracker has no check of its own, and drift is measured from its samples.
     virtual std::optional<DriftOutcome> drift_check(ScreenPoint /*target*/) { return std::nullopt; }

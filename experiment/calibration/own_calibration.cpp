@@ -119,27 +119,30 @@ void CalibratedTracker::take_samples(std::array<RestingGaze, 2>& eyes) {
     }
 }
 
-CalibratedTracker::Looked CalibratedTracker::look_at(SetupStage& stage, ScreenPoint target, Eyes& found) {
+CalibratedTracker::Looked CalibratedTracker::look_at(SetupScreen& setup_screen, ScreenPoint target,
+                                                     Eyes& found) {
     const RestingGaze::Settings resting{
         std::chrono::duration_cast<TrackerClock::duration>(from_seconds(settings_.fixation_s)),
         Degrees{settings_.fixation_reach_deg}};
-    std::array<RestingGaze, 2> eyes_of{RestingGaze(stage.screen(), resting),
-                                       RestingGaze(stage.screen(), resting)};
-    stage.beep(SetupBeep::target_appears);
-    const SessionTime onset = stage.show_target(target, Degrees{appears_larger * settings_.target_deg});
+    std::array<RestingGaze, 2> eyes_of{RestingGaze(setup_screen.geometry(), resting),
+                                       RestingGaze(setup_screen.geometry(), resting)};
+    setup_screen.beep(SetupBeep::target_appears);
+    const SessionTime onset =
+        setup_screen.show_target(target, Degrees{appears_larger * settings_.target_deg});
     const SessionTime latest = onset + from_seconds(settings_.patience_s);
     SessionTime next_step = onset + between_steps;
     bool shrinks = true, is_asked = settings_.accept == TargetAcceptance::fixation;
-    while (stage.now() < latest && !stage.is_cancelled() && !tracker_->lost()) {
-        const double done = to_seconds(stage.now() - onset) / to_seconds(shrinks_for);
-        if (shrinks && stage.now() >= next_step) {
+    while (setup_screen.now() < latest && !setup_screen.is_cancelled() && !tracker_->lost()) {
+        const double done = to_seconds(setup_screen.now() - onset) / to_seconds(shrinks_for);
+        if (shrinks && setup_screen.now() >= next_step) {
             shrinks = done < 1.0;
             const double factor = appears_larger + (1.0 - appears_larger) * std::min(1.0, done);
-            next_step = stage.show_target(target, Degrees{factor * settings_.target_deg}) + between_steps;
+            next_step =
+                setup_screen.show_target(target, Degrees{factor * settings_.target_deg}) + between_steps;
         } else {
-            stage.wait(between_looks);
+            setup_screen.wait(between_looks);
         }
-        while (const std::optional<SetupKey> key = stage.next_key()) {
+        while (const std::optional<SetupKey> key = setup_screen.next_key()) {
             if (key->kind == SetupKey::Kind::escape)
                 return Looked::cancelled;
             if (key->kind == SetupKey::Kind::backspace)
@@ -147,7 +150,7 @@ CalibratedTracker::Looked CalibratedTracker::look_at(SetupStage& stage, ScreenPo
             is_asked = is_asked || key->kind == SetupKey::Kind::space;
         }
         // Gaze that still rests on the target before is not taken for this one's.
-        if (stage.now() < onset + least_latency) {
+        if (setup_screen.now() < onset + least_latency) {
             std::array<RestingGaze, 2> thrown_away = eyes_of;
             take_samples(thrown_away);
             continue;
@@ -163,13 +166,14 @@ CalibratedTracker::Looked CalibratedTracker::look_at(SetupStage& stage, ScreenPo
         if (all_rest)
             return Looked::rested;
     }
-    return stage.is_cancelled() || tracker_->lost() ? Looked::cancelled : Looked::missed;
+    return setup_screen.is_cancelled() || tracker_->lost() ? Looked::cancelled : Looked::missed;
 }
 
-bool CalibratedTracker::visit(SetupStage& stage, std::vector<Visit>& visits, std::vector<std::size_t> order) {
+bool CalibratedTracker::visit(SetupScreen& setup_screen, std::vector<Visit>& visits,
+                              std::vector<std::size_t> order) {
     for (std::size_t i = 0; i < order.size();) {
         Eyes found;
-        switch (look_at(stage, visits[order[i]].target, found)) {
+        switch (look_at(setup_screen, visits[order[i]].target, found)) {
         case Looked::cancelled:
             return false;
         case Looked::back:
@@ -186,12 +190,12 @@ bool CalibratedTracker::visit(SetupStage& stage, std::vector<Visit>& visits, std
     return true;
 }
 
-bool CalibratedTracker::visit_all(SetupStage& stage, std::vector<Visit>& visits) {
+bool CalibratedTracker::visit_all(SetupScreen& setup_screen, std::vector<Visit>& visits) {
     std::vector<std::size_t> order(visits.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     RandomStream random(seed_, "order of targets", 2 * set_ups_);
     random.shuffle(std::span(order));
-    return visit(stage, visits, order);
+    return visit(setup_screen, visits, order);
 }
 
 std::vector<CalibrationPair> CalibratedTracker::pairs_of(const std::vector<Visit>& visits, Eye eye) const {
@@ -250,9 +254,9 @@ ValidationResult CalibratedTracker::result_of(const std::vector<Visit>& visits,
     return result;
 }
 
-SetupOutcome CalibratedTracker::set_up(SetupStage& stage) {
+SetupOutcome CalibratedTracker::set_up(SetupScreen& setup_screen) {
     ++set_ups_;
-    screen_ = stage.screen();
+    screen_ = setup_screen.geometry();
     fits_ = {};
     const auto visits_to = [&](int points, double area) {
         std::vector<Visit> visits;
@@ -262,17 +266,17 @@ SetupOutcome CalibratedTracker::set_up(SetupStage& stage) {
     };
     const auto ended = [&](SetupOutcome::Kind kind, std::string message) {
         tracker_->stop_recording();
-        stage.clear();
-        stage.beep(SetupBeep::calibration_bad);
+        setup_screen.clear();
+        setup_screen.beep(SetupBeep::calibration_bad);
         if (tracker_->lost())
             throw DeviceError("the eye tracker was lost while it was calibrated");
         return SetupOutcome{kind, {}, {}, std::move(message)};
     };
     tracker_->start_recording();
     std::vector<Visit> visits = visits_to(settings_.points, settings_.area);
-    if (!visit_all(stage, visits))
+    if (!visit_all(setup_screen, visits))
         return ended(SetupOutcome::Kind::cancelled, "cancelled");
-    if (!visit(stage, visits, to_visit_again(visits, screen_)))
+    if (!visit(setup_screen, visits, to_visit_again(visits, screen_)))
         return ended(SetupOutcome::Kind::cancelled, "cancelled");
     std::string method;
     try {
@@ -286,7 +290,7 @@ SetupOutcome CalibratedTracker::set_up(SetupStage& stage) {
         return ended(SetupOutcome::Kind::failed, error.what());
     }
     visits = visits_to(settings_.validation_points, validation_shrinks * settings_.area);
-    if (!visit_all(stage, visits)) {
+    if (!visit_all(setup_screen, visits)) {
         fits_ = {};
         return ended(SetupOutcome::Kind::cancelled, "cancelled in the validation");
     }
@@ -299,8 +303,8 @@ SetupOutcome CalibratedTracker::set_up(SetupStage& stage) {
                      "gaze rested at fewer than half of the validation's targets");
     }
     tracker_->stop_recording();
-    stage.clear();
-    stage.beep(SetupBeep::calibration_good);
+    setup_screen.clear();
+    setup_screen.beep(SetupBeep::calibration_good);
     return {SetupOutcome::Kind::done, result, method,
             missed == 0 ? std::string()
                         : fmt::format("{} of the validation not seen", counted(missed, "target", "targets"))};

@@ -35,7 +35,7 @@ class CalibratedTracker final : public EyeTracker {
     /// Targets in random order, each until gaze rested (or the space bar was pressed while it did); those
     /// that were missed, or that the fit to the others misses by far, come a second time. Then the
     /// validation. Keys: space takes what rests now, backspace shows the target before again, escape ends it.
-    SetupOutcome set_up(SetupStage& stage) override;
+    SetupOutcome set_up(SetupScreen& setup_screen) override;
 
     DriftOutcome drift_check(ScreenPoint target) override;
     std::optional<ClockPair> read_clocks() noexcept override { return tracker_->read_clocks(); }
@@ -65,10 +65,10 @@ class CalibratedTracker final : public EyeTracker {
         ScreenPoint target;
         Eyes gaze;
     };
-    Looked look_at(SetupStage& stage, ScreenPoint target, Eyes& found);
+    Looked look_at(SetupScreen& setup_screen, ScreenPoint target, Eyes& found);
     /// False: cancelled.
-    bool visit_all(SetupStage& stage, std::vector<Visit>& visits);
-    bool visit(SetupStage& stage, std::vector<Visit>& visits, std::vector<std::size_t> order);
+    bool visit_all(SetupScreen& setup_screen, std::vector<Visit>& visits);
+    bool visit(SetupScreen& setup_screen, std::vector<Visit>& visits, std::vector<std::size_t> order);
     void take_samples(std::array<RestingGaze, 2>& eyes);
     std::vector<CalibrationPair> pairs_of(const std::vector<Visit>& visits, Eye eye) const;
     std::vector<std::size_t> to_visit_again(const std::vector<Visit>& visits,

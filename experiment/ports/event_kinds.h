@@ -55,8 +55,8 @@ inline constexpr std::string_view tracker_clock_jumped_event =
     "eye tracker's clock jumped";                                            ///< and by how much
 inline constexpr std::string_view tracker_fault_event = "eye tracker fault"; ///< a simulated one that struck
 inline constexpr std::string_view screen_event = "screen";                   ///< a finding about it
-/// What a rehearsal of a presentation found before the first trial: misses, and the distribution of times.
-inline constexpr std::string_view timing_rehearsed_event = "timing rehearsed";
+/// What a check of the presentation found before the first trial: misses, and the distribution of times.
+inline constexpr std::string_view presentation_check_event = "presentation check";
 inline constexpr std::string_view thread_event = "thread"; ///< how the program's threads are scheduled
 inline constexpr std::string_view output_verified_event = "output verified";
 inline constexpr std::string_view display_box_event = "display box";

@@ -11,7 +11,7 @@
 
 #include "experiment/clock_pair.h"
 #include "experiment/ports/sample_listener.h"
-#include "experiment/ports/setup_stage.h"
+#include "experiment/ports/setup_screen.h"
 #include "experiment/ports/tracker_items.h"
 #include "experiment/ports/validation.h"
 
@@ -79,8 +79,8 @@ class EyeTracker {
     /// Whether set_up() calibrates; else the program does it, from samples.
     virtual bool calibrates_itself() const noexcept { return true; }
 
-    /// Calibrates and validates, on the stage. Throws DeviceError if the tracker is lost.
-    virtual SetupOutcome set_up(SetupStage& stage) = 0;
+    /// Calibrates and validates, on the set-up screen. Throws DeviceError if the tracker is lost.
+    virtual SetupOutcome set_up(SetupScreen& setup_screen) = 0;
 
     /// Compares gaze with a target that is shown now, within the tracker's own time limit. Throws DeviceError
     /// if the tracker is lost.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiment/flip_report.h"
-#include "experiment/ports/setup_stage.h"
+#include "experiment/ports/setup_screen.h"
 #include "experiment/session_time.h"
 #include "experiment/swap_modes.h"
 #include "experiment/trial.h"

@@ -9,7 +9,7 @@
 
 #include "experiment/base/enum_names.h"
 #include "experiment/ports/session_phase.h"
-#include "experiment/ports/setup_stage.h"
+#include "experiment/ports/setup_screen.h"
 #include "experiment/session_time.h"
 #include "experiment/trial.h"
 

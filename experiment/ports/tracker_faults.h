@@ -1,4 +1,4 @@
-/// What an eye tracker, or the way to it, can do wrong: as a script, for rehearsals.
+/// What an eye tracker, or the way to it, can do wrong: as a script, for trial runs.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-/// From a file of faults of display and eye tracker (TOML), for rehearsals, to SimulatedFaults. The format is
+/// From a file of faults of display and eye tracker (TOML), for trial runs, to SimulatedFaults. The format is
 /// described in docs/presentation_timing.md and docs/trackers.md.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace overt {
 
-/// What goes wrong in a rehearsal: with the display, and with the eye tracker.
+/// What goes wrong in a trial run: with the display, and with the eye tracker.
 struct SimulatedFaults : DisplayFaults {
     TrackerFaults tracker;
 };

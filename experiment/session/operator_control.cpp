@@ -6,7 +6,7 @@
 #include "experiment/ports/response_panel.h"
 #include "experiment/ports/session_phase.h"
 #include "experiment/session/session_screens.h"
-#include "experiment/session/session_stage.h"
+#include "experiment/session/session_setup_screen.h"
 
 #include <algorithm>
 #include <utility>
@@ -132,7 +132,7 @@ bool OperatorControl::end_trial(ResponseKey key) {
         const bool at_once = key == ResponseKey::repeat;
         if (!confirm(at_once ? words.repeat : words.reject))
             return false;
-        decision_ = {at_once ? TrialDecision::Word::repeated : TrialDecision::Word::rejected, {}};
+        decision_ = {at_once ? TrialDecision::Kind::repeated : TrialDecision::Kind::rejected, {}};
         state_.note(operator_event, at_once ? "repeats the trial" : "rejects the trial");
         return true;
     }
@@ -140,7 +140,7 @@ bool OperatorControl::end_trial(ResponseKey key) {
         confirm(screens::skip_question(state_.protocol), static_cast<int>(settings.skip_reasons.size()));
     if (!answer)
         return false;
-    decision_ = {TrialDecision::Word::skipped,
+    decision_ = {TrialDecision::Kind::skipped,
                  *answer == 0 ? "no reason given"
                               : settings.skip_reasons[static_cast<std::size_t>(*answer - 1)]};
     state_.note(operator_event, "skips the trial: " + decision_.why);
@@ -267,11 +267,11 @@ void OperatorControl::calibrate(UsedTracker& used) {
         state_.note("calibration", "none: the session has no eye tracker");
         return;
     }
-    SessionStage stage(state_);
+    SessionSetupScreen setup_screen(state_);
     while (!state_.ends_by_itself()) {
         SetupOutcome outcome;
         try {
-            outcome = used.tracker.set_up(stage);
+            outcome = used.tracker.set_up(setup_screen);
         } catch (const DeviceError& error) {
             if (!connect_again(used, error.what()))
                 return;

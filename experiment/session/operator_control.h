@@ -11,13 +11,13 @@ namespace overt {
 
 /// What the operator decided about the trial that is running.
 struct TrialDecision {
-    enum class Word : std::uint8_t {
+    enum class Kind : std::uint8_t {
         none,
         rejected, ///< comes again as the protocol says
         repeated, ///< comes again at once
         skipped   ///< does not come again
     };
-    Word word = Word::none;
+    Kind kind = Kind::none;
     std::string why; ///< of a skipped one
 };
 
@@ -91,9 +91,9 @@ class OperatorControl {
     void regain_further_trackers();
 
     /// What was decided at the tracker's host.
-    void repeat_trial() { decision_ = {TrialDecision::Word::repeated, {}}; }
-    void reject_trial() { decision_ = {TrialDecision::Word::rejected, {}}; }
-    void skip_trial(std::string why) { decision_ = {TrialDecision::Word::skipped, std::move(why)}; }
+    void repeat_trial() { decision_ = {TrialDecision::Kind::repeated, {}}; }
+    void reject_trial() { decision_ = {TrialDecision::Kind::rejected, {}}; }
+    void skip_trial(std::string why) { decision_ = {TrialDecision::Kind::skipped, std::move(why)}; }
 
   private:
     void pause();

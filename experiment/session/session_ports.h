@@ -15,7 +15,7 @@
 #include "experiment/ports/response_panel.h"
 #include "experiment/ports/session_log.h"
 #include "experiment/ports/session_phase.h"
-#include "experiment/ports/setup_stage.h"
+#include "experiment/ports/setup_screen.h"
 
 namespace overt {
 

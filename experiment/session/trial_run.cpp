@@ -68,16 +68,16 @@ TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Conditio
     note_disturbance(before);
     mark_result(trial, attempt);
     state_.write_down();
-    const TrialDecision::Word word = control_.decision().word;
-    attempt.result.is_rejected = attempt.result.is_rejected || word == TrialDecision::Word::rejected;
-    attempt.result.is_repeated = word == TrialDecision::Word::repeated;
-    attempt.result.is_skipped = word == TrialDecision::Word::skipped;
+    const TrialDecision::Kind decision = control_.decision().kind;
+    attempt.result.is_rejected = attempt.result.is_rejected || decision == TrialDecision::Kind::rejected;
+    attempt.result.is_repeated = decision == TrialDecision::Kind::repeated;
+    attempt.result.is_skipped = decision == TrialDecision::Kind::skipped;
     return attempt;
 }
 
 bool TrialRun::goes_on(const Attempt& attempt) const {
     return !state_.is_over() && !attempt.result.is_rejected &&
-           control_.decision().word == TrialDecision::Word::none;
+           control_.decision().kind == TrialDecision::Kind::none;
 }
 
 void TrialRun::ask(const Trial& trial, Attempt& attempt) {

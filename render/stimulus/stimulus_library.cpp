@@ -38,7 +38,7 @@ void StimulusLibrary::prepare_frames(const Progress& progress, BakeQuality least
         throw InputError(
             fmt::format("{}: this session needs frames of {} quality, and {} of {} are not baked "
                         "yet: run `overt bake {}{}` first (`overt check` says how long it "
-                        "takes), or, for a rehearsal, be content with --quality preview{}",
+                        "takes), or, for a trial run, be content with --quality preview{}",
                         file, describe(quality), missing, stimuli.size() * cache_.poses().angles.size(), file,
                         least == BakeQuality::standard ? "" : fmt::format(" --quality {}", name_of(least)),
                         protocol_->bake.quality ? ""

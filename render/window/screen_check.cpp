@@ -195,14 +195,14 @@ std::vector<ScreenFinding> judge_screen(const ScreenFacts& facts, const DisplayS
     return findings;
 }
 
-void refuse_spoilt_screen(const std::vector<ScreenFinding>& findings) {
+void refuse_unfit_screen(const std::vector<ScreenFinding>& findings) {
     std::string refusals;
     for (const ScreenFinding& finding : findings)
         if (finding.weight == Weight::refusal)
             refusals += fmt::format("\n  {}: {}", finding.what, finding.finding);
     if (!refusals.empty())
         throw GraphicsError(
-            fmt::format("the screen would not show what the protocol says:{}\nA rehearsal that shows "
+            fmt::format("the screen would not show what the protocol says:{}\nA trial run that shows "
                         "nothing in time needs none of this: --virtual-time",
                         refusals));
 }

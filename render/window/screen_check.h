@@ -56,6 +56,6 @@ bool is_identity(const std::vector<std::uint16_t>& ramp);
 std::string describe(const GammaRamp& ramp);
 
 /// Throws GraphicsError with all refusals, if there is one.
-void refuse_spoilt_screen(const std::vector<ScreenFinding>& findings);
+void refuse_unfit_screen(const std::vector<ScreenFinding>& findings);
 
 } // namespace overt

@@ -319,7 +319,7 @@ TEST_CASE("display verify --hardware finds what the way from the graphics card t
         CHECK_THAT(run.out, Contains("arrived as they were drawn") && !Contains("MISSED"));
     }
     SECTION("a shift by a pixel") {
-        rig.box->spoil([](const SeenScreen& seen, int x, int y) {
+        rig.box->distort([](const SeenScreen& seen, int x, int y) {
             return x == 0 ? RgbBytes{} : RgbBytes(seen.at(x - 1, y));
         });
         const ProgramRun run = rig.overt(arguments);
@@ -328,7 +328,7 @@ TEST_CASE("display verify --hardware finds what the way from the graphics card t
         CHECK_THAT(run.out, Contains("moved 1 px to the right"));
     }
     SECTION("dithering in time") {
-        rig.box->spoil([count = 0](const SeenScreen& seen, int x, int y) mutable {
+        rig.box->distort([count = 0](const SeenScreen& seen, int x, int y) mutable {
             RgbBytes bytes = seen.at(x, y);
             bytes[2] = static_cast<std::uint8_t>(bytes[2] ^ (++count % 7 == 0 ? 1 : 0));
             return bytes;
@@ -339,7 +339,7 @@ TEST_CASE("display verify --hardware finds what the way from the graphics card t
         CHECK_THAT(run.out, Contains("differently each time"));
     }
     SECTION("a gamma table") {
-        rig.box->spoil([](const SeenScreen& seen, int x, int y) {
+        rig.box->distort([](const SeenScreen& seen, int x, int y) {
             RgbBytes bytes = seen.at(x, y);
             for (auto& byte : bytes)
                 byte = static_cast<std::uint8_t>(std::min(255, byte + (byte > 100 ? 1 : 0)));
@@ -386,7 +386,7 @@ TEST_CASE("a session through a box wants to know that its bytes arrive, and has 
     }
     SECTION("a check that failed takes the place of one that passed") {
         REQUIRE(rig.overt(verify).exit_code == 0);
-        rig.box->spoil([](const SeenScreen& seen, int x, int y) {
+        rig.box->distort([](const SeenScreen& seen, int x, int y) {
             return x == 0 ? RgbBytes{} : RgbBytes(seen.at(x - 1, y));
         });
         REQUIRE(rig.overt(verify).exit_code == 1);

@@ -56,7 +56,7 @@ class ScreenBox {
     }
 
     /// What becomes of the picture between the graphics card's memory and the box.
-    void spoil(std::function<RgbBytes(const SeenScreen&, int x, int y)> cable) {
+    void distort(std::function<RgbBytes(const SeenScreen&, int x, int y)> cable) {
         const std::lock_guard lock(mutex_);
         cable_ = std::move(cable);
     }

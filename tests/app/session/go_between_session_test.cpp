@@ -53,25 +53,23 @@ TEST_CASE("a session whose pictures are copied is refused; its record says how m
     CHECK(run.err.find("copied into the window") != std::string::npos);
     CHECK_FALSE(std::filesystem::exists(refused.sessions()));
 
-    const SmallExperiment rehearsed(protocol_with("unproven"));
-    const ProgramRun rehearsal = run_in_real_time(rehearsed);
-    INFO(rehearsal.err);
-    REQUIRE(rehearsal.exit_code == 0);
-    CHECK(rehearsal.err.find("risk: pictures:") != std::string::npos);
-    const std::string session = rehearsed.session(1).string();
+    const SmallExperiment tried(protocol_with("unproven"));
+    const ProgramRun trial_run = run_in_real_time(tried);
+    INFO(trial_run.err);
+    REQUIRE(trial_run.exit_code == 0);
+    CHECK(trial_run.err.find("risk: pictures:") != std::string::npos);
+    const std::string session = tried.session(1).string();
     // Software shows its pictures past Present, which says so of each presentation.
     CHECK(SessionRecord(session).trials().at(0).outcome.swaps == SwapModes{});
-    const auto out = rehearsed.folder().path() / "tables";
-    REQUIRE(rehearsed.overt({"export", session, "--out", out.string()}).exit_code == 0);
+    const auto out = tried.folder().path() / "tables";
+    REQUIRE(tried.overt({"export", session, "--out", out.string()}).exit_code == 0);
     CHECK(TsvFile(out / "trials.tsv").text(0, "swaps_copied") == "0");
 
     // In virtual time nobody is asked.
-    REQUIRE(rehearsed.run({"--trials", "1"}).exit_code == 0);
-    CHECK_FALSE(SessionRecord(rehearsed.session(2)).trials().at(0).outcome.swaps);
-    const auto virtual_out = rehearsed.folder().path() / "virtual";
-    REQUIRE(
-        rehearsed.overt({"export", rehearsed.session(2).string(), "--out", virtual_out.string()}).exit_code ==
-        0);
+    REQUIRE(tried.run({"--trials", "1"}).exit_code == 0);
+    CHECK_FALSE(SessionRecord(tried.session(2)).trials().at(0).outcome.swaps);
+    const auto virtual_out = tried.folder().path() / "virtual";
+    REQUIRE(tried.overt({"export", tried.session(2).string(), "--out", virtual_out.string()}).exit_code == 0);
     CHECK(TsvFile(virtual_out / "trials.tsv").text(0, "swaps_copied") == "n/a");
 }
 

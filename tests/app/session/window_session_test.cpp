@@ -79,16 +79,16 @@ TEST_CASE("a session in real time is stamped by the server's vertical blanks, an
     INFO(measured);
     // A period of the animation, before the first trial: 31 frames of which the last is the first again.
     const std::vector<RecordedEvent> events = record.events();
-    const auto rehearsed = std::ranges::find(events, "timing rehearsed", &RecordedEvent::kind);
-    REQUIRE(rehearsed != events.end());
-    CHECK(rehearsed->trial == -1);
-    CHECK(rehearsed->at < record.trials()[0].outcome.task_screen_onset);
-    CHECK(rehearsed->detail.find("from picture to picture in ms: least ") != std::string::npos);
-    CHECK(run.out.find("timing rehearsed: ") != std::string::npos);
+    const auto check = std::ranges::find(events, "presentation check", &RecordedEvent::kind);
+    REQUIRE(check != events.end());
+    CHECK(check->trial == -1);
+    CHECK(check->at < record.trials()[0].outcome.task_screen_onset);
+    CHECK(check->detail.find("from picture to picture in ms: least ") != std::string::npos);
+    CHECK(run.out.find("presentation check: ") != std::string::npos);
     // Its own rows are not in the record, and its folder is gone.
     CHECK(flips.size() <= 60);
     for (const auto& entry : std::filesystem::directory_iterator(experiment.session(1).parent_path()))
-        CHECK(entry.path().filename().string().find("rehearsal") == std::string::npos);
+        CHECK(entry.path().filename().string().find("presentation-check") == std::string::npos);
     // Xvfb counts 60 refreshes a second by a timer.
     CHECK(std::stod("0" + measured.substr(std::min(measured.size(), sizeof "measured refresh:"))) ==
           Approx(60.0).epsilon(0.005));

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "devices/host/clocks.h"
-#include "tests/support/diary_stage.h"
+#include "tests/support/diary_setup_screen.h"
 #include "tests/support/kept_items.h"
 #include "tests/support/stand_in_library.h"
 

@@ -343,8 +343,8 @@ TEST_CASE("an EyeLink without a tracker records nothing and waits for nothing", 
     EyelinkDriver driver(bench.settings, bench.clock);
     CHECK_FALSE(driver.calibrates_itself());
     CHECK(driver.connect(bench.wish).name == "eyelink without a tracker");
-    DiaryStage stage(bench.clock);
-    CHECK(driver.set_up(stage).kind == SetupOutcome::Kind::done);
+    DiarySetupScreen setup_screen(bench.clock);
+    CHECK(driver.set_up(setup_screen).kind == SetupOutcome::Kind::done);
     driver.start();
     CHECK(bench.read(driver, 10ms) == RecordingState::running);
     CHECK(bench.kept.items.empty());

@@ -19,7 +19,7 @@ SetupKey key_of(SetupKey::Kind kind) { return {kind}; }
 struct SetupBench {
     StandIn library;
     SteadyClock clock;
-    DiaryStage stage{clock};
+    DiarySetupScreen setup_screen{clock};
     EyelinkSettings settings;
     EyelinkDriver driver;
 
@@ -33,24 +33,24 @@ struct SetupBench {
 
 } // namespace
 
-TEST_CASE("an EyeLink is set up on the stage: targets, camera, sounds, words and keys", "[unit]") {
+TEST_CASE("an EyeLink is set up on the set-up screen: targets, camera, sounds, words and keys", "[unit]") {
     const bool is_old = GENERATE(false, true);
     SetupBench bench(is_old ? OVERT_STAND_IN_EYELINK_OLD : OVERT_STAND_IN_EYELINK);
-    bench.stage.keys = {key_of(SetupKey::Kind::enter), letter('a'), letter('c'),
-                        key_of(SetupKey::Kind::escape)};
-    const SetupOutcome outcome = bench.driver.set_up(bench.stage);
+    bench.setup_screen.keys = {key_of(SetupKey::Kind::enter), letter('a'), letter('c'),
+                               key_of(SetupKey::Kind::escape)};
+    const SetupOutcome outcome = bench.driver.set_up(bench.setup_screen);
     CHECK(outcome.kind == SetupOutcome::Kind::done);
     CHECK(outcome.method == "tracker");
     REQUIRE(outcome.validation);
     CHECK(outcome.validation->mean_error.value == 0.45);
-    CHECK(bench.stage.showed("target 960 540 of 0.6"));
-    CHECK(bench.stage.showed(is_old ? "target 100 50 of 0.6" : "target 100 50.5 of 0.6"));
-    CHECK(bench.stage.showed(fmt::format("beep {}", static_cast<int>(SetupBeep::target_appears))));
-    CHECK(bench.stage.showed(fmt::format("beep {}", static_cast<int>(SetupBeep::calibration_good))));
-    CHECK(bench.stage.showed("text no pupil"));
-    CHECK(bench.stage.showed("camera 32x24 Left, threshold 80"));
-    REQUIRE(bench.stage.camera.rgba.size() == 4 * 32 * 24);
-    const std::byte* pixel = bench.stage.camera.rgba.data() + 4 * (32 * 5 + 3); // row 5, column 3
+    CHECK(bench.setup_screen.showed("target 960 540 of 0.6"));
+    CHECK(bench.setup_screen.showed(is_old ? "target 100 50 of 0.6" : "target 100 50.5 of 0.6"));
+    CHECK(bench.setup_screen.showed(fmt::format("beep {}", static_cast<int>(SetupBeep::target_appears))));
+    CHECK(bench.setup_screen.showed(fmt::format("beep {}", static_cast<int>(SetupBeep::calibration_good))));
+    CHECK(bench.setup_screen.showed("text no pupil"));
+    CHECK(bench.setup_screen.showed("camera 32x24 Left, threshold 80"));
+    REQUIRE(bench.setup_screen.camera.rgba.size() == 4 * 32 * 24);
+    const std::byte* pixel = bench.setup_screen.camera.rgba.data() + 4 * (32 * 5 + 3); // row 5, column 3
     CHECK(std::to_integer<int>(pixel[0]) == 3);
     CHECK(std::to_integer<int>(pixel[1]) == (is_old ? 6 : 5));
     CHECK(std::to_integer<int>(pixel[2]) == (is_old ? 7 : 0));
@@ -61,51 +61,51 @@ TEST_CASE("an EyeLink is set up on the stage: targets, camera, sounds, words and
 TEST_CASE("a set-up of an EyeLink that ends without a good calibration says so", "[unit][waits]") {
     SetupBench bench;
     SECTION("left at once") {
-        bench.stage.keys = {key_of(SetupKey::Kind::escape)};
-        const SetupOutcome outcome = bench.driver.set_up(bench.stage);
+        bench.setup_screen.keys = {key_of(SetupKey::Kind::escape)};
+        const SetupOutcome outcome = bench.driver.set_up(bench.setup_screen);
         CHECK(outcome.kind == SetupOutcome::Kind::failed);
         CHECK(outcome.message == "Set-up was left without a calibration.");
     }
     SECTION("poor") {
         bench.library.set("calibration", 1);
-        bench.stage.keys = {letter('c'), key_of(SetupKey::Kind::escape)};
-        const SetupOutcome outcome = bench.driver.set_up(bench.stage);
+        bench.setup_screen.keys = {letter('c'), key_of(SetupKey::Kind::escape)};
+        const SetupOutcome outcome = bench.driver.set_up(bench.setup_screen);
         CHECK(outcome.kind == SetupOutcome::Kind::done);
         CHECK_THAT(outcome.message, Catch::Contains("poor"));
     }
     SECTION("failed") {
         bench.library.set("calibration", -1);
-        bench.stage.keys = {letter('c'), key_of(SetupKey::Kind::escape)};
-        CHECK(bench.driver.set_up(bench.stage).kind == SetupOutcome::Kind::failed);
+        bench.setup_screen.keys = {letter('c'), key_of(SetupKey::Kind::escape)};
+        CHECK(bench.driver.set_up(bench.setup_screen).kind == SetupOutcome::Kind::failed);
     }
     SECTION("given up in the middle of it") {
         bench.library.set("calibration", 27);
-        bench.stage.keys = {letter('c'), key_of(SetupKey::Kind::escape)};
-        CHECK(bench.driver.set_up(bench.stage).kind == SetupOutcome::Kind::cancelled);
+        bench.setup_screen.keys = {letter('c'), key_of(SetupKey::Kind::escape)};
+        CHECK(bench.driver.set_up(bench.setup_screen).kind == SetupOutcome::Kind::cancelled);
     }
     SECTION("the display was closed") {
-        bench.stage.on_target = [&] { bench.stage.cancelled = true; };
-        bench.stage.keys = {letter('c')};
-        CHECK(bench.driver.set_up(bench.stage).kind == SetupOutcome::Kind::cancelled);
+        bench.setup_screen.on_target = [&] { bench.setup_screen.cancelled = true; };
+        bench.setup_screen.keys = {letter('c')};
+        CHECK(bench.driver.set_up(bench.setup_screen).kind == SetupOutcome::Kind::cancelled);
     }
 }
 
-TEST_CASE("what goes wrong on the stage ends the EyeLink's dialogue and is told after it", "[unit]") {
+TEST_CASE("what goes wrong on the set-up screen ends the EyeLink's dialogue and is told after it", "[unit]") {
     SetupBench bench(GENERATE(std::string(OVERT_STAND_IN_EYELINK), std::string(OVERT_STAND_IN_EYELINK_OLD)));
-    bench.stage.on_target = [] { throw DeviceError("the display is gone"); };
-    bench.stage.keys = {letter('c')};
-    CHECK_THROWS_WITH(bench.driver.set_up(bench.stage), "the display is gone");
+    bench.setup_screen.on_target = [] { throw DeviceError("the display is gone"); };
+    bench.setup_screen.keys = {letter('c')};
+    CHECK_THROWS_WITH(bench.driver.set_up(bench.setup_screen), "the display is gone");
     // The next one works.
-    bench.stage.on_target = nullptr;
-    bench.stage.keys = {letter('c'), key_of(SetupKey::Kind::escape)};
-    CHECK(bench.driver.set_up(bench.stage).kind == SetupOutcome::Kind::done);
+    bench.setup_screen.on_target = nullptr;
+    bench.setup_screen.keys = {letter('c'), key_of(SetupKey::Kind::escape)};
+    CHECK(bench.driver.set_up(bench.setup_screen).kind == SetupOutcome::Kind::done);
 }
 
 TEST_CASE("an EyeLink whose link breaks in its set-up is lost, and nothing hangs", "[unit]") {
     SetupBench bench;
-    bench.stage.on_target = [&] { bench.library.set("broken", 1); };
-    bench.stage.keys = {letter('c')};
-    CHECK_THROWS_WITH(bench.driver.set_up(bench.stage), Catch::Contains("lost during its set-up"));
+    bench.setup_screen.on_target = [&] { bench.library.set("broken", 1); };
+    bench.setup_screen.keys = {letter('c')};
+    CHECK_THROWS_WITH(bench.driver.set_up(bench.setup_screen), Catch::Contains("lost during its set-up"));
 }
 
 TEST_CASE("an EyeLink's check of drift is measured, or asks for set-up, or finds no eye in time", "[unit]") {

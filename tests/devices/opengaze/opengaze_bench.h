@@ -6,7 +6,7 @@
 #include "devices/opengaze/opengaze_tracker.h"
 #include "tests/devices/link/in_memory_line.h"
 #include "tests/devices/opengaze/opengaze_server_model.h"
-#include "tests/devices/tracker/scripted_stage.h"
+#include "tests/devices/tracker/scripted_setup_screen.h"
 #include "tests/support/kept_items.h"
 
 namespace overt::test {

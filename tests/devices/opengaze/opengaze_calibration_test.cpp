@@ -10,19 +10,20 @@ using namespace overt::test;
 using namespace std::chrono_literals;
 using Catch::Matchers::Contains;
 
-TEST_CASE("an Open Gaze server's calibration shows its targets on the stage and gives each eye's errors",
-          "[unit]") {
+TEST_CASE(
+    "an Open Gaze server's calibration shows its targets on the set-up screen and gives each eye's errors",
+    "[unit]") {
     OpenGazeBench bench;
     bench.settings.calibration_points = {{0.5, 0.5}, {0.1, 0.9}, {0.9, 0.1}};
     bench.model.invalid_points = {2}; // for the left eye
     bench.connect();
-    ScriptedStage stage(bench.clock);
-    const SetupOutcome outcome = bench.tracker->set_up(stage);
+    ScriptedSetupScreen setup_screen(bench.clock);
+    const SetupOutcome outcome = bench.tracker->set_up(setup_screen);
     CHECK(outcome.kind == SetupOutcome::Kind::done);
-    REQUIRE(stage.targets.size() == 3);
-    CHECK(stage.targets[1].x_px == Approx(192.0));
-    CHECK(stage.targets[1].y_px == Approx(972.0));
-    CHECK(stage.beeps == 3);
+    REQUIRE(setup_screen.targets.size() == 3);
+    CHECK(setup_screen.targets[1].x_px == Approx(192.0));
+    CHECK(setup_screen.targets[1].y_px == Approx(972.0));
+    CHECK(setup_screen.beeps == 3);
     CHECK(outcome.method == "tracker, 3 points");
     CHECK_THAT(outcome.message,
                Contains("5 of 6 measurements") && Contains("not of a validation") && Contains("19.4 px"));
@@ -47,9 +48,9 @@ TEST_CASE("without points of our own an Open Gaze server takes its own, and one 
     bench.wish.both_eyes = false;
     bench.wish.eye = Eye::right;
     bench.connect();
-    ScriptedStage stage(bench.clock);
-    const SetupOutcome outcome = bench.tracker->set_up(stage);
-    CHECK(stage.targets.size() == 5);
+    ScriptedSetupScreen setup_screen(bench.clock);
+    const SetupOutcome outcome = bench.tracker->set_up(setup_screen);
+    CHECK(setup_screen.targets.size() == 5);
     REQUIRE(outcome.validation);
     CHECK(outcome.validation->targets.size() == 5);
     for (const ValidatedTarget& target : outcome.validation->targets)
@@ -62,8 +63,8 @@ TEST_CASE("an Open Gaze calibration that finds no eye has failed", "[unit]") {
     bench.wish.eye = Eye::left;
     bench.model.invalid_points = {1, 2, 3, 4, 5};
     bench.connect();
-    ScriptedStage stage(bench.clock);
-    const SetupOutcome outcome = bench.tracker->set_up(stage);
+    ScriptedSetupScreen setup_screen(bench.clock);
+    const SetupOutcome outcome = bench.tracker->set_up(setup_screen);
     CHECK(outcome.kind == SetupOutcome::Kind::failed);
     CHECK_FALSE(outcome.validation);
     CHECK_THAT(outcome.message, Contains("at none of its targets"));
@@ -72,44 +73,44 @@ TEST_CASE("an Open Gaze calibration that finds no eye has failed", "[unit]") {
 TEST_CASE("an Open Gaze calibration ends when the operator escapes or the display is closed", "[unit]") {
     OpenGazeBench bench;
     bench.connect();
-    ScriptedStage stage(bench.clock);
+    ScriptedSetupScreen setup_screen(bench.clock);
     SECTION("escape") {
-        stage.keys_after = 2;
-        stage.keys = {SetupKey{SetupKey::Kind::escape}};
+        setup_screen.keys_after = 2;
+        setup_screen.keys = {SetupKey{SetupKey::Kind::escape}};
     }
-    SECTION("closed") { stage.cancel_after = 2; }
-    CHECK(bench.tracker->set_up(stage).kind == SetupOutcome::Kind::cancelled);
-    CHECK(stage.targets.size() == 2);
+    SECTION("closed") { setup_screen.cancel_after = 2; }
+    CHECK(bench.tracker->set_up(setup_screen).kind == SetupOutcome::Kind::cancelled);
+    CHECK(setup_screen.targets.size() == 2);
     CHECK_THAT(bench.model.told("CALIBRATE_START"), Contains("STATE=\"0\""));
 }
 
 TEST_CASE("an Open Gaze calibration that never ends, or that the server does not begin, is told", "[unit]") {
     OpenGazeBench bench;
     bench.connect();
-    ScriptedStage stage(bench.clock);
+    ScriptedSetupScreen setup_screen(bench.clock);
     bench.model.points.assign(400, {0.5, 0.5}); // 80 s, while the server tells of 5
     bench.model.refused_on = {"CALIBRATE_ADDPOINT"};
     const SessionTime begun = bench.clock.now();
-    const SetupOutcome outcome = bench.tracker->set_up(stage);
+    const SetupOutcome outcome = bench.tracker->set_up(setup_screen);
     CHECK(outcome.kind == SetupOutcome::Kind::failed);
     CHECK_THAT(outcome.message, Contains("did not end"));
     CHECK(bench.clock.now() - begun < 60s);
     bench.model.refused_on = {"CALIBRATE_START"};
-    CHECK_THROWS_WITH(bench.tracker->set_up(stage), Contains("does not begin to calibrate"));
+    CHECK_THROWS_WITH(bench.tracker->set_up(setup_screen), Contains("does not begin to calibrate"));
     bench.model.refused_on.clear();
     bench.far.unplugged = true;
-    CHECK_THROWS_AS(bench.tracker->set_up(stage), DeviceError);
+    CHECK_THROWS_AS(bench.tracker->set_up(setup_screen), DeviceError);
 }
 
 TEST_CASE("the tracker's own window can show the targets instead", "[unit]") {
     OpenGazeBench bench;
     bench.settings.own_calibration_screen = true;
     bench.connect();
-    ScriptedStage stage(bench.clock);
-    CHECK(bench.tracker->set_up(stage).kind == SetupOutcome::Kind::done);
-    CHECK(stage.targets.empty());
-    REQUIRE_FALSE(stage.texts.empty());
-    CHECK_THAT(stage.texts.front(), Contains("own window"));
+    ScriptedSetupScreen setup_screen(bench.clock);
+    CHECK(bench.tracker->set_up(setup_screen).kind == SetupOutcome::Kind::done);
+    CHECK(setup_screen.targets.empty());
+    REQUIRE_FALSE(setup_screen.texts.empty());
+    CHECK_THAT(setup_screen.texts.front(), Contains("own window"));
 }
 
 TEST_CASE("the tracker's clock goes on over a calibration, after which its seconds begin anew", "[unit]") {
@@ -118,8 +119,8 @@ TEST_CASE("the tracker's clock goes on over a calibration, after which its secon
     bench.connect();
     bench.record(300ms);
     const TrackerTime before = bench.items.all<GazeSample>().back().sampled_at;
-    ScriptedStage stage(bench.clock);
-    bench.tracker->set_up(stage);
+    ScriptedSetupScreen setup_screen(bench.clock);
+    bench.tracker->set_up(setup_screen);
     bench.items.items.clear();
     bench.record(300ms);
     CHECK(bench.items.all<GazeSample>().front().sampled_at > before);

@@ -6,7 +6,7 @@
 #include "experiment/base/error.h"
 #include "tests/devices/link/tcp_peer.h"
 #include "tests/devices/opengaze/opengaze_server_model.h"
-#include "tests/devices/tracker/scripted_stage.h"
+#include "tests/devices/tracker/scripted_setup_screen.h"
 #include "tests/support/kept_items.h"
 
 using namespace overt;
@@ -107,10 +107,10 @@ TEST_CASE("an Open Gaze server that ends in a recording is lost, and is reached 
 TEST_CASE("an Open Gaze server calibrates over the network", "[unit]") {
     OpenGazeNetwork network;
     const auto tracker = network.tracker();
-    ScriptedStage stage(network.clock);
-    const SetupOutcome outcome = tracker->set_up(stage);
+    ScriptedSetupScreen setup_screen(network.clock);
+    const SetupOutcome outcome = tracker->set_up(setup_screen);
     CHECK(outcome.kind == SetupOutcome::Kind::done);
-    CHECK(stage.targets.size() == 5);
+    CHECK(setup_screen.targets.size() == 5);
 }
 
 TEST_CASE("without an Open Gaze server it is said where none is", "[unit]") {

@@ -5,7 +5,7 @@
 #include "devices/host/clocks.h"
 #include "experiment/base/error.h"
 #include "tests/devices/pupil/pupil_peer.h"
-#include "tests/devices/tracker/scripted_stage.h"
+#include "tests/devices/tracker/scripted_setup_screen.h"
 #include "tests/support/kept_items.h"
 
 using namespace overt;
@@ -184,18 +184,18 @@ TEST_CASE("a surface that never comes is told in the end", "[unit]") {
 TEST_CASE("Pupil Capture calibrates, fails, takes too long or is broken off", "[unit]") {
     PupilBench bench;
     bench.connect();
-    ScriptedStage stage(bench.clock);
-    CHECK(bench.tracker->set_up(stage).kind == SetupOutcome::Kind::done);
-    CHECK_THAT(stage.texts.front(), Contains("Pupil Capture calibrates"));
+    ScriptedSetupScreen setup_screen(bench.clock);
+    CHECK(bench.tracker->set_up(setup_screen).kind == SetupOutcome::Kind::done);
+    CHECK_THAT(setup_screen.texts.front(), Contains("Pupil Capture calibrates"));
     bench.peer.calibrates_well = false;
-    CHECK(bench.tracker->set_up(stage).kind == SetupOutcome::Kind::failed);
+    CHECK(bench.tracker->set_up(setup_screen).kind == SetupOutcome::Kind::failed);
     bench.peer.calibration_s = 1000.0;
-    stage.keys = {SetupKey{SetupKey::Kind::escape}};
-    CHECK(bench.tracker->set_up(stage).kind == SetupOutcome::Kind::cancelled);
+    setup_screen.keys = {SetupKey{SetupKey::Kind::escape}};
+    CHECK(bench.tracker->set_up(setup_screen).kind == SetupOutcome::Kind::cancelled);
     CHECK(bench.peer.commands().back() == "c");
     bench.settings.calibration_time = 100ms;
     bench.connect();
-    const SetupOutcome late = bench.tracker->set_up(stage);
+    const SetupOutcome late = bench.tracker->set_up(setup_screen);
     CHECK(late.kind == SetupOutcome::Kind::failed);
     CHECK_THAT(late.message, Contains("in time"));
 }

@@ -12,7 +12,7 @@
 #include "experiment/base/error.h"
 #include "experiment/clock_map.h"
 #include "tests/devices/simulated/sitting.h"
-#include "tests/support/still_stage.h"
+#include "tests/support/still_setup_screen.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -175,9 +175,9 @@ TEST_CASE("a tracker that is unplugged is lost until it can be connected again",
     CHECK(samples_of(bench.record(0)).size() == 500);
     CHECK(samples_of(bench.record(1)).size() == 250);
     CHECK(*bench.state_changed_at == Approx(0.5).margin(0.01));
-    StillStage stage;
+    StillSetupScreen setup_screen;
     const char* const unplugged = "the simulated eye tracker is unplugged";
-    CHECK_THROWS_WITH(bench.tracker.set_up(stage), unplugged);
+    CHECK_THROWS_WITH(bench.tracker.set_up(setup_screen), unplugged);
     CHECK_THROWS_WITH(bench.tracker.drift_check({}), unplugged);
     CHECK_FALSE(bench.tracker.read_clocks());
     CHECK_THROWS_WITH(bench.tracker.reconnect(), unplugged);
@@ -223,11 +223,11 @@ TEST_CASE("a clock that jumps does so in samples and in readings, for good", "[u
 
 TEST_CASE("the calibration that is to fail fails, and the one after it does not", "[unit]") {
     Bench bench({{.kind = Kind::calibration, .number = 2}});
-    StillStage stage;
-    CHECK(bench.tracker.set_up(stage).kind == SetupOutcome::Kind::done);
-    const SetupOutcome failed = bench.tracker.set_up(stage);
+    StillSetupScreen setup_screen;
+    CHECK(bench.tracker.set_up(setup_screen).kind == SetupOutcome::Kind::done);
+    const SetupOutcome failed = bench.tracker.set_up(setup_screen);
     CHECK(failed.kind == SetupOutcome::Kind::failed);
     CHECK(failed.message == "the simulated eye tracker found no eye");
-    CHECK(bench.tracker.set_up(stage).kind == SetupOutcome::Kind::done);
+    CHECK(bench.tracker.set_up(setup_screen).kind == SetupOutcome::Kind::done);
     CHECK(bench.tracker.take_struck() == std::vector<std::string>{"calibration 2 failed"});
 }

@@ -6,7 +6,7 @@
 #include "experiment/base/error.h"
 #include "experiment/calibration/own_calibration.h"
 #include "tests/devices/simulated/sitting.h"
-#include "tests/support/still_stage.h"
+#include "tests/support/still_setup_screen.h"
 
 using namespace overt;
 using namespace std::chrono_literals;
@@ -15,10 +15,10 @@ using test::Sitting;
 namespace {
 
 /// Shows to the simulated observer; keys are pressed when the `n`-th target is shown.
-class WatchedStage final : public SetupStage {
+class WatchedSetupScreen final : public SetupScreen {
   public:
-    explicit WatchedStage(Sitting& sitting) : sitting_(sitting) {}
-    const ScreenGeometry& screen() const override { return sitting_.observer.scene().screen; }
+    explicit WatchedSetupScreen(Sitting& sitting) : sitting_(sitting) {}
+    const ScreenGeometry& geometry() const override { return sitting_.observer.scene().screen; }
     SessionTime show_target(ScreenPoint place, Degrees) override {
         if (shown.empty() || !(shown.back() == place))
             shown.push_back(place);
@@ -113,8 +113,8 @@ TEST_CASE("gaze that is far off before a calibration is right after it", "[unit]
         const auto tracker = tracker_of(sitting, uncalibrated(), settings);
         const ScreenPoint place{1500.0, 300.0};
         CHECK(error_at(sitting, *tracker, place) > 1.0);
-        WatchedStage stage(sitting);
-        const SetupOutcome outcome = tracker->set_up(stage);
+        WatchedSetupScreen setup_screen(sitting);
+        const SetupOutcome outcome = tracker->set_up(setup_screen);
         REQUIRE(outcome.kind == SetupOutcome::Kind::done);
         REQUIRE(outcome.validation);
         CHECK(outcome.validation->targets.size() == 5);
@@ -123,10 +123,10 @@ TEST_CASE("gaze that is far off before a calibration is right after it", "[unit]
         CHECK(outcome.method == "polynomial of second order, " + std::to_string(points) + " targets");
         CHECK(error_at(sitting, *tracker, place) < 0.5);
         CHECK(error_at(sitting, *tracker, {700.0, 600.0}) < 0.4);
-        CHECK(stage.beeps.back() == SetupBeep::calibration_good);
+        CHECK(setup_screen.beeps.back() == SetupBeep::calibration_good);
         // Each place once, in an order that is not that of the layout.
-        CHECK(stage.shown.size() == static_cast<std::size_t>(points) + 5);
-        std::vector<ScreenPoint> first(stage.shown.begin(), stage.shown.begin() + points);
+        CHECK(setup_screen.shown.size() == static_cast<std::size_t>(points) + 5);
+        std::vector<ScreenPoint> first(setup_screen.shown.begin(), setup_screen.shown.begin() + points);
         const std::vector<ScreenPoint> layout =
             calibration_targets(points, settings.area, sitting.observer.scene().screen);
         CHECK_FALSE(first == layout);
@@ -137,8 +137,8 @@ TEST_CASE("gaze that is far off before a calibration is right after it", "[unit]
 TEST_CASE("what a validation says is what it is: noise of its own, and both eyes", "[unit]") {
     Sitting sitting(32, test::without_wandering());
     const auto tracker = tracker_of(sitting, uncalibrated(true));
-    WatchedStage stage(sitting);
-    const SetupOutcome outcome = tracker->set_up(stage);
+    WatchedSetupScreen setup_screen(sitting);
+    const SetupOutcome outcome = tracker->set_up(setup_screen);
     REQUIRE(outcome.validation);
     REQUIRE(outcome.validation->targets.size() == 10);
     for (const ValidatedTarget& target : outcome.validation->targets) {
@@ -157,21 +157,21 @@ TEST_CASE("what a validation says is what it is: noise of its own, and both eyes
 TEST_CASE("a target that was not looked at at first comes again", "[unit]") {
     Sitting sitting(33);
     const auto tracker = tracker_of(sitting, uncalibrated());
-    WatchedStage stage(sitting);
+    WatchedSetupScreen setup_screen(sitting);
     const std::vector<ScreenPoint> layout = calibration_targets(9, 0.8, sitting.observer.scene().screen);
     // The first time that the last corner is shown, the opposite one is looked at.
-    stage.ignored_for = layout[1];
+    setup_screen.ignored_for = layout[1];
     int times = 0;
     ScreenPoint before{};
-    stage.is_ignored = [&](ScreenPoint place) {
+    setup_screen.is_ignored = [&](ScreenPoint place) {
         if (place == layout[4] && !(before == place))
             ++times;
         before = place;
         return place == layout[4] && times == 1;
     };
-    const SetupOutcome outcome = tracker->set_up(stage);
+    const SetupOutcome outcome = tracker->set_up(setup_screen);
     REQUIRE(outcome.kind == SetupOutcome::Kind::done);
-    CHECK(std::ranges::count(stage.shown, layout[4]) == 2);
+    CHECK(std::ranges::count(setup_screen.shown, layout[4]) == 2);
     CHECK(outcome.validation->max_error.value < 0.6);
 }
 
@@ -180,13 +180,13 @@ TEST_CASE("an eye that is never seen, or never follows, calibrates nothing and h
     asleep.blinks_per_minute = 1e3;
     Sitting sitting(34, asleep);
     const auto tracker = tracker_of(sitting, uncalibrated());
-    WatchedStage stage(sitting);
-    CHECK(tracker->set_up(stage).kind == SetupOutcome::Kind::failed);
-    CHECK(stage.beeps.back() == SetupBeep::calibration_bad);
+    WatchedSetupScreen setup_screen(sitting);
+    CHECK(tracker->set_up(setup_screen).kind == SetupOutcome::Kind::failed);
+    CHECK(setup_screen.beeps.back() == SetupBeep::calibration_bad);
 
     Sitting staring(35);
     const auto second = tracker_of(staring, uncalibrated());
-    WatchedStage ignored(staring);
+    WatchedSetupScreen ignored(staring);
     ignored.is_ignored = [](ScreenPoint) { return true; };
     const SetupOutcome outcome = second->set_up(ignored);
     CHECK(outcome.kind != SetupOutcome::Kind::cancelled);
@@ -199,14 +199,14 @@ TEST_CASE("escape ends a calibration, backspace shows the target before again, s
     CalibrationSettings by_key;
     by_key.accept = TargetAcceptance::key;
     const auto tracker = tracker_of(sitting, uncalibrated(), by_key);
-    WatchedStage stage(sitting);
-    stage.presses = [](std::size_t shown) -> std::optional<SetupKey> {
+    WatchedSetupScreen setup_screen(sitting);
+    setup_screen.presses = [](std::size_t shown) -> std::optional<SetupKey> {
         return SetupKey{shown == 3 ? SetupKey::Kind::escape : SetupKey::Kind::space};
     };
-    CHECK(tracker->set_up(stage).kind == SetupOutcome::Kind::cancelled);
-    CHECK(stage.shown.size() == 3);
+    CHECK(tracker->set_up(setup_screen).kind == SetupOutcome::Kind::cancelled);
+    CHECK(setup_screen.shown.size() == 3);
 
-    WatchedStage again(sitting);
+    WatchedSetupScreen again(sitting);
     again.presses = [](std::size_t shown) -> std::optional<SetupKey> {
         return SetupKey{shown == 3 ? SetupKey::Kind::backspace : SetupKey::Kind::space};
     };
@@ -220,7 +220,7 @@ TEST_CASE("who listens hears gaze as it is calibrated", "[unit]") {
       public:
         explicit Telling(std::unique_ptr<EyeTracker> tracker) : tracker_(std::move(tracker)) {}
         TrackerDescription description() const override { return tracker_->description(); }
-        SetupOutcome set_up(SetupStage& stage) override { return tracker_->set_up(stage); }
+        SetupOutcome set_up(SetupScreen& setup_screen) override { return tracker_->set_up(setup_screen); }
         DriftOutcome drift_check(ScreenPoint target) override { return tracker_->drift_check(target); }
         std::optional<ClockPair> read_clocks() noexcept override { return tracker_->read_clocks(); }
         void start_recording() override { tracker_->start_recording(); }
@@ -251,8 +251,8 @@ TEST_CASE("who listens hears gaze as it is calibrated", "[unit]") {
                               sitting.clock, {}, 21);
     Listener listener;
     CHECK(tracker.tell_samples_to(&listener));
-    WatchedStage stage(sitting);
-    REQUIRE(tracker.set_up(stage).kind == SetupOutcome::Kind::done);
+    WatchedSetupScreen setup_screen(sitting);
+    REQUIRE(tracker.set_up(setup_screen).kind == SetupOutcome::Kind::done);
     listener.heard.clear();
     const ScreenPoint place{700.0, 400.0};
     const ScreenPoint measured = measured_at(sitting, tracker, place);

@@ -6,7 +6,7 @@
 #include "experiment/base/error.h"
 #include "experiment/clock_map.h"
 #include "tests/devices/simulated/sitting.h"
-#include "tests/support/still_stage.h"
+#include "tests/support/still_setup_screen.h"
 
 using namespace overt;
 using namespace std::chrono_literals;
@@ -334,8 +334,8 @@ TEST_CASE("a validation reports errors as large as the set accuracy makes them",
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 13, settings);
     double sum = 0.0;
     for (int i = 0; i < 200; ++i) {
-        test::StillStage stage;
-        const ValidationResult result = *tracker.set_up(stage).validation;
+        test::StillSetupScreen setup_screen;
+        const ValidationResult result = *tracker.set_up(setup_screen).validation;
         REQUIRE(result.max_error > result.mean_error);
         sum += result.mean_error.value / 200.0;
     }

@@ -5,7 +5,7 @@
 
 #include "devices/host/clocks.h"
 #include "devices/tobii/tobii_driver.h"
-#include "tests/support/diary_stage.h"
+#include "tests/support/diary_setup_screen.h"
 #include "tests/support/kept_items.h"
 #include "tests/support/stand_in_library.h"
 

@@ -16,8 +16,8 @@ using Catch::Matchers::Contains;
 namespace {
 
 struct Calibrating : TobiiBench {
-    Calibrating() : stage(clock) { connect(); }
-    SetupOutcome calibrate() { return driver->set_up(stage); }
+    Calibrating() : setup_screen(clock) { connect(); }
+    SetupOutcome calibrate() { return driver->set_up(setup_screen); }
     std::vector<std::string> said() const {
         std::vector<std::string> calls;
         for (const std::string& each : library.said())
@@ -25,7 +25,7 @@ struct Calibrating : TobiiBench {
                 calls.push_back(each);
         return calls;
     }
-    DiaryStage stage;
+    DiarySetupScreen setup_screen;
 };
 
 } // namespace
@@ -67,8 +67,8 @@ TEST_CASE("a Tobii's calibration measures at each target, computes, and tells wh
     CHECK(outcome.validation->mean_error.value == Approx(sum / 6.0).margin(1e-5));
     CHECK(outcome.validation->max_error.value == Approx(most).margin(1e-5));
     // Targets appear at twice their size and shrink.
-    CHECK(bench.stage.diary.front() == "target 960 540 of 1");
-    CHECK(bench.stage.showed("target 960 540 of 0.5"));
+    CHECK(bench.setup_screen.diary.front() == "target 960 540 of 1");
+    CHECK(bench.setup_screen.showed("target 960 540 of 0.5"));
     CHECK(bench.library.ask("stand_in_held") == 0);
 }
 
@@ -126,9 +126,9 @@ TEST_CASE("a Tobii's calibration that fails, or of the other eye only, is said t
 TEST_CASE("escape, a closed display and a tracker that does not answer end a Tobii's calibration", "[unit]") {
     Calibrating bench;
     SECTION("escape") {
-        bench.stage.on_target = [&] {
-            if (bench.stage.diary.size() > 15)
-                bench.stage.keys.push_back({SetupKey::Kind::escape});
+        bench.setup_screen.on_target = [&] {
+            if (bench.setup_screen.diary.size() > 15)
+                bench.setup_screen.keys.push_back({SetupKey::Kind::escape});
         };
         CHECK(bench.calibrate().kind == SetupOutcome::Kind::cancelled);
         CHECK(bench.said() == std::vector<std::string>{"enter", "collect 500 500", "leave"});
@@ -136,16 +136,16 @@ TEST_CASE("escape, a closed display and a tracker that does not answer end a Tob
     SECTION("escape while it measures, which is waited for") {
         bench.library.set("collect_ms", 200);
         int waits = 0;
-        bench.stage.on_wait = [&] {
-            if (bench.stage.diary.size() >= 11 &&
+        bench.setup_screen.on_wait = [&] {
+            if (bench.setup_screen.diary.size() >= 11 &&
                 ++waits == 3) // eleven steps of a target, and then it measures
-                bench.stage.keys.push_back({SetupKey::Kind::escape});
+                bench.setup_screen.keys.push_back({SetupKey::Kind::escape});
         };
         CHECK(bench.calibrate().kind == SetupOutcome::Kind::cancelled);
         CHECK(bench.said() == std::vector<std::string>{"enter", "collect 500 500", "leave"});
     }
     SECTION("closed") {
-        bench.stage.cancelled = true;
+        bench.setup_screen.cancelled = true;
         CHECK(bench.calibrate().kind == SetupOutcome::Kind::cancelled);
         CHECK(bench.said() == std::vector<std::string>{"enter", "leave"});
     }

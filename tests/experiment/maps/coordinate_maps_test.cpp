@@ -84,14 +84,14 @@ TEST_CASE("a map that took the wrong one of two surfaces at some pixels does no 
     const CastScene balls(test::two_balls(), {{0.0}});
     TriangleMap map = balls.map({0});
     RandomStream random(3, "wrong pixels");
-    int spoilt = 0;
+    int damaged = 0;
     for (std::uint32_t& code : map.codes) {
         if (code != 0 && random.below(200) == 0) {
             code = 1 + random.below(static_cast<std::uint32_t>(balls.mesh.triangles.size()));
-            ++spoilt;
+            ++damaged;
         }
     }
-    REQUIRE(spoilt > 20);
+    REQUIRE(damaged > 20);
     const CoordinateMaps maps(balls.mesh, balls.scene, balls.angles, {map});
     CHECK(differing_places(balls, maps, 20000) == 0);
 }

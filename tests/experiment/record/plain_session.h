@@ -72,11 +72,11 @@ class BlinkingTracker final : public EyeTracker {
     TrackerDescription description() const override { return {"blinking", 1000.0, Eye::left}; }
     bool measures_gaze() const noexcept override { return is_there; }
     enum class Step { set_up, drift_check, start };
-    SetupOutcome set_up(SetupStage& stage) override {
+    SetupOutcome set_up(SetupScreen& setup_screen) override {
         ++calibrations;
         fail(Step::set_up);
         if (camera)
-            stage.show_camera(*camera);
+            setup_screen.show_camera(*camera);
         if (set_ups.empty())
             return {SetupOutcome::Kind::done, ValidationResult{}, "tracker", {}};
         SetupOutcome next = set_ups.front();

@@ -101,7 +101,7 @@ TEST_CASE("swaps tell how many pictures are queued before one waits", "[unit]") 
     CHECK_FALSE(behaviour(disturbed).wait);
 }
 
-TEST_CASE("a good screen has no risk, and each thing that may spoil its times is named", "[unit]") {
+TEST_CASE("a good screen has no risk, and each thing that may disturb its times is named", "[unit]") {
     for (const ScreenFinding& finding : judge_timing(good_facts(), 120.0, "the protocol")) {
         INFO(finding.what << ": " << finding.finding);
         CHECK(finding.weight == Weight::good);

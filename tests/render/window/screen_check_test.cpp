@@ -56,7 +56,7 @@ TEST_CASE("a screen as it should be gives no finding but good ones", "[unit]") {
         INFO(finding.what << ": " << finding.finding);
         CHECK(finding.weight == Weight::good);
     }
-    CHECK_NOTHROW(refuse_spoilt_screen(judge_screen(sound(), said())));
+    CHECK_NOTHROW(refuse_unfit_screen(judge_screen(sound(), said())));
 }
 
 TEST_CASE("gamma tables are the identity in every form that drivers write it, and in no other", "[unit]") {
@@ -88,7 +88,7 @@ TEST_CASE("what changes a 16-bit signal for good is refused, and all of it at on
     facts.monitor.refresh_hz = 60;
     CHECK(weight_of(facts, "scaling") == Weight::refusal);
     CHECK(weight_of(facts, "refresh rate") == Weight::refusal);
-    CHECK_THROWS_WITH(refuse_spoilt_screen(judge_screen(facts, said())),
+    CHECK_THROWS_WITH(refuse_unfit_screen(judge_screen(facts, said())),
                       Contains("gamma table") && Contains("scaling") && Contains("60 Hz"));
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("a screen of which nothing says what linearises it is refused, until i
           "[unit]") {
     DisplaySettings display;
     CHECK(weight_of(sound(), "linearisation", display) == Weight::refusal);
-    CHECK_THROWS_WITH(refuse_spoilt_screen(judge_screen(sound(), display)), Contains("linearised_by"));
+    CHECK_THROWS_WITH(refuse_unfit_screen(judge_screen(sound(), display)), Contains("linearised_by"));
     for (const LinearisedBy by : {LinearisedBy::display, LinearisedBy::box, LinearisedBy::none}) {
         display.linearised_by = by;
         CHECK(weight_of(sound(), "linearisation", display) == Weight::good);
@@ -137,7 +137,7 @@ TEST_CASE("what cannot be proved harmless is named as a risk and refuses nothing
     facts.monitor.size_px = {2560, 1440};
     CHECK(weight_of(facts, "place") == Weight::risk);
     CHECK(weight_of(facts, "resolution") == Weight::risk);
-    CHECK_NOTHROW(refuse_spoilt_screen(judge_screen(facts, said())));
+    CHECK_NOTHROW(refuse_unfit_screen(judge_screen(facts, said())));
     facts.is_fullscreen = true;
     CHECK(weight_of(facts, "resolution") == Weight::refusal);
 }

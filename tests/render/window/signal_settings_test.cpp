@@ -62,7 +62,7 @@ TEST_CASE("the settings of an output's driver are read from the server, each in 
     CHECK(value_of(read_signal_settings("DUMMY0"), "max bpc") == "(none)"); // the other monitor's own
 
     const std::vector<ScreenFinding> findings = judge_signal(settings, packed, "DUMMY1");
-    CHECK_THROWS_WITH(refuse_spoilt_screen(findings),
+    CHECK_THROWS_WITH(refuse_unfit_screen(findings),
                       Contains("xrandr --output DUMMY1 --set \"max bpc\" 8") &&
                           Contains("xrandr --output DUMMY1 --set \"Broadcast RGB\" Full") &&
                           !Contains("CTM"));

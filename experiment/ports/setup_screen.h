@@ -54,10 +54,10 @@ struct SetupKey {
 };
 
 /// Not for use between a presentation's first and last flip; on the session's thread.
-class SetupStage {
+class SetupScreen {
   public:
-    virtual ~SetupStage() = default;
-    virtual const ScreenGeometry& screen() const = 0;
+    virtual ~SetupScreen() = default;
+    virtual const ScreenGeometry& geometry() const = 0;
     /// Shows a target with its middle at `place` on an otherwise empty screen; gives when it was lit.
     /// `diameter`: of its outer disc.
     virtual SessionTime show_target(ScreenPoint place, Degrees diameter) = 0;

@@ -16,22 +16,22 @@
 
 namespace overt {
 
-/// An eye tracker, and the log of what it alone delivers.
-struct RehearsedTracker {
+/// An eye tracker that is tried, and the log of what it alone delivers.
+struct CheckedTracker {
     EyeTracker& tracker;
     SessionLog& log;
 };
 
-/// All of them as the session has them, but for the log: what is rehearsed is not to be in its record.
-struct RehearsalPorts {
+/// All of them as the session has them, but for the log: what is tried is not to be in its record.
+struct PresentationCheckPorts {
     Clock& clock;
     Presenter& presenter;
     SessionLog& log; ///< of all trackers, see SharedLog
     std::span<PresentationListener* const> listeners;
-    std::span<const RehearsedTracker> trackers; ///< the session's own first
+    std::span<const CheckedTracker> trackers; ///< the session's own first
 };
 
-struct RehearsedPresentation {
+struct PresentationCheck {
     int refreshes = 0; ///< that got their picture
     int missed = 0;
     std::int64_t samples = 0;                   ///< of all trackers, meanwhile
@@ -43,16 +43,16 @@ struct RehearsedPresentation {
 /// Shows one period of the trial's stimulus, or the whole presentation if that is shorter, on a veiled
 /// screen: the observer sees a dark one. Ends early if the presenter closes. On the session's thread, before
 /// its first trial. Throws as Presenter::load_frames() and the log do.
-RehearsedPresentation rehearse_presentation(const Protocol& protocol, const Trial& trial,
-                                            const RehearsalPorts& ports);
+PresentationCheck check_presentation(const Protocol& protocol, const Trial& trial,
+                                     const PresentationCheckPorts& ports);
 
 /// "240 refreshes, 0 missed, 4012 samples of gaze".
-std::string counts_of(const RehearsedPresentation& rehearsed);
+std::string counts_of(const PresentationCheck& check);
 
 /// For the record: the counts, and quantiles of both distributions in ms.
-std::string describe(const RehearsedPresentation& rehearsed);
+std::string describe(const PresentationCheck& check);
 
 /// More than 1 % of its refreshes were missed: a presentation would miss as many.
-bool misses_too_many(const RehearsedPresentation& rehearsed);
+bool misses_too_many(const PresentationCheck& check);
 
 } // namespace overt

@@ -1,4 +1,4 @@
-#include "experiment/session/session_stage.h"
+#include "experiment/session/session_setup_screen.h"
 
 #include <algorithm>
 
@@ -6,19 +6,19 @@
 
 namespace overt {
 
-SessionStage::SessionStage(SessionState& state)
+SessionSetupScreen::SessionSetupScreen(SessionState& state)
     : state_(state), geometry_(screen_geometry_of(state.protocol)) {
     state_.ports.panel.await_setup(state_.now());
 }
 
-SessionTime SessionStage::show_target(ScreenPoint place, Degrees diameter) {
+SessionTime SessionSetupScreen::show_target(ScreenPoint place, Degrees diameter) {
     return state_.show(
         {.kind = Screen::Kind::target, .text = "", .target_place = place, .target_diameter = diameter});
 }
 
-SessionTime SessionStage::clear() { return state_.show({}); }
+SessionTime SessionSetupScreen::clear() { return state_.show({}); }
 
-void SessionStage::show_camera(const CameraImage& image) {
+void SessionSetupScreen::show_camera(const CameraImage& image) {
     if (state_.ports.on_camera)
         state_.ports.on_camera(image);
     state_.show({.kind = Screen::Kind::camera,
@@ -27,23 +27,23 @@ void SessionStage::show_camera(const CameraImage& image) {
                  .camera = image});
 }
 
-void SessionStage::show_text(const std::string& text) {
+void SessionSetupScreen::show_text(const std::string& text) {
     state_.show({.kind = Screen::Kind::text, .text = text, .frame = state_.protocol.words.experimenter});
 }
 
-void SessionStage::show_result(const ValidationResult& result, const std::string& text) {
+void SessionSetupScreen::show_result(const ValidationResult& result, const std::string& text) {
     state_.show({.kind = Screen::Kind::validation,
                  .text = text,
                  .frame = state_.protocol.words.experimenter,
                  .validated = result.targets});
 }
 
-void SessionStage::beep(SetupBeep beep) {
+void SessionSetupScreen::beep(SetupBeep beep) {
     if (state_.ports.on_beep)
         state_.ports.on_beep(beep);
 }
 
-void SessionStage::wait(SessionDuration time) {
+void SessionSetupScreen::wait(SessionDuration time) {
     const SessionTime until = state_.now() + time;
     while (state_.now() < until && !state_.went_away()) {
         state_.ports.presenter.use_spare_time();

@@ -1,4 +1,4 @@
-/// A setup stage that writes down what it is asked to show.
+/// A set-up screen that writes down what it is asked to show.
 #pragma once
 
 #include <algorithm>
@@ -10,15 +10,15 @@
 #include <fmt/format.h>
 
 #include "experiment/ports/clock.h"
-#include "experiment/ports/setup_stage.h"
+#include "experiment/ports/setup_screen.h"
 
 namespace overt::test {
 
 /// Presses keys and writes down what it shows.
-class DiaryStage final : public SetupStage {
+class DiarySetupScreen final : public SetupScreen {
   public:
-    explicit DiaryStage(Clock& session_clock) : clock(session_clock) {}
-    const ScreenGeometry& screen() const override { return geometry; }
+    explicit DiarySetupScreen(Clock& session_clock) : clock(session_clock) {}
+    const ScreenGeometry& geometry() const override { return geometry_; }
     SessionTime show_target(ScreenPoint place, Degrees diameter) override {
         diary.push_back(fmt::format("target {} {} of {}", place.x_px, place.y_px, diameter.value));
         if (on_target)
@@ -51,12 +51,14 @@ class DiaryStage final : public SetupStage {
     bool showed(const std::string& what) const { return std::ranges::find(diary, what) != diary.end(); }
 
     Clock& clock;
-    ScreenGeometry geometry;
     std::deque<SetupKey> keys;
     std::vector<std::string> diary;
     CameraImage camera;
     std::function<void()> on_target, on_wait;
     bool cancelled = false;
+
+  private:
+    ScreenGeometry geometry_;
 };
 
 } // namespace overt::test

@@ -1,4 +1,4 @@
-#include "experiment/session/presentation_rehearsal.h"
+#include "experiment/session/presentation_check.h"
 
 #include <algorithm>
 
@@ -28,15 +28,15 @@ std::string quantiles_of(std::vector<double> values) {
 
 } // namespace
 
-RehearsedPresentation rehearse_presentation(const Protocol& protocol, const Trial& trial,
-                                            const RehearsalPorts& ports) {
-    RehearsedPresentation rehearsed;
+PresentationCheck check_presentation(const Protocol& protocol, const Trial& trial,
+                                     const PresentationCheckPorts& ports) {
+    PresentationCheck check;
     PageCycle cycle = make_page_cycle(protocol.animation, protocol.display.refresh_hz);
     cycle.total_refreshes = std::min(cycle.total_refreshes, static_cast<int>(cycle.entry_of_refresh.size()));
     RefreshLedger ledger(cycle, protocol.animation.when_late);
     std::vector<TrackerFeed> feeds;
-    for (const RehearsedTracker& rehearsal : ports.trackers)
-        feeds.emplace_back(rehearsal.tracker);
+    for (const CheckedTracker& checked : ports.trackers)
+        feeds.emplace_back(checked.tracker);
     const auto take_items = [&]() noexcept {
         for (std::size_t i = 0; i < feeds.size(); ++i)
             feeds[i].take_items(trial.index, ports.trackers[i].log);
@@ -49,8 +49,8 @@ RehearsedPresentation rehearse_presentation(const Protocol& protocol, const Tria
     ports.presenter.show({});
     ports.log.trial_started(trial, ports.clock.now());
     for (TrackerFeed& feed : feeds)
-        if (!feed.start_recording() && !rehearsed.tracker_refusal)
-            rehearsed.tracker_refusal = feed.why_lost();
+        if (!feed.start_recording() && !check.tracker_refusal)
+            check.tracker_refusal = feed.why_lost();
     for (PresentationListener* listener : ports.listeners)
         listener->presentation_begins(trial);
     ledger.begin(trial.index);
@@ -71,36 +71,35 @@ RehearsedPresentation rehearse_presentation(const Protocol& protocol, const Tria
         feed.stop_recording();
     take_items();
     for (const TrackerFeed& feed : feeds)
-        rehearsed.samples += feed.sample_count();
+        check.samples += feed.sample_count();
     ports.presenter.veil(false);
     ports.presenter.show({});
 
-    rehearsed.refreshes = ledger.shown_refreshes();
-    rehearsed.missed = ledger.missed_refreshes();
+    check.refreshes = ledger.shown_refreshes();
+    check.missed = ledger.missed_refreshes();
     for (std::size_t i = 0; i < flips.size(); ++i) {
-        rehearsed.work_ms.push_back(1e3 * to_seconds(flips[i].swapped - flips[i].requested));
+        check.work_ms.push_back(1e3 * to_seconds(flips[i].swapped - flips[i].requested));
         if (i > 0)
-            rehearsed.intervals_ms.push_back(
-                1e3 * to_seconds(flips[i].vertical_blank - flips[i - 1].vertical_blank));
+            check.intervals_ms.push_back(1e3 *
+                                         to_seconds(flips[i].vertical_blank - flips[i - 1].vertical_blank));
     }
-    return rehearsed;
+    return check;
 }
 
-std::string counts_of(const RehearsedPresentation& rehearsed) {
-    return fmt::format("{}, {} missed, {}", counted(rehearsed.refreshes, "refresh", "refreshes"),
-                       rehearsed.missed,
-                       rehearsed.tracker_refusal ? "without the eye tracker: " + *rehearsed.tracker_refusal
-                                                 : counted(rehearsed.samples, "sample") + " of gaze");
+std::string counts_of(const PresentationCheck& check) {
+    return fmt::format("{}, {} missed, {}", counted(check.refreshes, "refresh", "refreshes"), check.missed,
+                       check.tracker_refusal ? "without the eye tracker: " + *check.tracker_refusal
+                                             : counted(check.samples, "sample") + " of gaze");
 }
 
-std::string describe(const RehearsedPresentation& rehearsed) {
+std::string describe(const PresentationCheck& check) {
     return fmt::format(
         "{}; from picture to picture in ms: {}; from asking for a picture to its swap in ms: {}",
-        counts_of(rehearsed), quantiles_of(rehearsed.intervals_ms), quantiles_of(rehearsed.work_ms));
+        counts_of(check), quantiles_of(check.intervals_ms), quantiles_of(check.work_ms));
 }
 
-bool misses_too_many(const RehearsedPresentation& rehearsed) {
-    return rehearsed.missed > tolerable_share * (rehearsed.missed + rehearsed.refreshes);
+bool misses_too_many(const PresentationCheck& check) {
+    return check.missed > tolerable_share * (check.missed + check.refreshes);
 }
 
 } // namespace overt

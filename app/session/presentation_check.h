@@ -1,4 +1,4 @@
-/// The rehearsal of a presentation before a session on a real screen.
+/// A check of the presentation's timing before a session on a real screen.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,8 @@ namespace overt {
 /// thrown away and lies in a folder beside the session's `folder`, on the same disk; writes what it took into
 /// the session's record and onto the terminal. Does nothing without a real screen or without trials. Throws
 /// RecordError, and as Presenter::load_frames().
-void rehearse_timing(Rig& rig, const Protocol& protocol, const Schedule& schedule,
-                     const SessionHeader& header, const std::filesystem::path& folder, SessionStore& store);
+void check_presentation(Rig& rig, const Protocol& protocol, const Schedule& schedule,
+                        const SessionHeader& header, const std::filesystem::path& folder,
+                        SessionStore& store);
 
 } // namespace overt

@@ -1,4 +1,4 @@
-/// A set-up's stage that notes what is shown on it and gives keys of a script, in the time of a clock.
+/// A set-up screen that notes what is shown on it and gives keys of a script, in the time of a clock.
 #pragma once
 
 #include <deque>
@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "experiment/ports/clock.h"
-#include "experiment/ports/setup_stage.h"
+#include "experiment/ports/setup_screen.h"
 
 namespace overt::test {
 
-class ScriptedStage final : public SetupStage {
+class ScriptedSetupScreen final : public SetupScreen {
   public:
-    explicit ScriptedStage(Clock& clock, ScreenGeometry geometry = {}) : clock_(clock), geometry_(geometry) {}
+    explicit ScriptedSetupScreen(Clock& clock, ScreenGeometry geometry = {})
+        : clock_(clock), geometry_(geometry) {}
 
     std::vector<ScreenPoint> targets; ///< in the order shown
     std::vector<std::string> texts;
@@ -21,7 +22,7 @@ class ScriptedStage final : public SetupStage {
     std::size_t keys_after = 0;     ///< targets
     std::size_t cancel_after = ~0u; ///< targets
 
-    const ScreenGeometry& screen() const override { return geometry_; }
+    const ScreenGeometry& geometry() const override { return geometry_; }
     SessionTime show_target(ScreenPoint place, Degrees) override {
         targets.push_back(place);
         return clock_.now();

@@ -1,17 +1,17 @@
 /// The session's screens and keys, as a tracker's set-up uses them.
 #pragma once
 
-#include "experiment/ports/setup_stage.h"
+#include "experiment/ports/setup_screen.h"
 #include "experiment/session/session_state.h"
 
 namespace overt {
 
-class SessionStage final : public SetupStage {
+class SessionSetupScreen final : public SetupScreen {
   public:
     /// From here on the panel tells keys as they are. `state` must outlive this.
-    explicit SessionStage(SessionState& state);
+    explicit SessionSetupScreen(SessionState& state);
 
-    const ScreenGeometry& screen() const override { return geometry_; }
+    const ScreenGeometry& geometry() const override { return geometry_; }
     SessionTime show_target(ScreenPoint place, Degrees diameter) override;
     SessionTime clear() override;
     void show_camera(const CameraImage& image) override;

@@ -1,13 +1,13 @@
-/// A set-up's stage on which nothing is seen or typed: for trackers that calibrate by themselves.
+/// A set-up screen on which nothing is seen or typed: for trackers that calibrate by themselves.
 #pragma once
 
-#include "experiment/ports/setup_stage.h"
+#include "experiment/ports/setup_screen.h"
 
 namespace overt::test {
 
-class StillStage final : public SetupStage {
+class StillSetupScreen final : public SetupScreen {
   public:
-    const ScreenGeometry& screen() const override { return geometry_; }
+    const ScreenGeometry& geometry() const override { return geometry_; }
     SessionTime show_target(ScreenPoint, Degrees) override { return now_; }
     SessionTime clear() override { return now_; }
     void show_camera(const CameraImage&) override {}
