@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -10,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/analyze/study_folder.h"
+#include "app/bench/bench_clock.h"
 #include "app/bench/bench_command.h"
 #include "app/cli/interruption.h"
 #include "app/cli/resident_memory.h"
@@ -25,12 +25,6 @@ namespace overt {
 namespace {
 
 constexpr int tries = 3;
-
-template <class Work> double seconds_for(const Work& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// The sessions as `overt analyze` takes them, with tables, figures and report.
 void measure_study(BenchFigures& figures, const std::vector<std::filesystem::path>& sessions) {

@@ -1,12 +1,12 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <fstream>
 #include <limits>
 
 #include <fmt/format.h>
 
+#include "app/bench/bench_clock.h"
 #include "app/bench/bench_command.h"
 #include "app/bench/picture_error.h"
 #include "experiment/base/error.h"
@@ -20,10 +20,6 @@
 namespace overt {
 
 namespace {
-
-/// Processor time of the whole process: on a machine with other work to do it says more than the clock on the
-/// wall.
-double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct BakeCase {
     std::string name;
@@ -77,13 +73,13 @@ RayRates measure_rays(const BakeScene& scene, const SceneView& view) {
     }
     const auto rate = [&](const std::vector<PathRay>& rays, bool coherent) {
         double met = 0.0, cast = 0.0;
-        const double begin = processor_s();
+        const double begin = processor_seconds();
         double took = 0.0;
         do {
             for (const PathRay& ray : rays)
                 met += scene.tree().first_distance(ray, coherent) >= 0.0f ? 1.0 : 0.0;
             cast += static_cast<double>(rays.size());
-            took = processor_s() - begin;
+            took = processor_seconds() - begin;
         } while (took < 0.5);
         return met >= 0.0 ? cast / took : 0.0;
     };
@@ -181,10 +177,10 @@ void measure_gallery(BenchFigures& figures, const BakeCase& one, const BakeScene
         SpectralFrame frame;
     };
     const auto timed = [&](const SpectralLight& light, int count, std::uint64_t seed) {
-        const double begin = processor_s();
+        const double begin = processor_seconds();
         SpectralFrame frame =
             bake_frame(scene, light, view, {0.0}, covered, {.samples = count, .seed = seed});
-        return Timed{processor_s() - begin, std::move(frame)};
+        return Timed{processor_seconds() - begin, std::move(frame)};
     };
     const double under_sky_s = timed(sky, samples, 0).seconds;
     const Timed aimed = timed(gallery, samples, 0), by_chance = timed(unaimed, samples, 0);
@@ -224,9 +220,9 @@ BenchFigures bench_bake(const BenchOptions& options) {
     std::optional<RayRates> rates;
     double bake_s = 0.0, exposure = 0.0;
     for (const BakeCase& one : bake_cases()) {
-        double begin = processor_s();
+        double begin = processor_seconds();
         const BakeScene scene(sculpture.mesh, one.material);
-        figures.push_back({one.name + ", trees built", processor_s() - begin, "s of a processor"});
+        figures.push_back({one.name + ", trees built", processor_seconds() - begin, "s of a processor"});
         if (!rates) {
             rates = measure_rays(scene, sculpture.scene);
             figures.push_back(
@@ -234,12 +230,11 @@ BenchFigures bench_bake(const BenchOptions& options) {
             figures.push_back({"Embree, mirrored rays", 1e-6 * rates->mirrored, "million/s of a processor"});
         }
         const BakeSettings settings{.samples = options.samples};
-        begin = processor_s();
+        begin = processor_seconds();
         const auto begin_wall = std::chrono::steady_clock::now();
         const SpectralFrame frame = bake_frame(scene, light, sculpture.scene, {0.0}, covered, settings);
-        const double took = processor_s() - begin;
-        const double waited =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_wall).count();
+        const double took = processor_seconds() - begin;
+        const double waited = seconds_since(begin_wall);
         double samples = 0.0, wrong = 0.0;
         for (std::size_t pixel = 0; pixel < covered.size(); ++pixel) {
             samples += frame.samples[pixel];

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/bench/bench_clock.h"
 #include "app/bench/bench_command.h"
 #include "app/cli/resident_memory.h"
 #include "experiment/base/scratch_folder.h"
@@ -16,13 +17,9 @@ namespace overt {
 
 namespace {
 
-constexpr int trials = 8;
+constexpr int recorded_trials = 8;
 constexpr double trial_s = 8.0;
-constexpr double rate_hz = 2000.0;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
+constexpr double recorded_rate_hz = 2000.0;
 
 /// A session like those of the default experiment, with gaze that wanders; without maps, for it is the
 /// writing of files that is measured.
@@ -34,7 +31,7 @@ std::filesystem::path record_session(const std::filesystem::path& folder, int tr
         header.schedule.trials.push_back({trial, 0, {0, 0}, 0});
     header.started_utc = "2026-01-01T00:00:00Z";
     header.program.version = "bench";
-    header.tracker = {"made up", rate_hz, Eye::left};
+    header.tracker = {"made up", recorded_rate_hz, Eye::left};
     header.poses = distinct_poses(header.animation);
     header.tasks = {{"free", "Look around"}};
     header.sculptures = {{"bust", "A bust", "", "", {}, {}, {}, {}}};
@@ -57,7 +54,7 @@ std::filesystem::path record_session(const std::filesystem::path& folder, int tr
             flip.report.vertical_blank = start + from_seconds(1.0 + refresh / header.display.refresh_hz);
             store.flip(flip);
         }
-        for (int n = 0; n < static_cast<int>(trial_s * rate_hz); ++n) {
+        for (int n = 0; n < static_cast<int>(trial_s * recorded_rate_hz); ++n) {
             GazeSample sample;
             sample.eye = Eye::left;
             sample.sampled_at =
@@ -92,7 +89,7 @@ class ExportBench {
         const auto no_surface = [](int) -> const SurfaceLookup* { return nullptr; };
         for (const int times : {1, 4})
             sessions_.push_back(
-                record_session(scratch_.path() / fmt::format("session_{}", times), trials * times));
+                record_session(scratch_.path() / fmt::format("session_{}", times), recorded_trials * times));
         for (const TableFormat format : {TableFormat::tsv, TableFormat::jsonl}) {
             TableExportOptions tables;
             tables.format = format;

@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
 
+#include "app/bench/bench_clock.h"
 #include "app/bench/bench_command.h"
 #include "devices/host/clocks.h"
 #include "experiment/base/error.h"
@@ -19,7 +19,7 @@ namespace overt {
 
 namespace {
 
-constexpr int frames = 61;
+constexpr int frame_files = 61;
 constexpr int rounds = 3;
 
 /// What a frame of a sculpture is to a decoder: a smooth figure with a little noise on an empty background.
@@ -62,7 +62,7 @@ std::filesystem::path file_of(const std::filesystem::path& folder, const FileKin
 }
 
 void write_frames(const std::filesystem::path& folder, const FileKind& kind, int size_px) {
-    parallel_for(frames, [&](int frame) {
+    parallel_for(frame_files, [&](int frame) {
         const PictureHeader header{
             glm::ivec2(size_px), {"R", "G", "B", "A"}, kind.type, 3, {{"compression", kind.compression}}};
         write_picture(file_of(folder, kind, frame), header, PixelType::float32,
@@ -70,15 +70,9 @@ void write_frames(const std::filesystem::path& folder, const FileKind& kind, int
     });
 }
 
-double seconds_of(const auto& work) {
-    const auto begin = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 /// As the file has its values, without a conversion, one file a thread.
 void read_by_library_alone(const std::filesystem::path& folder, const FileKind& kind) {
-    parallel_for(frames, [&](int frame) {
+    parallel_for(frame_files, [&](int frame) {
         thread_local std::vector<char> pixels;
         PictureFile picture(file_of(folder, kind, frame), "picture");
         const PictureHeader& header = picture.header();
@@ -94,7 +88,7 @@ class FilesOnDisk final : public FrameSource {
     FilesOnDisk(std::filesystem::path folder, const FileKind& kind)
         : folder_(std::move(folder)), kind_(kind) {}
     std::vector<int> page_of_frame(const Condition&) const override {
-        std::vector<int> pages(frames);
+        std::vector<int> pages(frame_files);
         std::iota(pages.begin(), pages.end(), 0);
         return pages;
     }
@@ -115,7 +109,7 @@ class FilesOnDisk final : public FrameSource {
 
 /// As the frame store has it done: all values as floats, checked, without an encoding, premultiplied.
 void decode(const FrameSource& files) {
-    parallel_for(frames, [&](int frame) {
+    parallel_for(frame_files, [&](int frame) {
         thread_local LinearImage picture;
         files.read_page({0, 0}, frame, picture);
     });
@@ -130,12 +124,12 @@ void measure_kind(const GlContext& context, const FileKind& kind, int size_px, B
     const FilesOnDisk files(folder.path(), kind);
     std::vector<double> library_s, decoding_s, loading_s;
     for (int round = 0; round < rounds; ++round) {
-        library_s.push_back(seconds_of([&] { read_by_library_alone(folder.path(), kind); }));
-        decoding_s.push_back(seconds_of([&] { decode(files); }));
+        library_s.push_back(seconds_for([&] { read_by_library_alone(folder.path(), kind); }));
+        decoding_s.push_back(seconds_for([&] { decode(files); }));
         VirtualClock clock;
         VirtualDisplay surface(context, clock, 120.0);
         PagePresenter presenter(context, surface, files, geometry, DisplaySettings{}, {});
-        loading_s.push_back(seconds_of([&] { presenter.load_frames({0, 0}); }));
+        loading_s.push_back(seconds_for([&] { presenter.load_frames({0, 0}); }));
     }
     const auto best = [](const std::vector<double>& times) { return *std::ranges::min_element(times); };
     const std::string what = fmt::format("61 frames, {}", kind.name);

@@ -1,22 +1,10 @@
-#include <ctime>
-
 #include <fmt/format.h>
 
+#include "app/bench/bench_clock.h"
 #include "app/bench/bench_command.h"
 #include "app/power/power_simulation.h"
 
 namespace overt {
-
-namespace {
-
-/// Of this program on all its threads, in seconds.
-double processor_seconds() {
-    timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-} // namespace
 
 BenchFigures bench_power(const BenchOptions& options) {
     BenchScene scene = bench_scene(options);

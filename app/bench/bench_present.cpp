@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
+#include "app/bench/bench_clock.h"
 #include "app/bench/bench_command.h"
 #include "app/bench/bench_timing.h"
 #include "app/cli/resident_memory.h"
@@ -20,22 +19,8 @@ namespace overt {
 
 namespace {
 
-constexpr int frames = 61;
+constexpr int page_count = 61;
 constexpr int cycles = 5;
-
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-/// Processor time of all threads of this process.
-double processor_s() {
-    rusage used{};
-    getrusage(RUSAGE_SELF, &used);
-    const auto seconds = [](const timeval& time) {
-        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-    };
-    return seconds(used.ru_utime) + seconds(used.ru_stime);
-}
 
 /// 61 pages of random light, in memory: the picture of each is another than that of the pages before it.
 class RandomPages final : public FrameSource {
@@ -51,7 +36,7 @@ class RandomPages final : public FrameSource {
         }
     }
     std::vector<int> page_of_frame(const Condition&) const override {
-        std::vector<int> pages(frames);
+        std::vector<int> pages(page_count);
         std::iota(pages.begin(), pages.end(), 0);
         return pages;
     }
@@ -93,13 +78,6 @@ DisplayCharacterisation unlike_channels() {
     return display;
 }
 
-/// Processor time of the calling thread: other work on the machine takes no part in it.
-double thread_s() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 void measure_packing(const RandomPages& pages, const ScreenGeometry& geometry, BenchFigures& figures) {
     const LinearImage picture = pages.page({0, 0}, 0);
     struct Packing {
@@ -127,9 +105,9 @@ void measure_packing(const RandomPages& pages, const ScreenGeometry& geometry, B
                 packing.encoder.emplace(packing.display);
             const ScreenPatch patch = packing.encoder->patch_of(geometry.image_origin_px, geometry.image_px);
             bytes.resize(bytes_in(patch.size_px, packing.encoder->format()));
-            const double begin = thread_s();
+            const double begin = thread_seconds();
             packing.encoder->encode(picture, geometry.image_origin_px, bytes);
-            packing.times_s.push_back(thread_s() - begin);
+            packing.times_s.push_back(thread_seconds() - begin);
         }
     }
     for (Packing& packing : packings) {
@@ -150,17 +128,17 @@ void measure_flips(const OpenDisplay& display, const RandomPages& pages, const S
     presenter.load_frames({0, 0});
     const double loading_s = seconds_since(begin);
     const double loaded_mb = resident_memory_mb() - before_mb;
-    for (int frame = 0; frame < frames; ++frame) // once round to set things up
+    for (int frame = 0; frame < page_count; ++frame) // once round to set things up
         presenter.flip({frame});
     std::vector<double> times_s;
-    const double processor_before_s = processor_s();
-    for (int flip = 0; flip < cycles * frames; ++flip) {
+    const double processor_before_s = processor_seconds();
+    for (int flip = 0; flip < cycles * page_count; ++flip) {
         const auto flip_begin = std::chrono::steady_clock::now();
-        presenter.flip({flip % frames});
+        presenter.flip({flip % page_count});
         times_s.push_back(seconds_since(flip_begin));
     }
     const double processor_ms =
-        1e3 * (processor_s() - processor_before_s) / static_cast<double>(times_s.size());
+        1e3 * (processor_seconds() - processor_before_s) / static_cast<double>(times_s.size());
     std::sort(times_s.begin(), times_s.end());
     const std::string where{name_of(context.description().kind)};
     const double median_ms = 1e3 * times_s[times_s.size() / 2];

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 
+#include "app/bench/bench_clock.h"
 #include "app/bench/bench_command.h"
 #include "app/bench/bench_gaze.h"
 #include "app/cli/progress_bar.h"
@@ -21,13 +21,6 @@ namespace {
 constexpr int presentations = 12;
 constexpr int repeats = 5;
 constexpr int compared_places = 200'000;
-
-/// Time that this thread has computed: what other programs take of the machine does not count.
-double thread_seconds() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 std::vector<TriangleMap> draw_maps(const GlContext& context, const Sculpture& sculpture,
                                    const PoseTable& poses) {
@@ -242,8 +235,7 @@ BenchFigures bench_reproject(const BenchOptions& options) {
         const double before_mb = resident_memory_mb() - drawn_mb;
         const auto begin = std::chrono::steady_clock::now();
         const CoordinateMaps maps(sculpture.mesh, sculpture.scene, poses.angles, std::move(drawn));
-        const double making_s =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        const double making_s = seconds_since(begin);
         figures.push_back(
             {sculpture.id + ", triangles", static_cast<double>(sculpture.mesh.triangles.size()), ""});
         figures.push_back(at_most(sculpture.id + ", memory of all maps with the surface",

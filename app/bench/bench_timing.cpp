@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t seed = 20191;
 constexpr int scripts = 10000;
 constexpr int sittings = 20;
-constexpr int trials = 30;
+constexpr int trials_of_sitting = 30;
 
 void measure_reconstruction(BenchFigures& figures) {
     int given_back = 0, accounted = 0, misses = 0;
@@ -40,8 +40,8 @@ void measure_onsets(BenchFigures& figures) {
         FaultScript script;
         script.faults.drift_ppm = 37.0;
         script.faults.jitter_sd_ms = 1.0;
-        for (int trial = 0; trial < trials; ++trial) {
-            script.faults.seed = static_cast<std::uint64_t>(sitting * trials + trial);
+        for (int trial = 0; trial < trials_of_sitting; ++trial) {
+            script.faults.seed = static_cast<std::uint64_t>(sitting * trials_of_sitting + trial);
             simulated.push_back(simulate_presentation(script));
             lines.push_back(fit_of(simulated.back(), script).line());
         }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "app/bench/bench_clock.h"
 #include "app/bench/bench_command.h"
 #include "app/bench/metronome.h"
 #include "app/rig/open_display.h"
@@ -18,7 +19,7 @@ namespace overt {
 
 namespace {
 
-constexpr double rate_hz = Metronome::rate_hz, display_hz = 120.0;
+constexpr double display_hz = 120.0;
 constexpr int shown_frames = 8;
 
 /// Pages of one grey each.
@@ -96,7 +97,7 @@ Presentation present(const BenchOptions& options, bool with_tracker) {
     std::atomic<double> tracker_processor_s{0.0};
     Presentation result;
     ThreadedTracker tracker(std::make_unique<Metronome>(display.clock(), tracker_processor_s, numbered),
-                            display.clock(), {.rate_hz = rate_hz, .screen = geometry});
+                            display.clock(), {.rate_hz = Metronome::rate_hz, .screen = geometry});
     std::vector<TrackerItem> items(4096);
     const auto take = [&] {
         std::size_t count = 0;
@@ -107,7 +108,7 @@ Presentation present(const BenchOptions& options, bool with_tracker) {
     };
     if (with_tracker)
         tracker.start_recording();
-    const double processor_before_s = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+    const double processor_before_s = processor_seconds();
     const SessionTime begin = display.clock().now();
     ledger.begin(0);
     while (!ledger.is_complete()) {
@@ -116,7 +117,7 @@ Presentation present(const BenchOptions& options, bool with_tracker) {
         ledger.enter(presenter.flip(ledger.next().frame));
     }
     result.seconds = to_seconds(display.clock().now() - begin);
-    result.processor_s = seconds_of(CLOCK_PROCESS_CPUTIME_ID) - processor_before_s;
+    result.processor_s = processor_seconds() - processor_before_s;
     tracker.stop_recording();
     take();
     result.refreshes = cycle.total_refreshes;
@@ -130,7 +131,7 @@ void measure_virtual_time(BenchFigures& figures) {
     VirtualClock clock;
     ObservedScene scene;
     const SimulatedObserver observer(scene, 1);
-    SimulatedEyeTracker tracker(clock, observer, 1, {.rate_hz = rate_hz});
+    SimulatedEyeTracker tracker(clock, observer, 1, {.rate_hz = Metronome::rate_hz});
     std::vector<TrackerItem> items(4096);
     std::int64_t samples = 0, lost = 0, doubled = 0;
     std::optional<TrackerTime> last;
@@ -150,7 +151,7 @@ void measure_virtual_time(BenchFigures& figures) {
     };
     constexpr int refreshes = 600 * static_cast<int>(display_hz);
     tracker.start_recording();
-    const double before_s = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+    const double before_s = processor_seconds();
     for (int refresh = 0; refresh < refreshes; ++refresh) {
         clock.wait_until(SessionTime(from_seconds((refresh + 1) / display_hz)));
         take();
@@ -158,10 +159,10 @@ void measure_virtual_time(BenchFigures& figures) {
     tracker.stop_recording();
     take();
     figures.push_back(at_least("10 minutes of virtual time at 2000 Hz, samples", static_cast<double>(samples),
-                               "", 600.0 * rate_hz - 1.0));
+                               "", 600.0 * Metronome::rate_hz - 1.0));
     figures.push_back(at_most("the same, lost samples", static_cast<double>(lost), "", 0.0));
     figures.push_back(at_most("the same, doubled samples", static_cast<double>(doubled), "", 0.0));
-    figures.push_back({"the same, processor time", seconds_of(CLOCK_PROCESS_CPUTIME_ID) - before_s, "s"});
+    figures.push_back({"the same, processor time", processor_seconds() - before_s, "s"});
 }
 
 } // namespace
@@ -173,7 +174,7 @@ BenchFigures bench_tracker(const BenchOptions& options) {
     const std::string what =
         fmt::format("{:g} s of real time at 2000 Hz beside a presentation", options.seconds);
     figures.push_back(at_least(what + ", samples", static_cast<double>(with.taken.samples), "",
-                               std::floor(with.seconds * rate_hz) - 2.0));
+                               std::floor(with.seconds * Metronome::rate_hz) - 2.0));
     figures.push_back(at_most("the same, lost samples", static_cast<double>(with.taken.lost), "", 0.0));
     figures.push_back(at_most("the same, doubled samples", static_cast<double>(with.taken.doubled), "", 0.0));
     figures.push_back(at_most("the same, share of a core of the tracker's thread",

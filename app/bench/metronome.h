@@ -6,17 +6,12 @@
 #include <cstdint>
 #include <ctime>
 
+#include "app/bench/bench_clock.h"
 #include "devices/tracker/tracker_driver.h"
 #include "experiment/ports/clock.h"
 #include "experiment/units.h"
 
 namespace overt {
-
-inline double seconds_of(clockid_t clock) {
-    timespec time{};
-    clock_gettime(clock, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 /// The tracker's clock is the session's: a sample's time is when it was due. Says how much processor time the
 /// thread that reads it took.
@@ -45,7 +40,7 @@ class Metronome final : public TrackerDriver {
             sample.gaze = gaze_(next_ - first_);
             sink.put(sample);
         }
-        processor_s_ = seconds_of(CLOCK_THREAD_CPUTIME_ID);
+        processor_s_ = thread_seconds();
         return RecordingState::running;
     }
 

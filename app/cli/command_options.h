@@ -41,7 +41,7 @@ auto add_command(CLI::App& app, ChosenCommand& chosen, int (*run)(Given), const 
 }
 
 // What an option may have besides its name, type and text, among them a check of what is given.
-inline void required(CLI::Option& option) { option.required(); }
+inline void must_be_given(CLI::Option& option) { option.required(); }
 inline void shown_default(CLI::Option& option) { option.capture_default_str(); }
 /// One value each time that it is given, of an option that may be given several times.
 inline void one_each_time(CLI::Option& option) { option.allow_extra_args(false); }

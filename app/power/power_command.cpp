@@ -108,7 +108,7 @@ void add_power_command(CLI::App& app, ChosenCommand& chosen) {
     settings.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     command.add_option("PROTOCOL", options.protocol, "Protocol file")->required()->type_name("FILE");
     option(command, "--effect", options.effects, "EFFECT", "An effect, several times for several, or none",
-           required, one_each_time)
+           must_be_given, one_each_time)
         ->take_all();
     option(command, "--observers", options.observers, "N",
            "Numbers of observers: 12, 6:24, 6:24:3 or 6,12,18", shown_default);

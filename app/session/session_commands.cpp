@@ -14,7 +14,8 @@ void add_session_commands(CLI::App& app, ChosenCommand& chosen) {
                     "1 --virtual-time --context osmesa");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
     option(command, "--observer", options.observer, "ID",
-           "Who sits there: letters and digits; the digits at the end are the observer's number", required);
+           "Who sits there: letters and digits; the digits at the end are the observer's number",
+           must_be_given);
     option(command, "--session", options.session_number, "N",
            "Number of this sitting (default: the next free one)", above_zero());
     choice<ResumePolicy>(command, "--resume", options.resume, "POLICY",

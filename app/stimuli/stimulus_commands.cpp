@@ -11,7 +11,7 @@ void add_play(CLI::App& app, ChosenCommand& chosen) {
         app, chosen, run_play, "play", "Shows one animation, or one of its frames as a picture",
         "overt play protocols/overt_2019.toml --stimulus muse/smooth --frame 15 --picture frame.png");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
-    option(command, "--stimulus", options.stimulus, "ID", "SCULPTURE/MATERIAL by their ids", required);
+    option(command, "--stimulus", options.stimulus, "ID", "SCULPTURE/MATERIAL by their ids", must_be_given);
     option(command, "--frame", options.frame, "K", "Animation frame for --picture (default: 0)",
            not_negative());
     option(command, "--picture", options.picture, "FILE", "Write a PNG instead of opening a window");
@@ -93,7 +93,8 @@ void add_lut(CLI::App& app, ChosenCommand& chosen) {
                     "  overt lut protocols/overt_2019.toml --stimulus muse --frame all --check");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
     option(command, "--stimulus", options.stimulus, "ID",
-           "SCULPTURE or SCULPTURE/MATERIAL by their ids; the map is the same for all materials", required);
+           "SCULPTURE or SCULPTURE/MATERIAL by their ids; the map is the same for all materials",
+           must_be_given);
     add_frame_option(command, options.frame, "Animation frame, or all");
     option(command, "--out", options.out, "DIR",
            "Folder to write to (default: luts/SCULPTURE; with --check nothing is written)");
@@ -117,7 +118,8 @@ void add_reconstruct(CLI::App& app, ChosenCommand& chosen) {
         "  overt reconstruct protocols/overt_2019.toml --stimulus muse --frame all --out muse_cloud.ply");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
     option(command, "--stimulus", options.stimulus, "ID",
-           "SCULPTURE or SCULPTURE/MATERIAL by their ids; the maps are the same for all materials", required);
+           "SCULPTURE or SCULPTURE/MATERIAL by their ids; the maps are the same for all materials",
+           must_be_given);
     add_frame_option(
         command, options.frame,
         "Animation frame: the triangles between its pixels, cut at silhouettes and where one part hides "
@@ -127,7 +129,7 @@ void add_reconstruct(CLI::App& app, ChosenCommand& chosen) {
            "Keep one point in each cube of this size, in the unit of the mesh (default: the distance of "
            "neighbouring pixels)",
            not_negative());
-    option(command, "--out", options.out, "FILE", "File to write: .ply or .obj", required);
+    option(command, "--out", options.out, "FILE", "File to write: .ply or .obj", must_be_given);
     command.add_flag("--overwrite", options.overwrite, "Replace a file that is there");
     add_context_option(command, options.context);
     command.add_flag("--json", options.json, "Print JSON");

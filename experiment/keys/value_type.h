@@ -59,7 +59,7 @@ const ValueType& value_type(TypeTag<std::vector<std::array<double, 4>>>);
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 6>>>);
 
 /// A text that is one of the rule's choices: which.
-ValueResult read_choice(const TomlValue& written, const KeyRule& rule, std::size_t& index);
+ValueResult read_choice(const TomlValue& value, const KeyRule& rule, std::size_t& index);
 
 /// Of an enumeration, whose values are chosen by the names of the rule.
 ValueType type_of_choices(ValueResult (*read)(const TomlValue&, const KeyRule&, void*),

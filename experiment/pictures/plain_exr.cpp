@@ -92,8 +92,8 @@ std::optional<PictureHeader> plain_header_of(const Imf::Header& stored) {
 
 class PlainExrDecoder final : public PictureDecoder {
   public:
-    PlainExrDecoder(const std::string& file, std::unique_ptr<Imf::InputFile> input, PictureHeader header)
-        : file_(file), input_(std::move(input)), header_(std::move(header)) {}
+    PlainExrDecoder(std::string file, std::unique_ptr<Imf::InputFile> input, PictureHeader header)
+        : file_(std::move(file)), input_(std::move(input)), header_(std::move(header)) {}
     const PictureHeader& header() const override { return header_; }
     std::string read(int begin_row, int end_row, int channels, PixelType as, void* into) override {
         const StoredType* const wanted = stored_as(as == PixelType::other ? header_.type : as);

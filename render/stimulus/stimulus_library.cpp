@@ -189,7 +189,7 @@ std::filesystem::path StimulusLibrary::first_frame_file(const Condition& conditi
     hasher.add(std::string_view(frames_hash(condition)));
     if (!cache_.is_ready_made(condition))
         hasher.add(cache_.angle_of({first}).value);
-    const std::filesystem::path file = cache_.first_frame_file(hasher.finish());
+    std::filesystem::path file = cache_.first_frame_file(hasher.finish());
     if (!std::filesystem::exists(file)) {
         std::filesystem::create_directories(file.parent_path());
         write_srgb_png(file, page(condition, first));

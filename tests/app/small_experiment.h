@@ -127,7 +127,7 @@ inline std::filesystem::path shared_cache() {
     static const std::filesystem::path folder = [] {
         namespace fs = std::filesystem;
         const std::string begin = "made_by_";
-        const fs::path ours =
+        fs::path ours =
             lasting_folder() /
             (begin + fmt::format("{:x}", fs::last_write_time(OVERT_PROGRAM).time_since_epoch().count()));
         if (!fs::exists(ours) && fs::exists(lasting_folder())) {

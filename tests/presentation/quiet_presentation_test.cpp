@@ -120,7 +120,7 @@ TEST_CASE("nor do they when pictures come late, refreshes are skipped and the ma
 #if OVERT_CALLS_ARE_COUNTED
 TEST_CASE("each kind of call is counted", "[unit]") {
     const test::Calls before = test::calls;
-    std::vector<int>* volatile numbers = new std::vector<int>(100); // volatile: not to be left out
+    auto* volatile numbers = new std::vector<int>(100); // volatile: not to be left out
     delete numbers;
     CHECK(test::calls.allocations - before.allocations >= 4);
     const long locks = test::calls.locks;

@@ -15,12 +15,12 @@ std::atomic<long> hashed_anywhere{0};
 
 } // namespace
 
-extern "C" int EVP_DigestUpdate(EVP_MD_CTX* context, const void* bytes, std::size_t count) {
+extern "C" int EVP_DigestUpdate(EVP_MD_CTX* ctx, const void* data, std::size_t cnt) {
     static auto* const next =
         reinterpret_cast<decltype(&EVP_DigestUpdate)>(dlsym(RTLD_NEXT, "EVP_DigestUpdate"));
     ++hashed_here;
     ++hashed_anywhere;
-    return next(context, bytes, count);
+    return next(ctx, data, cnt);
 }
 
 using namespace overt;

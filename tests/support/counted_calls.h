@@ -44,9 +44,9 @@ template <class Function> Function* next_function(const char* name) {
 } // namespace overt::test
 
 #if OVERT_CALLS_ARE_COUNTED
-// NOLINTBEGIN(misc-definitions-in-headers,bugprone-reserved-identifier,readability-identifier-naming): one file of a
-// program includes this, which replaces functions of the C library
-// operator new and operator delete of libstdc++ call malloc and free.
+// NOLINTBEGIN(misc-definitions-in-headers,bugprone-reserved-identifier,readability-identifier-naming): one
+// file of a program includes this, which replaces functions of the C library. Their parameters are called as
+// in its headers. operator new and operator delete of libstdc++ call malloc and free.
 extern "C" {
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
@@ -58,26 +58,26 @@ void* malloc(std::size_t size) noexcept {
     ++overt::test::calls.allocations;
     return __libc_malloc(size);
 }
-void* calloc(std::size_t count, std::size_t size) noexcept {
+void* calloc(std::size_t nmemb, std::size_t size) noexcept {
     ++overt::test::calls.allocations;
-    return __libc_calloc(count, size);
+    return __libc_calloc(nmemb, size);
 }
-void* realloc(void* memory, std::size_t size) noexcept {
+void* realloc(void* ptr, std::size_t size) noexcept {
     ++overt::test::calls.allocations;
-    return __libc_realloc(memory, size);
+    return __libc_realloc(ptr, size);
 }
-void free(void* memory) noexcept {
-    overt::test::calls.allocations += memory != nullptr;
-    __libc_free(memory);
+void free(void* ptr) noexcept {
+    overt::test::calls.allocations += ptr != nullptr;
+    __libc_free(ptr);
 }
 void* memalign(std::size_t alignment, std::size_t size) noexcept {
     ++overt::test::calls.allocations;
     return __libc_memalign(alignment, size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept { return memalign(alignment, size); }
-int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexcept {
-    *memory = memalign(alignment, size);
-    return *memory ? 0 : ENOMEM;
+int posix_memalign(void** memptr, std::size_t alignment, std::size_t size) noexcept {
+    *memptr = memalign(alignment, size);
+    return *memptr ? 0 : ENOMEM;
 }
 
 int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
@@ -86,33 +86,33 @@ int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
     return next(mutex);
 }
 
-std::FILE* fopen(const char* name, const char* mode) {
+std::FILE* fopen(const char* name, const char* modes) {
     static auto* const next = overt::test::next_function<std::FILE*(const char*, const char*)>("fopen");
     ++overt::test::calls.opened_files;
-    return next(name, mode);
+    return next(name, modes);
 }
-std::FILE* fopen64(const char* name, const char* mode) {
+std::FILE* fopen64(const char* name, const char* modes) {
     static auto* const next = overt::test::next_function<std::FILE*(const char*, const char*)>("fopen64");
     ++overt::test::calls.opened_files;
-    return next(name, mode);
+    return next(name, modes);
 }
-int open(const char* name, int flags, ...) {
+int open(const char* file, int oflag, ...) {
     static auto* const next = overt::test::next_function<int(const char*, int, ...)>("open");
     std::va_list rest;
-    va_start(rest, flags);
+    va_start(rest, oflag);
     const mode_t mode = va_arg(rest, mode_t);
     va_end(rest);
     ++overt::test::calls.opened_files;
-    return next(name, flags, mode);
+    return next(file, oflag, mode);
 }
-int open64(const char* name, int flags, ...) {
+int open64(const char* file, int oflag, ...) {
     static auto* const next = overt::test::next_function<int(const char*, int, ...)>("open64");
     std::va_list rest;
-    va_start(rest, flags);
+    va_start(rest, oflag);
     const mode_t mode = va_arg(rest, mode_t);
     va_end(rest);
     ++overt::test::calls.opened_files;
-    return next(name, flags, mode);
+    return next(file, oflag, mode);
 }
 
 [[noreturn]] void __cxa_throw(void* thrown, void* type, void (*destroy)(void*)) {

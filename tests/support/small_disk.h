@@ -1,6 +1,7 @@
 /// A disk of a few megabytes that really fills up, for programs that are started on it.
 #pragma once
 
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -8,7 +9,6 @@
 
 #include <fcntl.h>
 #include <sched.h>
-#include <signal.h>
 #include <sys/mount.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -47,7 +47,7 @@ class SmallDisk {
     bool is_there() const { return is_there_; }
 
     /// Makes room, or takes it.
-    bool resize(std::uint64_t bytes) {
+    bool resize(std::uint64_t bytes) const {
         char answer = 'n';
         return ::write(request_, &bytes, sizeof bytes) == sizeof bytes && ::read(answer_, &answer, 1) == 1 &&
                answer == 'y';

@@ -160,7 +160,7 @@ bool is_study_table(const std::string& file) {
     const std::size_t dot = file.find('.');
     bool is_table = false;
     for_each_table(StudyResults(), [&](const auto& layout, bool, const auto&) {
-        is_table |= dot != file.npos && layout.table().name == file.substr(0, dot);
+        is_table |= dot != std::string::npos && layout.table().name == file.substr(0, dot);
     });
     return is_table;
 }

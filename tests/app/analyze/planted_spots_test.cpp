@@ -60,7 +60,7 @@ TEST_CASE("a spot that a material draws gaze to comes back through whole session
     REQUIRE(run.exit_code == 0);
     const std::vector<glm::dvec3> spots = planted_spots(experiment);
     const auto analyzed = [&](const std::string& compare) {
-        const fs::path out = study / compare;
+        fs::path out = study / compare;
         std::vector<std::string> arguments{"analyze", "--compare", compare,     "--format",
                                            "tsv",     "--out",     out.string()};
         for (int observer = 1; observer <= 8; ++observer)

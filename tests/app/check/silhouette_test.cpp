@@ -33,7 +33,7 @@ class PaintedExperiment {
     }
 
     /// Paints frame after frame: light where the map of the frame is, moved; with alpha, or over a grey.
-    void paint(bool alpha, const std::function<glm::ivec2(int frame)>& moved) {
+    void paint(bool alpha, const std::function<glm::ivec2(int frame)>& moved) const {
         const SmallExperiment plain;
         Diagnostics diagnostics;
         const auto experiment =
@@ -66,7 +66,7 @@ class PaintedExperiment {
         }
     }
 
-    nlohmann::json check() {
+    nlohmann::json check() const {
         const ProgramRun run = files.overt({"check", files.protocol().string(), "--json"});
         INFO(run.err);
         REQUIRE(run.exit_code == 0);
@@ -78,7 +78,7 @@ class PaintedExperiment {
 
 std::string message_with(const nlohmann::json& report, const std::string& part) {
     for (const auto& finding : report.at("findings")) {
-        const std::string message = finding.at("message");
+        std::string message = finding.at("message");
         if (message.find(part) != std::string::npos)
             return message;
     }

@@ -254,7 +254,7 @@ TEST_CASE("a box that is missing, of another rate, or not asked for is never pas
     }
     SECTION("in virtual time: simulated, on record") {
         std::vector<std::string> arguments = rig.session(1);
-        arguments.push_back("--virtual-time");
+        arguments.emplace_back("--virtual-time");
         const ProgramRun run = rig.overt(arguments);
         INFO(run.err);
         CHECK(run.exit_code == 0);

@@ -29,7 +29,7 @@ std::set<std::string> all_matches(const std::string& text, const std::string& pa
 /// "check", "tracker calibrate", …, by the help alone.
 std::set<std::string> commands_below(const std::vector<std::string>& path) {
     std::vector<std::string> call = path;
-    call.push_back("--help");
+    call.emplace_back("--help");
     const std::string help = run_overt(call).out;
     const std::size_t list = help.find("\nSubcommands:\n");
     std::set<std::string> all;
@@ -52,11 +52,13 @@ std::set<std::string> commands_below(const std::vector<std::string>& path) {
 std::set<std::string> options_of(const std::string& command) {
     std::istringstream words(command);
     std::vector<std::string> call{std::istream_iterator<std::string>(words), {}};
-    call.push_back("--help");
+    call.emplace_back("--help");
     return all_matches(run_overt(call).out, "^ {2,4}(?:-[a-z],)?(--[a-z0-9-]+)");
 }
 
-std::string without_escapes(std::string page) { return std::regex_replace(page, std::regex(R"(\\-)"), "-"); }
+std::string without_escapes(const std::string& page) {
+    return std::regex_replace(page, std::regex(R"(\\-)"), "-");
+}
 
 /// What bash offers for the last of the words.
 std::set<std::string> completed(const fs::path& script, const std::vector<std::string>& words,
@@ -122,7 +124,7 @@ TEST_CASE("bash completes commands, options, their choices and files", "[unit][m
     for (const std::string& command : commands_below({})) {
         std::istringstream parts(command);
         std::vector<std::string> words{std::istream_iterator<std::string>(parts), {}};
-        words.push_back("--");
+        words.emplace_back("--");
         CAPTURE(command);
         CHECK(completed(script, words, in) == options_of(command));
     }

@@ -14,11 +14,11 @@ constexpr std::string_view bust_line = "mesh = \"meshes/bust.ply\"", tall_line =
 Mesh ball_of(double radius, glm::dvec3 centre) {
     Mesh mesh;
     test::add_part(mesh, test::ball(centre, radius, 60, 120), "body");
-    mesh.part_names.push_back("head");
+    mesh.part_names.emplace_back("head");
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const glm::uvec3 corners = mesh.triangles[i];
-        const double height = static_cast<double>(mesh.positions[corners.x].z + mesh.positions[corners.y].z +
-                                                  mesh.positions[corners.z].z);
+        const auto height = static_cast<double>(mesh.positions[corners.x].z + mesh.positions[corners.y].z +
+                                                mesh.positions[corners.z].z);
         if (height > 3.0 * centre.z)
             mesh.triangle_parts[i] = 1;
     }

@@ -80,7 +80,7 @@ TEST_CASE("each kind of tracker that needs no device can be made, and says its n
 }
 
 TEST_CASE("a tracker that is hardware is refused in virtual time", "[unit]") {
-    const TrackerKind mouse = kind_called<TrackerKind>("mouse");
+    const auto mouse = kind_called<TrackerKind>("mouse");
     CHECK(tracker_device(mouse, false).make_driver);
     CHECK_THROWS_WITH(tracker_device(mouse, true), Contains("\"mouse\"") && Contains("--virtual-time"));
     CHECK(tracker_device(kind_called<TrackerKind>("simulated"), true).make_tracker);

@@ -79,7 +79,7 @@ TEST_CASE("a full disk is reported with the file and the remedy, and with room a
             for (const TrialRecord& attempt : record.trials())
                 CHECK((!attempt.counts || record.flips(attempt).size() == 480));
             again.resize(again.size() - 2); // the number of trials stands in the record
-            again.push_back("--resume");
+            again.emplace_back("--resume");
         } else {
             ++before_publishing;
             CHECK_THAT(said, Contains("/sessions/small/") && Contains("Make room") && Contains("not begun"));

@@ -84,7 +84,7 @@ class ExactSitting {
         folder = directory.path();
         const SessionRecord record(folder);
         RecordedSurfaces surfaces(record);
-        const std::filesystem::path tables = files.folder().path() / "tables";
+        std::filesystem::path tables = files.folder().path() / "tables";
         export_tables(
             record, [&](int sculpture) { return surfaces.lookup_of(sculpture); }, tables);
         return tables;

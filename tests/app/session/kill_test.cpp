@@ -70,7 +70,7 @@ class KilledSessions {
             std::vector<std::string> arguments =
                 run_arguments(experiment_, observer, {"--virtual-time", "--trials", trials});
             if (exists)
-                arguments.push_back("--resume");
+                arguments.emplace_back("--resume");
             resumed_ += exists;
             if (kills_ < times && run_and_kill(experiment_, arguments, moment(session))) {
                 ++kills_;

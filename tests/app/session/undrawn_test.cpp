@@ -12,7 +12,7 @@ TEST_CASE("a session without pictures records the same, and says so", "[session]
     const SmallExperiment drawn_one(Cache::own), undrawn_one(Cache::own);
     const auto exported = [&](const SmallExperiment& experiment, const std::vector<std::string>& more) {
         REQUIRE(experiment.run(more).exit_code == 0);
-        const fs::path out = experiment.folder().path() / "tables";
+        fs::path out = experiment.folder().path() / "tables";
         REQUIRE(
             experiment.overt({"export", experiment.session().string(), "--out", out.string()}).exit_code ==
             0);

@@ -108,7 +108,7 @@ TEST_CASE("an exported frame names its channels and everything that made it", "[
                 static_cast<std::size_t>(header.channel(fmt::format("{}nm", 400 + 10 * bin)));
             y += cie1931_xyz()[1][bin] * double{spectra[32 * pixel + channel]};
         }
-        const double other = double{xyz[4 * pixel + static_cast<std::size_t>(xyz_header.channel("Y"))]};
+        const auto other = double{xyz[4 * pixel + static_cast<std::size_t>(xyz_header.channel("Y"))]};
         CHECK(y == Approx(other).epsilon(0.004).margin(1e-4));
         compared += y > 0.01;
     }

@@ -46,7 +46,7 @@ TEST_CASE("a session keeps the light of its stimuli, as their frames have it", "
             const double luminance = 0.2126 * static_cast<double>(pixel[at("R")]) +
                                      0.7152 * static_cast<double>(pixel[at("G")]) +
                                      0.0722 * static_cast<double>(pixel[at("B")]);
-            const double covered = static_cast<double>(light.coverage[square]);
+            const auto covered = static_cast<double>(light.coverage[square]);
             CHECK(covered == Approx(static_cast<double>(pixel[at("A")])).margin(0.001));
             CHECK(covered * static_cast<double>(light.luminance[square]) ==
                   Approx(luminance).epsilon(0.002).margin(2e-4));

@@ -16,7 +16,7 @@ namespace {
 std::shared_ptr<const SaliencyMap> awaited(const LiveSaliency& saliency, const std::string& sculpture,
                                            const std::function<bool(const SaliencyMap&)>& is_it) {
     for (int tries = 0; tries < 3000; ++tries) {
-        const auto map = saliency.newest(sculpture);
+        auto map = saliency.newest(sculpture);
         if (map && is_it(*map))
             return map;
         std::this_thread::sleep_for(std::chrono::milliseconds(20));

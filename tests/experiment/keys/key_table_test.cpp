@@ -67,7 +67,7 @@ struct ReadHouse {
     explicit ReadHouse(std::string_view text) {
         const KeyTable table({house(), room(), chair()}, "include");
         const TomlFile toml = parse_toml(text, "h.toml", diagnostics);
-        KeyWalk(table, "h.toml", places, faulty, diagnostics).read(toml, house_);
+        KeyWalk(table, "h.toml", places, faulty, diagnostics).read(toml, values);
     }
     std::vector<std::string> lines() const {
         std::vector<std::string> lines;
@@ -79,7 +79,7 @@ struct ReadHouse {
     Diagnostics diagnostics;
     KeyPlaces places;
     KeyPaths faulty;
-    House house_;
+    House values;
 };
 using Lines = std::vector<std::string>;
 
@@ -98,15 +98,15 @@ TEST_CASE("a walk through a table puts each value where it belongs, and notes wh
         "size = \"small\"\n[[chair]]\nid = \"a\"\n[[chair]]\nid = \"b\"\nlegs = 3\n"
         "where = { point = [1, 2.5, 0] }\n");
     CHECK(read.lines() == Lines{});
-    CHECK(read.house_.doors == 2);
-    CHECK(read.house_.room.height_m == 3.0);
-    CHECK(read.house_.room.mood == Mood::calm);
-    CHECK(read.house_.room.before == Mood::wide_awake);
-    CHECK(read.house_.room.size == Size::small);
-    REQUIRE(read.house_.chairs.size() == 2);
-    CHECK(read.house_.chairs[0].legs == 4);
-    CHECK(read.house_.chairs[1].legs == 3);
-    CHECK(read.house_.chairs[1].place == glm::dvec3(1.0, 2.5, 0.0));
+    CHECK(read.values.doors == 2);
+    CHECK(read.values.room.height_m == 3.0);
+    CHECK(read.values.room.mood == Mood::calm);
+    CHECK(read.values.room.before == Mood::wide_awake);
+    CHECK(read.values.room.size == Size::small);
+    REQUIRE(read.values.chairs.size() == 2);
+    CHECK(read.values.chairs[0].legs == 4);
+    CHECK(read.values.chairs[1].legs == 3);
+    CHECK(read.values.chairs[1].place == glm::dvec3(1.0, 2.5, 0.0));
     CHECK(read.places.of("chair[1].legs") == Place{12, 8});
     CHECK(read.places.of("chair[1].where.point").line == 13);
     CHECK_FALSE(read.places.is_written("chair[0].legs"));
@@ -129,7 +129,7 @@ TEST_CASE("all that is wrong by the table is found, and told with what mends it"
     CHECK(findings[6].hint == "did you mean \"colour\"?");
     CHECK(findings[7].hint == "Its name.");
     CHECK(read.faulty == KeyPaths{"house.doors", "room.mood", "chair[0].id", "chair[0].legs"});
-    CHECK(read.house_.doors == 1);
+    CHECK(read.values.doors == 1);
 }
 
 TEST_CASE("a section where a list belongs, and the reverse, are told by their brackets", "[unit]") {

@@ -73,9 +73,9 @@ TEST_CASE("missing maps are counted, and the first is named", "[unit]") {
     std::filesystem::create_directories(folder.path() / "maps");
     std::filesystem::create_directories(folder.path() / "frames");
     for (int frame = 0; frame < 61; ++frame) {
-        std::ofstream(folder.path() / fmt::format("frames/{:04}.png", frame));
+        const std::ofstream picture(folder.path() / fmt::format("frames/{:04}.png", frame));
         if (frame % 10 != 3)
-            std::ofstream(folder.path() / fmt::format("maps/frame_{:04}.png", frame + 1));
+            const std::ofstream map(folder.path() / fmt::format("maps/frame_{:04}.png", frame + 1));
     }
     std::ofstream(folder.path() / "p.toml") << with_maps;
     Diagnostics diagnostics;

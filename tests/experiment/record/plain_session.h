@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -253,7 +254,7 @@ class NotingLog final : public SessionLog {
 };
 
 struct Sitting {
-    explicit Sitting(const Protocol& sat) : protocol(sat) {}
+    explicit Sitting(Protocol sat) : protocol(std::move(sat)) {}
     SessionResult run() {
         const Schedule schedule = make_schedule(protocol, {"P", 1}, 1);
         return Session(protocol, schedule, {960.0, 540.0},

@@ -23,7 +23,7 @@ int version_of(const fs::path& file) {
 
 /// Two trials, a third that failed and is to come again, a fourth that was cut off.
 fs::path make_session_of_version(const fs::path& root, int version) {
-    const fs::path session = make_session(root, example_header());
+    fs::path session = make_session(root, example_header());
     const std::vector<Trial> trials = example_header().schedule.trials;
     {
         SessionStore store(session / session_file_name, patient());

@@ -19,7 +19,7 @@ namespace {
 // What stands between two texts.
 std::string between(const std::string& text, const std::string& begin, const std::string& end) {
     const std::size_t from = text.find(begin);
-    if (from == text.npos)
+    if (from == std::string::npos)
         return {};
     return text.substr(from + begin.size(), text.find(end, from + begin.size()) - from - begin.size());
 }

@@ -21,7 +21,7 @@ struct SittingOfTwo : Sitting {
 };
 
 /// Answers the operator's questions with no; all of them, or those with this text.
-void decline(Sitting& sitting, std::string about = {}) {
+void decline(Sitting& sitting, const std::string& about = {}) {
     sitting.panel.tell = [&sitting, about](ScriptedPanel& panel) -> std::optional<ResponsePress> {
         if (!panel.is_deciding() || sitting.presenter.texts.back().find(about) == std::string::npos)
             return std::nullopt;
@@ -143,8 +143,7 @@ TEST_CASE("a further tracker that the operator gives up is left out until it is 
 
 TEST_CASE("practice leaves no rows in a further tracker's record, and its calibrations stand there",
           "[unit]") {
-    SittingOfTwo plain,
-        practised("[[practice]]\ntask = \"free\"\nsculpture = \"a\"\nmaterial = \"clay\"\n");
+    SittingOfTwo plain, practised("[[practice]]\ntask = \"free\"\nsculpture = \"a\"\nmaterial = \"clay\"\n");
     CHECK(plain.run().completed_trials == 2);
     bool was_pressed = false;
     practised.panel.tell = [&](ScriptedPanel& panel) -> std::optional<ResponsePress> {

@@ -112,8 +112,10 @@ TEST_CASE("what is the same in all observers' levels has no part in an interacti
     std::vector<LevelMeans> observers = observers_with(8, 6, 6, 0.0);
     const auto before = interaction_flip_test(observers, 3);
     for (LevelMeans& own : observers) {
-        for (std::size_t cell = 0; cell < own.size(); ++cell)
-            *own[cell] += 5.0 * static_cast<double>(cell / 3) - 2.0 * static_cast<double>(cell % 3);
+        for (std::size_t cell = 0; cell < own.size(); ++cell) {
+            const std::size_t row = cell / 3, column = cell % 3;
+            *own[cell] += 5.0 * static_cast<double>(row) - 2.0 * static_cast<double>(column);
+        }
     }
     const auto after = interaction_flip_test(observers, 3);
     CHECK(after->statistic == Approx(before->statistic));

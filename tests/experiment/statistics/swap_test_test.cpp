@@ -24,7 +24,7 @@ std::vector<BothMaps> made_up_maps(std::size_t observers, std::uint64_t seed, do
         RandomStream random(seed, "made-up maps", o);
         BothMaps both{Map(places), Map(places)};
         for (std::size_t i = 0; i < places; ++i) {
-            const double common = static_cast<double>(i % 7);
+            const auto common = static_cast<double>(i % 7);
             both.a[i] = common + 3.0 * random.uniform() + (i < 10 ? effect : 0.0);
             both.b[i] = common + 3.0 * random.uniform();
         }

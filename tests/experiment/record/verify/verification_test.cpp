@@ -34,7 +34,8 @@ bool check_it_is_named(const Verification& found, const AllRows& before,
     const auto places = differing(before, *after);
     if (places.size() != 1)
         return false;
-    const auto& [table, trial_id] = *places.begin();
+    const std::string& table = places.begin()->first;
+    const std::int64_t trial_id = places.begin()->second;
     if (table == "seal" || table == "sealed_table")
         return false;
     const auto named = std::find_if(found.damages.begin(), found.damages.end(), [&](const Damage& damage) {
@@ -93,7 +94,7 @@ TEST_CASE("one bit turned over anywhere in a closed session is found, with its f
     write_whole_session(session);
     const AllRows before = read_all_rows(session / session_file_name).value();
     std::vector<std::string> files = files_of_session(session, true);
-    files.push_back(manifest_file_name);
+    files.emplace_back(manifest_file_name);
     RandomStream random(1, "flips");
     int in_rows = 0;
     for (int round = 0; round < 400; ++round) {
@@ -125,7 +126,7 @@ TEST_CASE("one bit turned over anywhere in a session that was cut off is found, 
     const std::string log = std::string(session_file_name) + "-wal";
     REQUIRE(fs::file_size(session / log) > 10'000);
     std::vector<std::string> files = files_of_session(session, false);
-    files.push_back(manifest_file_name);
+    files.emplace_back(manifest_file_name);
     REQUIRE(files.size() == 5); // protocol, mesh, map and preview of a frame
     RandomStream random(2, "flips");
     int between_rows = 0, in_rows = 0;
