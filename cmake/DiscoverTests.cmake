@@ -3,8 +3,10 @@
 # unit or gl are one test, named after program and file: hundreds of programs that each load some 280 libraries for a case of
 # milliseconds take longer than the cases. A test case without such a tag stops the build, for it would never be run; one
 # that is tagged [.long] is run by hand (tests/README.md). A test that is also tagged [waits], or a file with such a case,
-# spends most of its time waiting for a screen, a device or an observer in real time: ./test runs up to three of them beside
-# one other for each processor, and begins with them.
+# spends most of its time waiting for a screen, a device or an observer in real time: it takes one place and any other test
+# four, so that ./test runs three of them beside one other for each processor. CTest goes through the tests from the highest
+# cost down and starts those for which there are places: tests of app/, whole sessions among them, come first, since they
+# take longest, and tests that wait come last, so that they take only the places that others leave.
 cmake_policy(VERSION 3.25)
 
 function(list_of_program result pattern)
@@ -25,10 +27,13 @@ if(unlabelled)
     message(FATAL_ERROR "Test cases without a tag [unit], [gl], [session] or [bench]: ${unlabelled}")
 endif()
 
-set(waits PROCESSORS 1 COST 1000)
-set(computes PROCESSORS 4)
-set(script "")
 get_filename_component(program "${PROGRAM}" NAME)
+set(waits PROCESSORS 1 COST 1)
+set(computes PROCESSORS 4 COST 2)
+if(program STREQUAL "app_tests")
+    set(computes PROCESSORS 4 COST 3)
+endif()
+set(script "")
 function(add_program_test name label specification)
     list(JOIN ARGN " " share)
     string(APPEND script "add_test([==[${name}]==] [==[${PROGRAM}]==] [==[${specification}]==] \"-#\")\n"

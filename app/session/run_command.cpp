@@ -25,7 +25,6 @@
 #include "devices/host/thread_priority.h"
 #include "experiment/base/error.h"
 #include "experiment/design/schedule.h"
-#include "experiment/pictures/picture_library.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/record/read/timing_report.h"
 #include "experiment/record/session_schema.h"
@@ -224,9 +223,6 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
                          }},
                     plan.fields);
     note_faults(options.faults, rig.clock(), records);
-    // Maps drawn live are written between trials, where loading the library would take its time.
-    if (rig.maps_are_live())
-        picture_library();
     note_thread(prepare_thread({options.realtime, options.processor}), rig.clock(), records);
     if (options.refresh_check_s > 0.0)
         check_presentation(rig, protocol, plan.schedule, folder.header, folder.path, store);

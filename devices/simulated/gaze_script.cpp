@@ -36,16 +36,28 @@ struct Composer {
         return place_of(fixation, since_onset, scene, targets, turn);
     }
 
-    /// Sets the begin after a saccade from `before`, and the end. Gives the saccade's size.
-    Degrees follow(const ScriptedFixation& before, ScriptedFixation& next, double duration_s) const {
+    /// Where and when a fixation ends: what all targets that may follow it have in common.
+    struct Departure {
+        SessionDuration at{};
+        ScreenPoint place;
+        glm::dmat4 world_from_object{1.0}; ///< then, in the middle of the screen
+    };
+    Departure departure_of(const ScriptedFixation& before) const {
+        Departure departure{before.end, place(before, before.end)};
+        if (targets)
+            departure.world_from_object = targets->world_from_object(
+                turn.angle_at(before.end - scene.light_delay(scene.screen.centre().y_px)));
+        return departure;
+    }
+
+    /// Sets the begin after a saccade from there, and the end. Gives the saccade's size.
+    Degrees follow(const Departure& before, ScriptedFixation& next, double duration_s) const {
         if (next.target) {
-            const Degrees angle = turn.angle_at(before.end - scene.light_delay(scene.screen.centre().y_px));
-            const glm::dvec2 image = targets->project(next.target->position, angle);
+            const glm::dvec2 image = targets->project(next.target->position, before.world_from_object);
             next.light_delay = scene.light_delay(scene.screen.screen_from_image(image).y_px);
         }
-        const Degrees amplitude =
-            scene.screen.angle_between(place(before, before.end), place(next, before.end));
-        next.begin = before.end + saccade_duration(amplitude);
+        const Degrees amplitude = scene.screen.angle_between(before.place, place(next, before.at));
+        next.begin = before.at + saccade_duration(amplitude);
         next.end = next.begin + from_seconds(duration_s);
         return amplitude;
     }
@@ -53,7 +65,7 @@ struct Composer {
     bool stays_visible(const ScriptedFixation& fixation, SessionDuration from) const {
         const int last = turn.step_at(fixation.end - fixation.light_delay);
         for (int step = turn.step_at(from - fixation.light_delay); step <= last; ++step) {
-            if (!targets->is_visible(*fixation.target, turn.angle_of_step(step)))
+            if (!targets->is_visible(*fixation.target, step))
                 return false;
         }
         return true;
@@ -62,14 +74,14 @@ struct Composer {
     /// `draw_one()` draws a point. If none is far enough, the farthest of those that stay visible is taken:
     /// going elsewhere instead would make the shares of small regions smaller than planned.
     template <class Draw>
-    bool find_target(const ScriptedFixation& before, ScriptedFixation& next, double duration_s,
+    bool find_target(const Departure& before, ScriptedFixation& next, double duration_s,
                      const Draw& draw_one) {
         std::optional<SurfacePoint> farthest;
         Degrees so_far{0.0};
         for (int draw = 0; draw < draws_of_a_region; ++draw) {
             next.target = draw_one();
             const Degrees amplitude = follow(before, next, duration_s);
-            if (amplitude < so_far || !stays_visible(next, before.end))
+            if (amplitude < so_far || !stays_visible(next, before.at))
                 continue;
             if (amplitude >= settings.shortest_saccade)
                 return true;
@@ -83,8 +95,7 @@ struct Composer {
         return true;
     }
 
-    bool find_target(const ScriptedFixation& before, ScriptedFixation& next, double duration_s,
-                     Region region) {
+    bool find_target(const Departure& before, ScriptedFixation& next, double duration_s, Region region) {
         return find_target(before, next, duration_s,
                            [&] { return targets->draw(random, region, plan.spread); });
     }
@@ -103,7 +114,8 @@ struct Composer {
         return -1;
     }
 
-    ScriptedFixation next_fixation(const ScriptedFixation& before) {
+    ScriptedFixation next_fixation(const ScriptedFixation& last) {
+        const Departure before = departure_of(last);
         const double duration_s =
             log_normal_within(random, settings.fixation_median_s, settings.fixation_log_sd,
                               settings.shortest_fixation_s, settings.longest_fixation_s);
@@ -188,7 +200,8 @@ ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_ons
     if (!fixation.target)
         return fixation.place;
     const Degrees angle = turn.angle_at(since_onset - fixation.light_delay);
-    return scene.screen.screen_from_image(targets->project(fixation.target->position, angle));
+    return scene.screen.screen_from_image(
+        targets->project(fixation.target->position, targets->world_from_object(angle)));
 }
 
 } // namespace overt

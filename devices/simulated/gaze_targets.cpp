@@ -39,6 +39,9 @@ GazeTargets::GazeTargets(const ObservedSculpture& sculpture, const ObservedScene
         region.add(i, weight);
     }
     find_middle();
+    for (int step = 0; step < scene.animation.steps_per_period(); ++step)
+        eyes_.push_back(turned_back(scene_.view.camera.position, scene_.pose_at(scene.animation.angle_of(
+                                                                     scene.animation.frame_at_step(step)))));
     for (std::size_t effect = 0; effect < scene.effects.size(); ++effect) {
         RandomStream random(effect, "spot of an effect");
         const Region region = random.uniform() < 0.5 ? Region::head : Region::elsewhere;
@@ -47,7 +50,7 @@ GazeTargets::GazeTargets(const ObservedSculpture& sculpture, const ObservedScene
             middle = draw(random, region);
             bool is_seen = true;
             for (int step = 0; step < scene.animation.steps_per_period() && is_seen; ++step)
-                is_seen = is_visible(middle, scene.animation.angle_of(scene.animation.frame_at_step(step)));
+                is_seen = is_visible(middle, step);
             if (is_seen)
                 break;
         }
@@ -145,8 +148,8 @@ SurfacePoint GazeTargets::draw_from(RandomStream& random, const WeightedTriangle
     return point;
 }
 
-bool GazeTargets::is_visible(const SurfacePoint& point, Degrees angle) const noexcept {
-    const glm::dvec3 eye = turned_back(scene_.view.camera.position, scene_.pose_at(angle));
+bool GazeTargets::is_visible(const SurfacePoint& point, int step) const noexcept {
+    const glm::dvec3& eye = eyes_[static_cast<std::size_t>(step) % eyes_.size()];
     const glm::dvec3 normal = corners_of(*mesh_, point.triangle).normal_times_area();
     const glm::dvec3 to_eye = eye - point.position;
     const double facing = std::abs(glm::dot(normal, to_eye)) / (glm::length(normal) * glm::length(to_eye));
@@ -172,8 +175,11 @@ std::optional<SurfacePoint> GazeTargets::surface_at(glm::dvec2 image_point_px, D
     return point;
 }
 
-glm::dvec2 GazeTargets::project(glm::dvec3 object_point, Degrees angle) const noexcept {
-    const glm::dmat4 world_from_object = scene_.pose_at(angle).world_from_object();
+glm::dmat4 GazeTargets::world_from_object(Degrees angle) const noexcept {
+    return scene_.pose_at(angle).world_from_object();
+}
+
+glm::dvec2 GazeTargets::project(glm::dvec3 object_point, const glm::dmat4& world_from_object) const noexcept {
     return scene_.view.project(glm::dvec3(world_from_object * glm::dvec4(object_point, 1.0)));
 }
 

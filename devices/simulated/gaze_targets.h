@@ -36,15 +36,16 @@ class GazeTargets {
     /// A point of an effect's spot, all of its area equally probable.
     SurfacePoint draw_from_spot(RandomStream& random, int effect) const noexcept;
 
-    /// Whether the point is seen when the object is turned by `angle`, and not too obliquely (up to 78
-    /// degrees between line of sight and normal).
-    bool is_visible(const SurfacePoint& point, Degrees angle) const noexcept;
+    /// Whether the point is seen at a step of the animation, and not too obliquely (up to 78 degrees between
+    /// line of sight and normal).
+    bool is_visible(const SurfacePoint& point, int step) const noexcept;
 
     /// What is seen at a place of the image.
     std::optional<SurfacePoint> surface_at(glm::dvec2 image_point_px, Degrees angle) const noexcept;
 
-    /// Image place of a point of the object.
-    glm::dvec2 project(glm::dvec3 object_point, Degrees angle) const noexcept;
+    /// Image place of a point of the object, whose turn is `world_from_object`.
+    glm::dvec2 project(glm::dvec3 object_point, const glm::dmat4& world_from_object) const noexcept;
+    glm::dmat4 world_from_object(Degrees angle) const noexcept;
 
   private:
     struct WeightedTriangles {
@@ -69,6 +70,7 @@ class GazeTargets {
     const Mesh* mesh_;
     SceneView scene_;
     RayCaster caster_;
+    std::vector<glm::dvec3> eyes_; ///< the camera as the object sees it, by step of a period
     WeightedTriangles head_, elsewhere_;
     std::vector<Spot> spots_;   ///< by effect
     glm::dvec3 middle_{0.0};    ///< of both regions by weighted area

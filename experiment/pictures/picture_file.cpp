@@ -62,11 +62,16 @@ void PictureFile::read_rows(int begin, int end, int channels, PixelType as, void
 
 void write_picture(const std::filesystem::path& file, const PictureHeader& header, PixelType type,
                    const void* pixels) {
-    std::vector<unsigned char> bytes;
-    const std::string fault = picture_library().encode(file.string(), header, type, pixels, bytes);
-    if (!fault.empty())
-        throw RecordError(fmt::format("{}: cannot be written: {}", file.string(), fault));
-    write_whole_file(file, std::as_bytes(std::span(bytes)));
+    std::optional<std::vector<unsigned char>> bytes;
+    if (file.extension() == ".exr")
+        bytes = encode_plain_exr(header, type, pixels);
+    if (!bytes) {
+        const std::string fault =
+            picture_library().encode(file.string(), header, type, pixels, bytes.emplace());
+        if (!fault.empty())
+            throw RecordError(fmt::format("{}: cannot be written: {}", file.string(), fault));
+    }
+    write_whole_file(file, std::as_bytes(std::span(*bytes)));
 }
 
 } // namespace overt

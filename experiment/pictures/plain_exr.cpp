@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 #include <string_view>
 
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfIntAttribute.h>
+#include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 #include <ImfTestFile.h>
 #include <ImfVecAttribute.h>
@@ -30,6 +31,11 @@ struct StoredType {
 constexpr StoredType stored_types[] = {{Imf::UINT, PixelType::bits32, "uint", 4},
                                        {Imf::HALF, PixelType::float16, "half", 2},
                                        {Imf::FLOAT, PixelType::float32, "float", 4}};
+
+constexpr struct {
+    Imf::Compression stored;
+    const char* name;
+} compressions[] = {{Imf::ZIP_COMPRESSION, "zip"}, {Imf::PXR24_COMPRESSION, "pxr24"}};
 
 const StoredType* stored_as(PixelType type) {
     const auto* const row = std::ranges::find(stored_types, type, &StoredType::type);
@@ -51,10 +57,10 @@ void read_attribute(const std::string& name, const Imf::Attribute& attribute, Pi
 /// Nothing if a file with this header is left to OpenImageIO.
 std::optional<PictureHeader> plain_header_of(const Imf::Header& stored) {
     const auto& window = stored.dataWindow();
-    const char* const compression = stored.compression() == Imf::ZIP_COMPRESSION     ? "zip"
-                                    : stored.compression() == Imf::PXR24_COMPRESSION ? "pxr24"
-                                                                                     : nullptr;
-    if (!compression || window != stored.displayWindow() || window.min.x != 0 || window.min.y != 0)
+    const auto* const compression =
+        std::ranges::find(compressions, stored.compression(), [](const auto& row) { return row.stored; });
+    if (compression == std::end(compressions) || window != stored.displayWindow() || window.min.x != 0 ||
+        window.min.y != 0)
         return std::nullopt;
     PictureHeader header;
     header.size_px = {window.max.x + 1, window.max.y + 1};
@@ -84,7 +90,7 @@ std::optional<PictureHeader> plain_header_of(const Imf::Header& stored) {
     }
     header.type = type->type;
     header.type_name = type->name;
-    header.attributes.emplace_back("compression", std::string(compression));
+    header.attributes.emplace_back("compression", std::string(compression->name));
     for (auto attribute = stored.begin(); attribute != stored.end(); ++attribute)
         read_attribute(attribute.name(), attribute.attribute(), header);
     return header;
@@ -131,7 +137,94 @@ class PlainExrDecoder final : public PictureDecoder {
     PictureHeader header_;
 };
 
+/// Nothing if a file with this header is left to OpenImageIO.
+std::optional<Imf::Header> stored_header_of(const PictureHeader& header, const StoredType& type) {
+    Imf::Header stored(header.size_px.x, header.size_px.y);
+    for (const std::string& channel : header.channels)
+        stored.channels().insert(channel, Imf::Channel(type.stored));
+    stored.compression() = Imf::ZIP_COMPRESSION;
+    // OpenImageIO would write the time of day: the same picture shall have the same bytes.
+    stored.insert("capDate", Imf::StringAttribute("1970:01:01 00:00:00"));
+    for (const auto& [name, value] : header.attributes) {
+        if (name == "compression") {
+            const auto* const wanted =
+                std::ranges::find(compressions, header.text(name), [](const auto& row) { return row.name; });
+            if (wanted == std::end(compressions))
+                return std::nullopt;
+            stored.compression() = wanted->stored;
+        } else if (!name.starts_with("overt:")) {
+            return std::nullopt;
+        } else if (const auto* const number = std::get_if<int>(&value)) {
+            stored.insert(name, Imf::IntAttribute(*number));
+        } else if (const auto* const real = std::get_if<double>(&value)) {
+            stored.insert(name, Imf::DoubleAttribute(*real));
+        } else if (const auto* const triple = std::get_if<glm::dvec3>(&value)) {
+            stored.insert(name, Imf::V3dAttribute(Imath::V3d(triple->x, triple->y, triple->z)));
+        } else {
+            stored.insert(name, Imf::StringAttribute(std::get<std::string>(value)));
+        }
+    }
+    return stored;
+}
+
+/// Into memory: when a disk fills up, the library does not always say so.
+class MemoryStream final : public Imf::OStream {
+  public:
+    MemoryStream() : OStream("memory") {}
+    void write(const char bytes[], int count) override {
+        const std::size_t end = place_ + static_cast<std::size_t>(count);
+        if (end > bytes_.size())
+            bytes_.resize(end);
+        std::copy_n(bytes, count, bytes_.begin() + static_cast<std::ptrdiff_t>(place_));
+        place_ = end;
+    }
+    std::uint64_t tellp() override { return place_; }
+    void seekp(std::uint64_t place) override { place_ = place; }
+    std::vector<unsigned char> take() { return std::move(bytes_); }
+
+  private:
+    std::vector<unsigned char> bytes_;
+    std::size_t place_ = 0;
+};
+
 } // namespace
+
+std::optional<std::vector<unsigned char>> encode_plain_exr(const PictureHeader& header, PixelType type,
+                                                           const void* pixels) {
+    const StoredType *const stored = stored_as(header.type), *const given = stored_as(type);
+    if (!stored || !given || (stored->type == PixelType::bits32) != (given->type == PixelType::bits32) ||
+        (stored->type == PixelType::float32 && given->type == PixelType::float16))
+        return std::nullopt;
+    const std::optional<Imf::Header> stored_header = stored_header_of(header, *stored);
+    if (!stored_header)
+        return std::nullopt;
+    const std::size_t count = header.channels.size() * static_cast<std::size_t>(header.size_px.x) *
+                              static_cast<std::size_t>(header.size_px.y);
+    std::vector<half> halves;
+    const auto* bytes = static_cast<const char*>(pixels);
+    if (stored->type != given->type) {
+        const auto* const values = static_cast<const float*>(pixels);
+        halves.assign(values, values + count);
+        bytes = reinterpret_cast<const char*>(halves.data());
+    }
+    Imf::FrameBuffer rows;
+    const std::size_t pixel_bytes = header.channels.size() * stored->bytes;
+    for (std::size_t channel = 0; channel < header.channels.size(); ++channel)
+        // The library writes from what it takes as changeable.
+        rows.insert(header.channels[channel],
+                    Imf::Slice(stored->stored, const_cast<char*>(bytes) + channel * stored->bytes,
+                               pixel_bytes, pixel_bytes * static_cast<std::size_t>(header.size_px.x)));
+    MemoryStream stream;
+    try {
+        Imf::OutputFile output(stream, *stored_header, 0);
+        output.setFrameBuffer(rows);
+        output.writePixels(header.size_px.y);
+        // At its end it goes back and writes where the rows are.
+    } catch (const std::exception&) {
+        return std::nullopt;
+    }
+    return stream.take();
+}
 
 std::unique_ptr<PictureDecoder> open_plain_exr(const std::string& file) {
     if (!file.ends_with(".exr"))

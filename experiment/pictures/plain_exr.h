@@ -1,9 +1,11 @@
-/// OpenEXR files as overt itself writes them, read without the 260 libraries behind OpenImageIO: a session
-/// whose stimuli are ready needs no other pictures, and begins a quarter of a second of a processor sooner.
+/// OpenEXR files of overt's own, read and written without the 260 libraries behind OpenImageIO: a session and
+/// a replay need no other pictures, and begin a quarter of a second of a processor sooner.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "experiment/pictures/picture_library.h"
 
@@ -15,5 +17,12 @@ namespace overt {
 /// left out, but for "compression". What is asked for and cannot be given as it stands goes through
 /// OpenImageIO, too. Any thread.
 std::unique_ptr<PictureDecoder> open_plain_exr(const std::string& file);
+
+/// The bytes of a file, the same to the last as OpenImageIO writes them: of whole numbers from such, of
+/// floats or half floats from either; `type`: of `pixels`, as in write_picture(). Nothing for other types,
+/// other compressions than ZIP and PXR24, and attributes other than "compression" and those that begin with
+/// "overt:", and if something fails: OpenImageIO then says what it is. Any thread.
+std::optional<std::vector<unsigned char>> encode_plain_exr(const PictureHeader& header, PixelType type,
+                                                           const void* pixels);
 
 } // namespace overt

@@ -61,7 +61,9 @@ class PlantedStudies {
                     const PoseIndex pose =
                         poses_.pose_of(scene_.animation.frame_at_step(turn_->step_at(middle)));
                     const glm::dvec2 place =
-                        targets_->project(of.target->position, turn_->angle_at(middle)) + off * px_per_deg;
+                        targets_->project(of.target->position,
+                                          targets_->world_from_object(turn_->angle_at(middle))) +
+                        off * px_per_deg;
                     places.push_back({pose, place, error * px_per_deg});
                     const auto met =
                         targets_->surface_at(place, poses_.angles[static_cast<std::size_t>(pose.value)]);

@@ -1,6 +1,8 @@
 #include "experiment/pictures/plain_exr.h"
 
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include <catch2/catch.hpp>
 
@@ -92,6 +94,64 @@ TEST_CASE("overt's own frames, light and maps are read without OpenImageIO, to t
     std::string fault;
     CHECK(bits_of(*open_plain_exr(map), 0, size.y, 1, PixelType::float32) ==
           bits_of(*picture_library().open(map, false, fault), 0, size.y, 1, PixelType::float32));
+}
+
+TEST_CASE("overt's own frames, light and maps are written to the bytes that OpenImageIO writes", "[unit]") {
+    const auto check = [](const PictureHeader& header, PixelType type, const void* pixels) {
+        std::vector<unsigned char> theirs;
+        CHECK(picture_library().encode("picture.exr", header, type, pixels, theirs) == "");
+        const auto ours = encode_plain_exr(header, type, pixels);
+        REQUIRE(ours);
+        CHECK(*ours == theirs);
+    };
+    // More rows than the format compresses at once, and their number is no multiple of that.
+    PictureHeader header{size, {"R", "G", "B", "A"}, PixelType::float32, 3};
+    std::vector<float> light(4 * static_cast<std::size_t>(size.x * size.y));
+    RandomStream random(5, "light");
+    for (float& value : light)
+        value = static_cast<float>(std::exp(30.0 * random.uniform() - 20.0) - 1e-4);
+    // What half floats do not have, or have with fewer digits.
+    const float special[] = {0.0f,     -0.0f,   65504.0f, 65519.0f,
+                             65520.0f, 1e30f,   5.9e-8f,  2.9e-8f,
+                             -6.1e-5f, 2049.0f, 2051.0f,  std::numeric_limits<float>::infinity()};
+    std::ranges::copy(special, light.begin());
+    check(header, PixelType::float32, light.data());
+    header.attributes = {{"compression", "pxr24"},
+                         {"overt:a name that is longer than the first version of the format allows", 7},
+                         {"overt:angle_deg", -23.75},
+                         {"overt:low", glm::dvec3(1.0, -2.0, 3.5)},
+                         {"overt:light", std::string("overcast")},
+                         {"overt:light", std::string("gallery")},
+                         {"overt:empty", std::string()}};
+    check(header, PixelType::float32, light.data());
+    header.type = PixelType::float16;
+    check(header, PixelType::float32, light.data());
+    header.attributes.front().second = "zip";
+    check(header, PixelType::float32, light.data());
+    std::vector<std::uint16_t> halves(light.size());
+    for (std::uint16_t& value : halves)
+        value = static_cast<std::uint16_t>(random.below(0x7c00));
+    check(header, PixelType::float16, halves.data());
+    header.channels = {"Y", "A"};
+    check(header, PixelType::float32, light.data());
+
+    std::vector<std::uint32_t> codes(static_cast<std::size_t>(size.x * size.y));
+    for (std::uint32_t& code : codes)
+        code = random.below(1 << 30);
+    header.channels = {"triangle"};
+    header.type = PixelType::bits32;
+    check(header, PixelType::bits32, codes.data());
+
+    const auto is_left_to_it = [&](PixelType stored, PixelType type, const char* name, const char* value) {
+        const PictureHeader other{size, {"R"}, stored, -1, {{name, std::string(value)}}};
+        return !encode_plain_exr(other, type, light.data());
+    };
+    CHECK_FALSE(is_left_to_it(PixelType::float32, PixelType::float32, "compression", "zip"));
+    CHECK(is_left_to_it(PixelType::float32, PixelType::float32, "compression", "piz"));
+    CHECK(is_left_to_it(PixelType::float32, PixelType::float32, "Software", "overt"));
+    CHECK(is_left_to_it(PixelType::float32, PixelType::float16, "compression", "zip"));
+    CHECK(is_left_to_it(PixelType::bits32, PixelType::float32, "compression", "zip"));
+    CHECK(is_left_to_it(PixelType::bits8, PixelType::bits8, "compression", "zip"));
 }
 
 TEST_CASE("other pictures are left to OpenImageIO, and damaged ones to what it says of them", "[unit]") {
