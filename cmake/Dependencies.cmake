@@ -16,6 +16,7 @@ pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(EXR REQUIRED IMPORTED_TARGET OpenEXR) # the frames and maps that overt itself makes
+pkg_check_modules(PNG REQUIRED IMPORTED_TARGET libpng) # the pictures for people that overt itself makes
 pkg_check_modules(X11 REQUIRED IMPORTED_TARGET x11 xcb xcb-present xcb-randr xcb-screensaver)
 pkg_check_modules(GIO REQUIRED IMPORTED_TARGET gio-2.0) # the session's D-Bus
 pkg_check_modules(DRM REQUIRED IMPORTED_TARGET libdrm)

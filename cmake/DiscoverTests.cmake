@@ -4,7 +4,7 @@
 # milliseconds take longer than the cases. A test case without such a tag stops the build, for it would never be run; one
 # that is tagged [.long] is run by hand (tests/README.md). A test that is also tagged [waits], or a file with such a case,
 # spends most of its time waiting for a screen, a device or an observer in real time: it takes one place and any other test
-# four, so that ./test runs three of them beside one other for each processor. CTest goes through the tests from the highest
+# four, so that ./test runs three of them beside the others. CTest goes through the tests from the highest
 # cost down and starts those for which there are places: tests of app/, whole sessions among them, come first, since they
 # take longest, and tests that wait come last, so that they take only the places that others leave.
 cmake_policy(VERSION 3.25)

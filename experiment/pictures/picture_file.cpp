@@ -9,6 +9,7 @@
 #include "experiment/base/whole_file.h"
 #include "experiment/pictures/picture_library.h"
 #include "experiment/pictures/plain_exr.h"
+#include "experiment/pictures/plain_png.h"
 
 namespace overt {
 
@@ -65,6 +66,8 @@ void write_picture(const std::filesystem::path& file, const PictureHeader& heade
     std::optional<std::vector<unsigned char>> bytes;
     if (file.extension() == ".exr")
         bytes = encode_plain_exr(header, type, pixels);
+    else if (file.extension() == ".png")
+        bytes = encode_srgb_png(header, type, pixels);
     if (!bytes) {
         const std::string fault =
             picture_library().encode(file.string(), header, type, pixels, bytes.emplace());

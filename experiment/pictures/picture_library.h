@@ -1,6 +1,6 @@
 /// OpenImageIO behind a door. It brings some 260 libraries, which take the system half a second to link and
-/// 100 MB to hold; they are loaded when the first picture is read or written that is not overt's own EXR
-/// (plain_exr.h), and not at all by a command without such.
+/// 100 MB to hold; they are loaded when the first picture is read or written that is not one of overt's own
+/// (plain_exr.h, plain_png.h), and not at all by a command without such.
 #pragma once
 
 #include <cstddef>

@@ -20,10 +20,17 @@ TEST_CASE("a program without its module for pictures does what needs none, and n
         return std::system(command.c_str());
     };
     CHECK(run("--version") == 0);
+    // Pictures for people need none, and 16-bit PNG files do.
+    const std::string picture = (alone.path() / "frame.png").string(),
+                      maps = (alone.path() / "maps").string();
     CHECK(run("play " + quoted_for_shell(experiment.protocol().string()) +
-              " --stimulus tall/matt --frame 0 --context osmesa --picture " +
-              quoted_for_shell((alone.path() / "frame.png").string())) != 0);
+              " --stimulus tall/matt --frame 0 --context osmesa --picture " + quoted_for_shell(picture)) ==
+          0);
+    CHECK(std::filesystem::exists(picture));
+    CHECK(run("lut " + quoted_for_shell(experiment.protocol().string()) +
+              " --stimulus tall --frame 0 --context osmesa --format png16 --out " + quoted_for_shell(maps)) !=
+          0);
     CHECK_THAT(text_of(said), Catch::Contains((alone.path() / "lib/overt/overt_pictures.so").string()) &&
                                   Catch::Contains("again"));
-    CHECK_FALSE(std::filesystem::exists(alone.path() / "frame.png"));
+    CHECK_FALSE(std::filesystem::exists(maps + "/tall_frame_0000.png"));
 }
