@@ -6,11 +6,8 @@
 #include <fmt/format.h>
 
 #include "experiment/base/counted.h"
-#include "experiment/base/error.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/ports/trial_mark.h"
-#include "experiment/session/answer_check.h"
-#include "experiment/session/level_watch.h"
 #include "experiment/session/session_screens.h"
 
 namespace overt {
@@ -26,16 +23,11 @@ constexpr double shortest_sleep_s = 0.005;
 /// half is that, more is a step.
 constexpr double smallest_wall_step_s = 0.1;
 
-/// An answer's file is complete some milliseconds after its last sample has come; a device that has stopped
-/// must not stop the session.
-constexpr SessionDuration longest_wait_for_answer = std::chrono::seconds(2);
-
-using How = OperatorControl::How;
-
 } // namespace
 
 TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre)
-    : state_(state), control_(control), screen_centre_(screen_centre),
+    : state_(state), control_(control), drift_checks_(state, control, screen_centre),
+      answers_(state, control),
       cycle_(make_page_cycle(state.protocol.animation, state.protocol.display.refresh_hz)),
       ledger_(cycle_, state.protocol.animation.when_late) {
     for (UsedTracker& used : state.trackers())
@@ -57,14 +49,14 @@ TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Conditio
     const Clock::Disturbance before = state_.ports.clock.disturbance();
     ask(trial, attempt);
     if (goes_on(attempt))
-        check_drift(attempt.outcome);
+        drift_checks_.check(attempt.outcome);
     if (goes_on(attempt)) {
         present(trial, attempt);
         act_on_tracker(attempt);
         act_on_pressed_keys(attempt);
     }
     if (goes_on(attempt))
-        take_answer(trial, next, is_practice, attempt);
+        answers_.take(trial, next, is_practice, attempt.outcome);
     note_disturbance(before);
     mark_result(trial, attempt);
     state_.write_down();
@@ -89,68 +81,6 @@ void TrialRun::ask(const Trial& trial, Attempt& attempt) {
                    .onset = attempt.outcome.task_screen_onset,
                    .min_s = screens.task_min_s,
                    .max_s = without_end_s});
-}
-
-void TrialRun::check_drift(TrialOutcome& outcome) {
-    state_.enter(SessionPhase::drift_check, state_.trial());
-    const TrackerSettings& settings = state_.protocol.tracker;
-    // A trial that is begun anew after a calibration goes on counting.
-    if (const int trial = state_.trial(); checked_trial_ != trial) {
-        checked_trial_ = trial;
-        failed_checks_ = 0;
-    }
-    while (const std::optional<std::string> failure = failed_check(outcome)) {
-        ++failed_checks_;
-        state_.note_of(state_.own_tracker(), drift_check_failed_event, *failure);
-        const bool may_check_again = failed_checks_ < settings.drift_checks;
-        if (settings.on_drift == DriftPolicy::reject)
-            control_.reject_trial();
-        if (settings.on_drift == DriftPolicy::recalibrate && may_check_again) {
-            control_.calibrate(state_.own_tracker());
-            control_.repeat_trial();
-            return;
-        }
-        if (settings.on_drift != DriftPolicy::retry || !may_check_again)
-            break;
-    }
-    checked_trial_.reset();
-}
-
-/// Shows the target and measures. Why the check failed; nothing if it did not, or was not made.
-std::optional<std::string> TrialRun::failed_check(TrialOutcome& outcome) {
-    const Screen target{.kind = Screen::Kind::target, .text = ""};
-    const How how = control_
-                        .wait({.screen = target,
-                               .onset = state_.show(target),
-                               .max_s = state_.protocol.screens.drift_target_s,
-                               .await = [](SessionTime) {}, // no answer is expected of the observer
-                               .takes_keys = false,
-                               .starts_over = true})
-                        .how;
-    if (how != How::timed_out || !state_.ports.tracker.measures_gaze())
-        return {};
-    DriftOutcome drift;
-    try {
-        drift = state_.ports.tracker.drift_check(screen_centre_);
-    } catch (const DeviceError& error) {
-        control_.regain_tracker(error.what());
-        control_.repeat_trial();
-        return {};
-    }
-    if (drift.kind == DriftOutcome::Kind::set_up_wanted) {
-        // Asked for at the tracker's host: the trial begins anew once it is done.
-        state_.note_of(state_.own_tracker(), drift_check_failed_event, "the tracker asked to be set up");
-        control_.calibrate(state_.own_tracker());
-        control_.repeat_trial();
-        return {};
-    }
-    outcome.drift = drift.kind == DriftOutcome::Kind::measured ? std::optional(drift.error) : std::nullopt;
-    if (!outcome.drift)
-        return "no eye was found";
-    const double limit_deg = state_.protocol.tracker.drift_limit_deg;
-    if (outcome.drift->value > limit_deg)
-        return fmt::format("{:.3f} deg is more than the limit of {} deg", outcome.drift->value, limit_deg);
-    return {};
 }
 
 void TrialRun::present(const Trial& trial, Attempt& attempt) {
@@ -348,72 +278,6 @@ void TrialRun::act_on_pressed_keys(Attempt& attempt) {
     control_.act_on(*pressed_);
     // The observer saw only a part of the animation: this attempt does not count, whatever was answered.
     attempt.result.is_rejected = attempt.result.is_rejected || was_broken_off;
-}
-
-void TrialRun::take_answer(const Trial& trial, const std::optional<Condition>& next, bool is_practice,
-                           Attempt& attempt) {
-    const ScreenSettings& screens = state_.protocol.screens;
-    TrialOutcome& outcome = attempt.outcome;
-    SessionPorts& ports = state_.ports;
-    state_.enter(SessionPhase::response_screen, state_.trial());
-    std::unique_ptr<AnswerRecording> recording;
-    if (ports.recorder && !is_practice)
-        recording = ports.recorder->begin(trial);
-    const Screen screen = overt::screens::response(state_.protocol, trial.task);
-    outcome.response_screen_onset = state_.show(screen);
-    if (recording)
-        recording->response_screen_lit(outcome.response_screen_onset);
-    if (next)
-        ports.presenter.expect_frames(*next);
-    Waiting waiting{.screen = screen,
-                    .onset = outcome.response_screen_onset,
-                    .min_s = screens.response_min_s,
-                    .max_s = screens.response_max_s};
-    waiting.await = [&](SessionTime since) { ports.panel.await_response(trial, since); };
-    LevelWatch watch(state_.protocol.words, outcome.response_screen_onset);
-    const bool shows_level = state_.protocol.answers.meter_on_screen;
-    if (recording && (ports.on_level || shows_level))
-        waiting.meanwhile = [&] {
-            const AudioLevel level = recording->level();
-            if (ports.on_level)
-                ports.on_level(level);
-            if (!shows_level)
-                return;
-            if (const std::optional<LevelBar> bar = watch.take(level, state_.now()))
-                ports.presenter.show_level(*bar);
-        };
-    const OperatorControl::Press press = control_.wait(waiting);
-    outcome.responded_at = press.at;
-    if (press.uncertainty > SessionDuration::zero())
-        outcome.responded_uncertainty = press.uncertainty;
-    if (recording)
-        recording->end(press.at);
-    if (press.how == How::timed_out)
-        state_.log().event({press.at, state_.trial(), response_timed_out_event, ""});
-    if (press.how == How::next) {
-        outcome.answer = ports.panel.answer();
-        state_.markers.mark(MarkedEvent::response, press.at, "RESPONSE");
-    }
-    if (recording)
-        keep_answer(*recording);
-}
-
-void TrialRun::keep_answer(AnswerRecording& recording) {
-    const SessionTime latest = state_.now() + longest_wait_for_answer;
-    std::optional<RecordedAnswer> answer = recording.result();
-    while (!answer && state_.now() < latest) {
-        state_.ports.presenter.use_spare_time();
-        state_.ports.clock.wait_until(state_.now() + poll_interval);
-        answer = recording.result();
-    }
-    if (!answer) {
-        state_.note(answer_recording_event,
-                    "was not complete two seconds after its end: the file may be short");
-        return;
-    }
-    for (const std::string& warning : warnings_about(*answer))
-        state_.note(answer_recording_event, warning);
-    state_.log().answer_recorded(*answer);
 }
 
 /// While a machine sleeps its screen shows nothing, whatever the ledger says. A wall clock that was set

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "experiment/design/trial_queue.h"
-#include "experiment/session/operator_control.h"
+#include "experiment/session/answer_taking.h"
+#include "experiment/session/drift_checks.h"
 #include "experiment/session/tracker_feed.h"
 #include "experiment/timing/refresh_ledger.h"
 
@@ -14,7 +15,7 @@ namespace overt {
 
 class TrialRun {
   public:
-    /// Both must outlive this.
+    /// `state` and `control` must outlive this.
     TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre);
 
     /// What an attempt was like.
@@ -29,17 +30,12 @@ class TrialRun {
 
   private:
     void ask(const Trial& trial, Attempt& attempt);
-    void check_drift(TrialOutcome& outcome);
-    std::optional<std::string> failed_check(TrialOutcome& outcome);
     void start_recording();
     void note_what_came(Attempt& attempt);
     void act_on_tracker(Attempt& attempt);
     void note_lost_trackers();
     void present(const Trial& trial, Attempt& attempt);
     void act_on_pressed_keys(Attempt& attempt);
-    void take_answer(const Trial& trial, const std::optional<Condition>& next, bool is_practice,
-                     Attempt& attempt);
-    void keep_answer(AnswerRecording& recording);
     bool goes_on(const Attempt& attempt) const;
     void take_items(int trial) noexcept;
     void wait_and_take_items(int trial, SessionTime until) noexcept;
@@ -54,7 +50,8 @@ class TrialRun {
 
     SessionState& state_;
     OperatorControl& control_;
-    ScreenPoint screen_centre_;
+    DriftChecks drift_checks_;
+    AnswerTaking answers_;
     PageCycle cycle_;
     RefreshLedger ledger_;
     /// Of one tracker of the session.
@@ -65,8 +62,6 @@ class TrialRun {
     std::vector<Feed> feeds_;                     ///< of all trackers, the session's own first
     std::optional<ResponsePress> pressed_;        ///< by the operator during a presentation, the first
     AnimationFrameIndex marked_frame_ = no_frame; ///< the last whose flip the trackers were told of
-    std::optional<int> checked_trial_;            ///< whose drift checks are counted
-    int failed_checks_ = 0;
 };
 
 } // namespace overt

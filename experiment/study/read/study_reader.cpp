@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <map>
 #include <mutex>
-#include <set>
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -14,72 +11,20 @@
 #include "experiment/base/parallel.h"
 #include "experiment/maps/coordinate_maps.h"
 #include "experiment/record/preview_file.h"
-#include "experiment/record/read/recorded_validation.h"
 #include "experiment/study/read/exposure.h"
 #include "experiment/study/read/gaze_quality.h"
+#include "experiment/study/read/open_sessions.h"
 #include "experiment/study/read/part_evidence.h"
-#include "experiment/study/read/reporting.h"
 
 namespace overt {
 
 namespace {
 
-/// A session with as many readers as may work on it at once.
-struct OpenSession {
-    std::filesystem::path path; ///< absolute
-    std::vector<std::unique_ptr<SessionRecord>> readers;
-    std::vector<std::unique_ptr<TrialKeys>> keys; ///< by reader
-    std::vector<RecordedAccuracy> validations;
-    std::vector<int> sculptures; ///< of the study, by the session's own index
-    const SessionRecord& record() const { return *readers.front(); }
-};
-
-/// Whether two sessions' sculptures are one: the same picture of the same mesh.
-bool is_same_sculpture(const SessionHeader& a, int in_a, const SessionHeader& b, int in_b) {
-    const RecordedSculpture &one = a.sculptures[static_cast<std::size_t>(in_a)],
-                            &other = b.sculptures[static_cast<std::size_t>(in_b)];
-    const auto maps_of = [](const SessionHeader& header, int sculpture) {
-        std::vector<std::pair<int, ContentHash>> maps;
-        for (const RecordedMap& map : header.maps) {
-            if (map.sculpture == sculpture)
-                maps.emplace_back(map.pose.value, map.sha256);
-        }
-        std::sort(maps.begin(), maps.end());
-        return maps;
-    };
-    const ScreenGeometry &screen = a.display.screen, &other_screen = b.display.screen;
-    // Maps are looked up by the number of the pose.
-    const auto same_angle = [](Degrees one_angle, Degrees other_angle) {
-        return one_angle.value == other_angle.value;
-    };
-    return std::ranges::equal(a.poses.angles, b.poses.angles, same_angle) && one.id == other.id &&
-           one.mesh_file.empty() == other.mesh_file.empty() && one.mesh_sha256 == other.mesh_sha256 &&
-           one.camera.position == other.camera.position && one.camera.target == other.camera.target &&
-           one.camera.vertical_fov == other.camera.vertical_fov && screen.image_px == other_screen.image_px &&
-           screen.screen_px == other_screen.screen_px && screen.screen_mm == other_screen.screen_mm &&
-           screen.viewing_distance_mm == other_screen.viewing_distance_mm &&
-           (!one.mesh_file.empty() || maps_of(a, in_a) == maps_of(b, in_b));
-}
-
-/// Who resumes a session adds to both.
-std::string state_of(const SessionRecord& record) {
-    return fmt::format("{} trials, last time {} ns", record.trials().size(),
-                       record.last_time().time_since_epoch().count());
-}
-
-std::string folder_name(const std::filesystem::path& session) {
-    std::filesystem::path path = std::filesystem::absolute(session).lexically_normal();
-    if (!path.has_filename() || path.filename() == "session.sqlite")
-        path = path.parent_path();
-    return path.filename().string();
-}
-
 class StudyReader {
   public:
     StudyReader(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
                 const StudyOptions& options, const StudyProgress& progress)
-        : surface_for_(surface_for), options_(options), progress_(progress) {
-        open(sessions);
+        : surface_for_(surface_for), options_(options), progress_(progress), open_(open_sessions(sessions)) {
         for (std::size_t i = 0; i < open_.size(); ++i)
             add_session(i, sessions[i]);
         study_.surfaces.resize(results().sculptures.size());
@@ -134,44 +79,8 @@ class StudyReader {
         }
     }
 
-    void open(std::span<const std::filesystem::path> sessions) {
-        const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
-        const std::size_t readers = (processors + sessions.size() - 1) / sessions.size();
-        std::set<std::filesystem::path> seen;
-        for (const std::filesystem::path& session : sessions) {
-            if (!seen.insert(std::filesystem::weakly_canonical(session)).second)
-                throw InputError(fmt::format("{}: this session was named twice.", session.string()));
-            OpenSession& one = open_.emplace_back();
-            one.path = std::filesystem::weakly_canonical(session);
-            for (std::size_t i = 0; i < readers; ++i) {
-                one.readers.push_back(std::make_unique<SessionRecord>(session));
-                one.readers.back()->detect_events_of_imports();
-                one.keys.push_back(std::make_unique<TrialKeys>(*one.readers.back()));
-            }
-        }
-    }
-
     void add_session(std::size_t index, const std::filesystem::path& path) {
-        OpenSession& open = open_[index];
-        const SessionRecord& record = open.record();
-        const SessionHeader& header = record.header();
-        StudySession session;
-        session.folder = folder_name(path);
-        session.observer = header.schedule.observer.label;
-        session.number = header.session_number;
-        session.protocol = header.protocol.title.empty() ? header.protocol.name : header.protocol.title;
-        session.tracker = header.tracker.name;
-        session.is_simulated = header.tracker.name.find("simulated") != std::string::npos;
-        for (const RecordedObserverField& field : record.observer_fields())
-            session.form.push_back({field.id, field.value});
-        session.is_complete = record.is_complete();
-        session.setup = setup_of(record);
-        for (const TrialRecord& trial : record.trials())
-            session.trials += trial.counts;
-        record.read_events([&](const RecordedEvent& event) {
-            if (const std::optional<ValidationResult> result = validation_of(event))
-                open.validations.push_back({event.at, result->mean_error.value, result->max_error.value});
-        });
+        const SessionHeader& header = open_[index].record().header();
         const auto take_levels = [&](const std::string& column, const auto& items, const auto& id) {
             std::vector<std::string>& levels = study_.levels[column];
             for (const auto& item : items) {
@@ -185,8 +94,8 @@ class StudyReader {
         take_levels("material", header.materials, id_of);
         take_levels("block", header.blocks, [](const std::string& block) { return block; });
         for (int i = 0; i < static_cast<int>(header.sculptures.size()); ++i)
-            open.sculptures.push_back(sculpture_of(index, i));
-        results().sessions.push_back(std::move(session));
+            open_[index].sculptures.push_back(sculpture_of(index, i));
+        results().sessions.push_back(describe_session(open_[index], path));
     }
 
     /// The study's index of a session's sculpture, which is new or was in a session before.
@@ -198,19 +107,7 @@ class StudyReader {
                 return static_cast<int>(i);
         }
         shown_in_.emplace_back(session, own);
-        const RecordedSculpture& recorded = header.sculptures[static_cast<std::size_t>(own)];
-        StudySculpture sculpture;
-        sculpture.id = recorded.id;
-        sculpture.title = recorded.title;
-        sculpture.part_names = recorded.part_names;
-        for (std::size_t part = 0; part < recorded.part_names.size(); ++part) {
-            if (recorded.part_names[part] == "head")
-                sculpture.head = static_cast<PartIndex>(part);
-        }
-        sculpture.camera = recorded.camera;
-        sculpture.axis_point = recorded.axis_point;
-        sculpture.screen = header.display.screen;
-        results().sculptures.push_back(std::move(sculpture));
+        results().sculptures.push_back(describe_sculpture(header, own));
         return static_cast<int>(results().sculptures.size()) - 1;
     }
 
@@ -339,9 +236,6 @@ class StudyReader {
 
     /// From the first session that has it whole.
     const SurfaceLookup* load_surface(int index) {
-        StudySculpture& sculpture = results().sculptures[static_cast<std::size_t>(index)];
-        SculptureSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
-        surface.scale = surface_scale(sculpture.camera, sculpture.axis_point, sculpture.screen);
         const SurfaceLookup* lookup = nullptr;
         std::string fault;
         for (std::size_t session = 0; session < open_.size() && !lookup; ++session) {
@@ -357,44 +251,8 @@ class StudyReader {
                     fault = error.what();
             }
         }
-        const auto* maps = dynamic_cast<const CoordinateMaps*>(lookup);
-        if (!lookup)
-            sculpture.remark =
-                fault.empty() ? fmt::format("The sessions have no maps of {}: gaze on it has no place on "
-                                            "a surface, and is not counted.",
-                                            sculpture.id)
-                              : fmt::format("The maps of {} cannot be used, so its gaze is not counted: {}",
-                                            sculpture.id, fault);
-        else if (!maps)
-            sculpture.remark =
-                fmt::format("Of {} there are ready-made maps and no mesh: fixations have places "
-                            "but there are no maps on the surface.",
-                            sculpture.id);
-        else if (!surface.scale)
-            sculpture.remark = fmt::format("The camera or the screen of {} is not known: there are no "
-                                           "millimetres, and no maps.",
-                                           sculpture.id);
-        if (surface.scale) {
-            sculpture.mm_per_unit = surface.scale->mm_per_unit;
-            sculpture.mm_per_deg = surface.scale->mm_per_deg;
-        }
-        if (maps) {
-            sculpture.mesh = std::make_shared<const Mesh>(maps->mesh());
-            sculpture.part_names = maps->mesh().part_names;
-            if (surface.scale)
-                surface.geometry =
-                    std::make_unique<SurfaceGeometry>(*sculpture.mesh, surface.scale->mm_per_unit);
-            else
-                surface.geometry = std::make_unique<SurfaceGeometry>(*sculpture.mesh);
-            if (surface.scale) {
-                surface.coarse = std::make_unique<CoarseSurface>(*surface.geometry, coarse_nodes);
-                surface.coarse_geometry = std::make_unique<SurfaceGeometry>(surface.coarse->mesh());
-            }
-            surface.areas_mm2 = surface.geometry->vertex_areas_mm2();
-        }
-        if (sculpture.remark.empty() && !sculpture.head)
-            sculpture.remark =
-                fmt::format("{} has no part \"head\": there is no fraction of it.", sculpture.id);
+        add_surface(lookup, fault, results().sculptures[static_cast<std::size_t>(index)],
+                    study_.surfaces[static_cast<std::size_t>(index)]);
         return lookup;
     }
 
@@ -477,24 +335,6 @@ class StudyReader {
 };
 
 } // namespace
-
-std::optional<SurfaceScale> surface_scale(const Camera& camera, const glm::dvec3& axis_point,
-                                          const ScreenGeometry& screen) {
-    const double fov = to_radians(camera.vertical_fov).value;
-    if (!(fov > 0.0) || !(screen.viewing_distance_mm > 0.0) || screen.screen_px.y <= 0 ||
-        !(screen.screen_mm.y > 0.0))
-        return std::nullopt;
-    SurfaceScale scale;
-    const View view{camera, screen.image_px};
-    scale.axis_depth = view.depth_of({axis_point.x, axis_point.y, camera.target.z});
-    if (!(scale.axis_depth > 0.0))
-        return std::nullopt;
-    // The height of the image is 2 tan(fov / 2) depths, and image_px.y pixels of the screen.
-    const double mm_per_px = screen.screen_mm.y / screen.screen_px.y;
-    scale.mm_per_unit = screen.image_px.y * mm_per_px / (2.0 * std::tan(0.5 * fov) * scale.axis_depth);
-    scale.mm_per_deg = screen.viewing_distance_mm * std::tan(to_radians(Degrees{1.0}).value);
-    return scale;
-}
 
 std::vector<ReadSession> read_sessions(std::span<const std::filesystem::path> sessions,
                                        const SurfaceFor& surface_for, const StudyOptions& options,

@@ -11,12 +11,10 @@
 
 #include "experiment/maps/surface_point.h"
 #include "experiment/record/read/session_record.h"
-#include "experiment/study/read/surface_fixations.h"
+#include "experiment/study/read/sculpture_surface.h"
 #include "experiment/study/read/trial_reader.h"
 #include "experiment/study/results/study_groups.h"
 #include "experiment/study/results/study_options.h"
-#include "experiment/surface/hat_smoother.h"
-#include "experiment/surface/surface_geometry.h"
 
 namespace overt {
 
@@ -28,27 +26,6 @@ using SurfaceFor =
 
 /// Told what is being done and how much of it is: work is in pieces of unequal length.
 using StudyProgress = std::function<void(std::string_view what, int done, int total)>;
-
-/// What maps of a sculpture are made with.
-struct SculptureSurface {
-    std::unique_ptr<SurfaceGeometry> geometry; ///< null without a mesh, or without a known camera
-    std::vector<double> areas_mm2;             ///< by vertex
-    std::optional<SurfaceScale> scale;
-    /// For statistics over many maps, and ways along the surface; null without a geometry or a scale.
-    std::unique_ptr<CoarseSurface> coarse;
-    std::unique_ptr<SurfaceGeometry> coarse_geometry;
-    /// Heat on the surface with the kernels of the counted fixations; null where all nodes are as good.
-    std::unique_ptr<HatSmoother> hats;
-    std::vector<double> pixel_seconds; ///< see Exposure
-};
-
-/// Of the surface for statistics over many maps: a quarter of a usual kernel between neighbours.
-inline constexpr std::size_t coarse_nodes = 4000;
-
-/// The scale of a sculpture that turns about the vertical through a point of the mesh's unit; nothing if
-/// camera or screen are not known.
-std::optional<SurfaceScale> surface_scale(const Camera& camera, const glm::dvec3& axis_point,
-                                          const ScreenGeometry& screen);
 
 struct ReadStudy {
     StudyResults results; ///< sessions, sculptures, trials, fixations, quality, traces, remarks

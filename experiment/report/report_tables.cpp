@@ -1,0 +1,125 @@
+#include "experiment/report/report_tables.h"
+
+namespace overt {
+
+Json report_tables(const StudyResults& results) {
+    Json heads = Json::array(), distributions = Json::array(), pairs = Json::array(), effects = Json::array(),
+         motions = Json::array(), lights = Json::array(), predictions = Json::array(),
+         reliabilities = Json::array(), exposures = Json::array(), course = Json::array();
+    for (const HeadFractionRow& row : results.head_fractions) {
+        Json json{{"keys", json_of(row.keys)},
+                  {"count", json_of(row.by_count)},
+                  {"duration", json_of(row.by_duration)},
+                  {"corrected", json_of(row.corrected)},
+                  {"pooled", number(row.pooled)},
+                  {"each", Json::array()},
+                  {"observers", row.observers},
+                  {"trials", row.trials},
+                  {"fixations", row.fixations}};
+        for (const double share : row.of_observers)
+            json["each"].push_back(number(share, 4));
+        if (row.pooled_interval)
+            json["pooled_ci"] = {number(row.pooled_interval->low), number(row.pooled_interval->high)};
+        heads.push_back(std::move(json));
+    }
+    for (const DistributionRow& row : results.distributions) {
+        Json variance = Json::array(), variance_deg = Json::array();
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            variance.push_back(number(row.variance_mm2[axis]));
+            variance_deg.push_back(number(row.variance_deg2[axis]));
+        }
+        distributions.push_back({{"group", row.group},
+                                 {"sculpture", row.sculpture},
+                                 {"wss", json_of(row.wss_mm2)},
+                                 {"wss_deg", json_of(row.wss_deg2)},
+                                 {"variance", variance},
+                                 {"variance_deg", variance_deg},
+                                 {"peak", number(row.map_peak)},
+                                 {"mean", number(row.map_mean)},
+                                 {"observers", row.observers},
+                                 {"fixations", row.fixations}});
+    }
+    for (const PairRow& row : results.pairs)
+        pairs.push_back({{"keys", json_of(row.keys)},
+                         {"column", row.column},
+                         {"a", row.a},
+                         {"b", row.b},
+                         {"wss", json_of(row.wss_difference_mm2)},
+                         {"wss_deg", json_of(row.wss_difference_deg2)},
+                         {"p", number(row.wss_p)},
+                         {"holm", number(row.wss_p_holm)},
+                         {"cc", json_of(row.cc)},
+                         {"sim", json_of(row.sim_mit)},
+                         {"sim_plain", json_of(row.sim_pysaliency)},
+                         {"observers", row.observers},
+                         {"comparisons", row.comparisons},
+                         {"absent", row.absent}});
+    for (const FactorEffectRow& row : results.effects)
+        effects.push_back({{"measure", row.measure},
+                           {"effect", row.effect},
+                           {"p", number(row.p)},
+                           {"holm", number(row.p_holm)},
+                           {"least", number(row.least_p)},
+                           {"observers", row.observers},
+                           {"absent", row.absent}});
+    for (const GazeMotionRow& row : results.motions)
+        motions.push_back({{"keys", json_of(row.keys)},
+                           {"gain", json_of(row.surface_gain)},
+                           {"speed", json_of(row.surface_speed_deg_s)},
+                           {"observers", row.observers},
+                           {"fixations", row.fixations}});
+    for (const LightAtGazeRow& row : results.lights)
+        lights.push_back({{"keys", json_of(row.keys)},
+                          {"met", json_of(row.lightness)},
+                          {"place", json_of(row.over_place)},
+                          {"point", json_of(row.over_point)},
+                          {"observers", row.observers},
+                          {"fixations", row.fixations}});
+    for (const MapPredictionRow& row : results.predictions)
+        predictions.push_back({{"group", row.group},
+                               {"sculpture", row.sculpture},
+                               {"by", name_of(row.by)},
+                               {"level", row.level},
+                               {"kl", json_of(row.kl)},
+                               {"nss", json_of(row.nss)},
+                               {"auc", json_of(row.auc_judd)},
+                               {"borji", json_of(row.auc_borji)},
+                               {"gain", json_of(row.gain_over_exposure)},
+                               {"gain_area", json_of(row.gain_over_area)},
+                               {"observers", row.observers}});
+    for (const MapReliabilityRow& row : results.reliabilities)
+        reliabilities.push_back({{"keys", json_of(row.keys)},
+                                 {"sculpture", row.sculpture},
+                                 {"split", json_of(row.split_half_cc)},
+                                 {"reliability", json_of(row.reliability)},
+                                 {"observers", row.observers},
+                                 {"fixations", row.fixations}});
+    for (const ExposureRow& row : results.exposures)
+        exposures.push_back({{"sculpture", row.sculpture},
+                             {"part", row.part},
+                             {"area", number(row.area_mm2)},
+                             {"share_of_area", number(row.share_of_area, 4)},
+                             {"never", number(row.never_visible, 4)},
+                             {"seconds", number(row.seconds_visible, 4)},
+                             {"share", number(row.share_of_exposure, 4)},
+                             {"foreshortening", number(row.foreshortening, 4)},
+                             {"fixations", number(row.share_of_fixations, 4)}});
+    for (const TimeCourseRow& row : results.time_course)
+        course.push_back({{"key", {row.key.column, row.key.value}},
+                          {"from", row.from_s},
+                          {"to", row.to_s},
+                          {"head", json_of(row.head_fraction)},
+                          {"observers", row.observers}});
+    return {{"heads", heads},
+            {"distributions", distributions},
+            {"pairs", pairs},
+            {"effects", effects},
+            {"motions", motions},
+            {"lights", lights},
+            {"predictions", predictions},
+            {"reliabilities", reliabilities},
+            {"exposures", exposures},
+            {"course", course}};
+}
+
+} // namespace overt

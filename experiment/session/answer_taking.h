@@ -1,0 +1,25 @@
+/// The response screen: the observer's answer, by a key or a box, and by voice.
+#pragma once
+
+#include "experiment/session/operator_control.h"
+
+namespace overt {
+
+class AnswerTaking {
+  public:
+    /// Both must outlive this.
+    AnswerTaking(SessionState& state, OperatorControl& control) : state_(state), control_(control) {}
+
+    /// Shows the trial's response screen until it is answered or its time is up. `next`: whose frames are
+    /// loaded meanwhile. In practice no voice is recorded.
+    void take(const Trial& trial, const std::optional<Condition>& next, bool is_practice,
+              TrialOutcome& outcome);
+
+  private:
+    void keep(AnswerRecording& recording);
+
+    SessionState& state_;
+    OperatorControl& control_;
+};
+
+} // namespace overt

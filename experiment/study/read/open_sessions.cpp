@@ -1,0 +1,116 @@
+#include "experiment/study/read/open_sessions.h"
+
+#include <algorithm>
+#include <set>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "experiment/base/error.h"
+#include "experiment/record/read/recorded_validation.h"
+#include "experiment/study/read/reporting.h"
+
+namespace overt {
+
+namespace {
+
+std::string folder_name(const std::filesystem::path& session) {
+    std::filesystem::path path = std::filesystem::absolute(session).lexically_normal();
+    if (!path.has_filename() || path.filename() == "session.sqlite")
+        path = path.parent_path();
+    return path.filename().string();
+}
+
+} // namespace
+
+std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> sessions) {
+    std::vector<OpenSession> open;
+    const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
+    const std::size_t readers = (processors + sessions.size() - 1) / sessions.size();
+    std::set<std::filesystem::path> seen;
+    for (const std::filesystem::path& session : sessions) {
+        if (!seen.insert(std::filesystem::weakly_canonical(session)).second)
+            throw InputError(fmt::format("{}: this session was named twice.", session.string()));
+        OpenSession& one = open.emplace_back();
+        one.path = std::filesystem::weakly_canonical(session);
+        for (std::size_t i = 0; i < readers; ++i) {
+            one.readers.push_back(std::make_unique<SessionRecord>(session));
+            one.readers.back()->detect_events_of_imports();
+            one.keys.push_back(std::make_unique<TrialKeys>(*one.readers.back()));
+        }
+        one.record().read_events([&](const RecordedEvent& event) {
+            if (const std::optional<ValidationResult> result = validation_of(event))
+                one.validations.push_back({event.at, result->mean_error.value, result->max_error.value});
+        });
+    }
+    return open;
+}
+
+StudySession describe_session(const OpenSession& open, const std::filesystem::path& path) {
+    const SessionRecord& record = open.record();
+    const SessionHeader& header = record.header();
+    StudySession session;
+    session.folder = folder_name(path);
+    session.observer = header.schedule.observer.label;
+    session.number = header.session_number;
+    session.protocol = header.protocol.title.empty() ? header.protocol.name : header.protocol.title;
+    session.tracker = header.tracker.name;
+    session.is_simulated = header.tracker.name.find("simulated") != std::string::npos;
+    for (const RecordedObserverField& field : record.observer_fields())
+        session.form.push_back({field.id, field.value});
+    session.is_complete = record.is_complete();
+    session.setup = setup_of(record);
+    for (const TrialRecord& trial : record.trials())
+        session.trials += trial.counts;
+    return session;
+}
+
+bool is_same_sculpture(const SessionHeader& a, int in_a, const SessionHeader& b, int in_b) {
+    const RecordedSculpture &one = a.sculptures[static_cast<std::size_t>(in_a)],
+                            &other = b.sculptures[static_cast<std::size_t>(in_b)];
+    const auto maps_of = [](const SessionHeader& header, int sculpture) {
+        std::vector<std::pair<int, ContentHash>> maps;
+        for (const RecordedMap& map : header.maps) {
+            if (map.sculpture == sculpture)
+                maps.emplace_back(map.pose.value, map.sha256);
+        }
+        std::sort(maps.begin(), maps.end());
+        return maps;
+    };
+    const ScreenGeometry &screen = a.display.screen, &other_screen = b.display.screen;
+    // Maps are looked up by the number of the pose.
+    const auto same_angle = [](Degrees one_angle, Degrees other_angle) {
+        return one_angle.value == other_angle.value;
+    };
+    return std::ranges::equal(a.poses.angles, b.poses.angles, same_angle) && one.id == other.id &&
+           one.mesh_file.empty() == other.mesh_file.empty() && one.mesh_sha256 == other.mesh_sha256 &&
+           one.camera.position == other.camera.position && one.camera.target == other.camera.target &&
+           one.camera.vertical_fov == other.camera.vertical_fov && screen.image_px == other_screen.image_px &&
+           screen.screen_px == other_screen.screen_px && screen.screen_mm == other_screen.screen_mm &&
+           screen.viewing_distance_mm == other_screen.viewing_distance_mm &&
+           (!one.mesh_file.empty() || maps_of(a, in_a) == maps_of(b, in_b));
+}
+
+StudySculpture describe_sculpture(const SessionHeader& header, int index) {
+    const RecordedSculpture& recorded = header.sculptures[static_cast<std::size_t>(index)];
+    StudySculpture sculpture;
+    sculpture.id = recorded.id;
+    sculpture.title = recorded.title;
+    sculpture.part_names = recorded.part_names;
+    for (std::size_t part = 0; part < recorded.part_names.size(); ++part) {
+        if (recorded.part_names[part] == "head")
+            sculpture.head = static_cast<PartIndex>(part);
+    }
+    sculpture.camera = recorded.camera;
+    sculpture.axis_point = recorded.axis_point;
+    sculpture.screen = header.display.screen;
+    return sculpture;
+}
+
+// Who resumes a session adds to both.
+std::string state_of(const SessionRecord& record) {
+    return fmt::format("{} trials, last time {} ns", record.trials().size(),
+                       record.last_time().time_since_epoch().count());
+}
+
+} // namespace overt

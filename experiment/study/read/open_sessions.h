@@ -1,0 +1,44 @@
+/// The sessions of a study, open for reading.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiment/record/read/session_record.h"
+#include "experiment/study/read/trial_keys.h"
+#include "experiment/study/read/trial_reader.h"
+#include "experiment/study/results/study_results.h"
+
+namespace overt {
+
+/// A session with as many readers as may work on it at once.
+struct OpenSession {
+    std::filesystem::path path; ///< absolute
+    std::vector<std::unique_ptr<SessionRecord>> readers;
+    std::vector<std::unique_ptr<TrialKeys>> keys; ///< by reader
+    std::vector<RecordedAccuracy> validations;    ///< in the order of time
+    std::vector<int> sculptures;                  ///< of the study, by the session's own index
+    const SessionRecord& record() const { return *readers.front(); }
+};
+
+/// Each with so many readers that all of them together keep the processors busy. Throws InputError if a
+/// folder is no session or is given twice, RecordError for a damaged one.
+std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> sessions);
+
+/// What the study says of a session that was named by `path`; of its events, see
+/// SessionRecord::event_origins().
+StudySession describe_session(const OpenSession& session, const std::filesystem::path& path);
+
+/// Whether two sessions' sculptures, by their indices there, are one: the same picture of the same mesh.
+bool is_same_sculpture(const SessionHeader& a, int in_a, const SessionHeader& b, int in_b);
+
+/// What a study knows of a session's sculpture without its mesh.
+StudySculpture describe_sculpture(const SessionHeader& header, int sculpture);
+
+/// How far a session has got: another text once it was gone on with.
+std::string state_of(const SessionRecord& record);
+
+} // namespace overt
