@@ -28,40 +28,40 @@ class TerminalDevice {
 
     /// `stream`, if given, is asked each millisecond for something to say without being asked.
     TerminalDevice(int master, Answer answer, std::function<std::string(double now_s)> stream = {})
-        : thread_(
-              [master, answer = std::move(answer), stream = std::move(stream)](const std::stop_token& stop) {
-                  // A device answers also while the machine is busy. Where that is refused it is as good
-                  // without, most of the time.
-                  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), -10);
-                  const auto begun = std::chrono::steady_clock::now();
-                  while (!stop.stop_requested()) {
-                      pollfd waiting{master, POLLIN, 0};
-                      const bool ready =
-                          poll(&waiting, 1, stream ? 1 : 20) > 0 && (waiting.revents & POLLIN) != 0;
-                      const double now_s =
-                          std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-                      char bytes[512];
-                      const ssize_t count = ready ? read(master, bytes, sizeof bytes) : 0;
-                      std::string said;
-                      if (count > 0)
-                          said = answer({bytes, static_cast<std::size_t>(count)}, now_s);
-                      if (stream)
-                          said += stream(now_s);
-                      // Never waits in write(): nobody may be there to read.
-                      for (std::string_view left = said; !left.empty() && !stop.stop_requested();) {
-                          const ssize_t written = write(master, left.data(), left.size());
-                          if (written > 0)
-                              left.remove_prefix(static_cast<std::size_t>(written));
-                          else if (errno == EAGAIN)
-                              std::this_thread::sleep_for(std::chrono::milliseconds(1));
-                          else
-                              break;
-                      }
-                      if (!ready &&
-                          (waiting.revents & POLLHUP) != 0) // nobody has the other side open at the moment
+        : thread_([master = non_blocking(master), answer = std::move(answer),
+                   stream = std::move(stream)](const std::stop_token& stop) {
+              // A device answers also while the machine is busy. Where that is refused it is as good
+              // without, most of the time.
+              setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), -10);
+              const auto begun = std::chrono::steady_clock::now();
+              while (!stop.stop_requested()) {
+                  pollfd waiting{master, POLLIN, 0};
+                  const bool ready =
+                      poll(&waiting, 1, stream ? 1 : 20) > 0 && (waiting.revents & POLLIN) != 0;
+                  const double now_s =
+                      std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+                  char bytes[512];
+                  const ssize_t count = ready ? read(master, bytes, sizeof bytes) : 0;
+                  std::string said;
+                  if (count > 0)
+                      said = answer({bytes, static_cast<std::size_t>(count)}, now_s);
+                  if (stream)
+                      said += stream(now_s);
+                  // Never waits in write(): nobody may be there to read.
+                  for (std::string_view left = said; !left.empty() && !stop.stop_requested();) {
+                      const ssize_t written = write(master, left.data(), left.size());
+                      if (written > 0)
+                          left.remove_prefix(static_cast<std::size_t>(written));
+                      else if (errno == EAGAIN)
                           std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                      else
+                          break;
                   }
-              }) {}
+                  if (!ready &&
+                      (waiting.revents & POLLHUP) != 0) // nobody has the other side open at the moment
+                      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+              }
+          }) {}
 
   private:
     static int non_blocking(int descriptor) {
