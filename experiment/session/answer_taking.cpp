@@ -13,7 +13,7 @@ namespace {
 /// must not stop the session.
 constexpr SessionDuration longest_wait_for_answer = std::chrono::seconds(2);
 
-constexpr SessionDuration poll_interval = std::chrono::milliseconds(4);
+constexpr SessionDuration between_looks = std::chrono::milliseconds(4);
 
 } // namespace
 
@@ -69,7 +69,7 @@ void AnswerTaking::keep(AnswerRecording& recording) {
     std::optional<RecordedAnswer> answer = recording.result();
     while (!answer && state_.now() < latest) {
         state_.ports.presenter.use_spare_time();
-        state_.ports.clock.wait_until(state_.now() + poll_interval);
+        state_.ports.clock.wait_until(state_.now() + between_looks);
         answer = recording.result();
     }
     if (!answer) {

@@ -30,13 +30,13 @@ std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> se
 
 /// What the study says of a session that was named by `path`; of its events, see
 /// SessionRecord::event_origins().
-StudySession describe_session(const OpenSession& session, const std::filesystem::path& path);
+StudySession describe_session(const OpenSession& open, const std::filesystem::path& path);
 
 /// Whether two sessions' sculptures, by their indices there, are one: the same picture of the same mesh.
 bool is_same_sculpture(const SessionHeader& a, int in_a, const SessionHeader& b, int in_b);
 
-/// What a study knows of a session's sculpture without its mesh.
-StudySculpture describe_sculpture(const SessionHeader& header, int sculpture);
+/// What a study knows of a session's sculpture, by its index there, without its mesh.
+StudySculpture describe_sculpture(const SessionHeader& header, int index);
 
 /// How far a session has got: another text once it was gone on with.
 std::string state_of(const SessionRecord& record);
