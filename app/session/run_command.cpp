@@ -264,6 +264,8 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
         fmt::print(stderr,
                    "the session is recorded, but its manifest is not finished, for another program has "
                    "session.sqlite open, or the disk is full: afterwards overt run … --resume finishes it\n");
+    for (const std::string& warning : result.marker_warnings)
+        fmt::print(stderr, "{}\n", warning);
     for (const std::string& warning : rig.closing_warnings())
         fmt::print(stderr, "{}\n", warning);
     if (boxes)

@@ -13,7 +13,8 @@ enum class MaterialKind : std::uint8_t { smooth_conductor, rough_conductor, coat
 
 struct MaterialKindRow {
     MaterialKind kind;
-    std::string_view name; ///< in a protocol
+    std::string_view name;  ///< in a protocol
+    std::string_view looks; ///< like what: "polished metal"
     /// The keys of [[material]] that make a difference to it, besides id, title and kind; empty behind the
     /// last.
     std::array<std::string_view, 8> keys;
@@ -23,12 +24,13 @@ struct MaterialKindRow {
 
 /// All kinds, in the order of MaterialKind.
 inline constexpr auto material_kinds = std::to_array<MaterialKindRow>({
-    {MaterialKind::smooth_conductor, "smooth-conductor", {"metal"}},
-    {MaterialKind::rough_conductor, "rough-conductor", {"metal", "roughness"}},
+    {MaterialKind::smooth_conductor, "smooth-conductor", "polished metal", {"metal"}},
+    {MaterialKind::rough_conductor, "rough-conductor", "brushed metal", {"metal", "roughness"}},
     {MaterialKind::coated_conductor,
      "coated-conductor",
+     "polished metal under a bumpy coloured coat",
      {"metal", "coat_ior", "coat_absorbance", "coat_thickness", "coat_bump", "coat_bump_width", "coat_seed"}},
-    {MaterialKind::diffuse, "diffuse", {"reflectance"}},
+    {MaterialKind::diffuse, "diffuse", "a matt surface", {"reflectance"}},
 });
 
 constexpr const MaterialKindRow& row_of(MaterialKind kind) {

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "experiment/protocol/key_rows.h"
 
 namespace overt::key_rows {
@@ -112,13 +114,27 @@ std::vector<Key> sculpture() {
     };
 }
 
+namespace {
+
+/// Of all kinds of material; it stays as long as the program.
+std::string_view looks_of_kinds() {
+    static const std::string text = [] {
+        std::string all;
+        for (const MaterialKindRow& row : material_kinds)
+            all += fmt::format("{}`{}` {}", all.empty() ? "What it looks like: " : ", ", row.name, row.looks);
+        return all + ".";
+    }();
+    return text;
+}
+
+} // namespace
+
 std::vector<Key> material() {
     using M = MaterialSettings;
     return {
         {"id", &M::id, identifier().required(), "Short name, used in file names and tables."},
         {"title", &M::title, left_out("the id"), "Name for figures and reports."},
-        {"kind", &M::kind, one_of(names_in<material_kinds>).required(),
-         "Polished metal, brushed metal, polished metal under a bumpy coloured coat, or a matt surface."},
+        {"kind", &M::kind, one_of(names_in<material_kinds>).required(), looks_of_kinds()},
         {"metal", &M::metal,
          "\"Au\" for gold, \"Ag\" for silver, or a table of another conductor: a CSV file with the columns "
          "wavelength_nm, n and k, by its path from the protocol's folder."},

@@ -60,8 +60,9 @@ SessionResult Session::run(const TrialDone& trial_done, const SessionHistory& hi
     // All is done: a window that is closed during the farewell aborts nothing.
     if (!result.aborted)
         farewell();
-    for (std::string& sentence : state_.markers.finish(state_.log()))
-        state_.note(marker_output_event, std::move(sentence));
+    result.marker_warnings = state_.markers.finish(state_.log());
+    for (const std::string& sentence : result.marker_warnings)
+        state_.note(marker_output_event, sentence);
     state_.write_down();
     state_.note(result.aborted ? session_aborted_event : session_completed_event, result.reason);
     return result;

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "experiment/design/trial_queue.h"
 #include "experiment/protocol/protocol.h"
@@ -20,6 +22,7 @@ struct SessionResult {
     std::string reason;     ///< why, if aborted
     bool is_opened = false; ///< the observer takes part: there is something to go on with
     int missed_refreshes = 0;
+    std::vector<std::string> marker_warnings; ///< sentences: what outputs of markers failed at, as recorded
 };
 
 class Session {

@@ -53,10 +53,14 @@ class CedrusBox {
         const std::scoped_lock lock(mutex_);
         return presses_ms_;
     }
-    /// As pulling its cable.
+    /// As pulling their cables.
     void unplug_box() {
         box_.reset();
         box_line_.hang_up();
+    }
+    void unplug_cable() {
+        cable_.reset();
+        cable_line_.hang_up();
     }
 
   private:
@@ -254,7 +258,8 @@ TEST_CASE("a box answers and a cable is told, and both are in the record and in 
     CHECK_THAT(events, Contains("\tbutton\t") && Contains("\tmarker\t"));
 }
 
-TEST_CASE("a box that is unplugged in a trial is data, and the session goes on", "[session][waits]") {
+TEST_CASE("a box and a cable that are unplugged in a trial are data, and the session goes on",
+          "[session][waits]") {
     CedrusBox cedrus;
     const SmallExperiment experiment(protocol_with(cedrus));
     const std::filesystem::path said = experiment.folder().path() / "said";
@@ -263,6 +268,7 @@ TEST_CASE("a box that is unplugged in a trial is data, and the session goes on",
         const std::vector<int> codes = cedrus.codes();
         if (!is_gone && std::ranges::any_of(codes, [](int one) { return one % matt_adds == onset_code; })) {
             cedrus.unplug_box();
+            cedrus.unplug_cable();
             is_gone = true;
         }
     });
@@ -271,6 +277,7 @@ TEST_CASE("a box that is unplugged in a trial is data, and the session goes on",
     REQUIRE(code == 0);
     CHECK_THAT(words, Contains("the response box \"pad\" does not answer any more") &&
                           Contains("it was gone 1 time"));
+    CHECK_THAT(words, Contains(" markers could not be sent: "));
     const SessionRecord record(experiment.session());
     long losses = 0;
     for (const RecordedEvent& event : record.events())

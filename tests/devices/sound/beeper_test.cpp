@@ -19,7 +19,7 @@ using namespace overt::test;
 
 namespace {
 
-constexpr double rate_hz = 48000.0;
+constexpr double sound_rate_hz = 48000.0;
 
 /// A second of it, in pieces as a sound system asks for them.
 std::vector<float> second_of(BeepSound& sound) {
@@ -41,7 +41,7 @@ double pitch_of(std::span<const float> samples) {
     int crossings = 0;
     for (std::size_t i = 1; i < samples.size(); ++i)
         crossings += samples[i - 1] < 0.0f && samples[i] >= 0.0f;
-    return crossings * rate_hz / static_cast<double>(samples.size());
+    return crossings * sound_rate_hz / static_cast<double>(samples.size());
 }
 
 } // namespace
@@ -49,13 +49,13 @@ double pitch_of(std::span<const float> samples) {
 TEST_CASE("beeps have their pitch and length, and none clicks", "[unit]") {
     for (const SetupBeep beep : {SetupBeep::target_appears, SetupBeep::calibration_good,
                                  SetupBeep::calibration_bad, SetupBeep::drift_good, SetupBeep::drift_bad}) {
-        BeepSound sound(rate_hz);
+        BeepSound sound(sound_rate_hz);
         CHECK(second_of(sound)[100] == 0.0f);
         sound.start(beep);
         const std::vector<float> samples = second_of(sound);
         const double length_s = length_of(beep);
         CHECK(length_s > 0.05);
-        const auto end = static_cast<std::size_t>(length_s * rate_hz);
+        const auto end = static_cast<std::size_t>(length_s * sound_rate_hz);
         for (std::size_t i = end + 1; i < samples.size(); ++i)
             REQUIRE(samples[i] == 0.0f);
         CHECK(sound.silent_samples() >= static_cast<std::int64_t>(samples.size() - end - 2));
@@ -63,7 +63,7 @@ TEST_CASE("beeps have their pitch and length, and none clicks", "[unit]") {
         for (std::size_t i = 1; i < samples.size(); ++i)
             REQUIRE(std::abs(samples[i] - samples[i - 1]) < 0.05f);
         const BeepTone first = tones_of(beep).front();
-        const auto tone = static_cast<std::size_t>(first.length_s * rate_hz);
+        const auto tone = static_cast<std::size_t>(first.length_s * sound_rate_hz);
         CHECK(pitch_of(std::span(samples).first(tone)) == Approx(first.pitch_hz).epsilon(0.03));
     }
     CHECK(tones_of(SetupBeep::calibration_good).back().pitch_hz >
@@ -71,7 +71,7 @@ TEST_CASE("beeps have their pitch and length, and none clicks", "[unit]") {
 }
 
 TEST_CASE("a beep that begins ends the one before", "[unit]") {
-    BeepSound sound(rate_hz), other(rate_hz);
+    BeepSound sound(sound_rate_hz), other(sound_rate_hz);
     sound.start(SetupBeep::calibration_bad);
     std::vector<float> begun(480), after(480), alone(480);
     sound.fill(begun);

@@ -97,7 +97,8 @@ TEST_CASE("a trial's events go to every output with its own codes, and condition
                      .listeners = {},
                      .markers = {&eeg, &texts}},
                     {});
-    REQUIRE_FALSE(session.run({}).aborted);
+    const SessionResult result = session.run({});
+    REQUIRE_FALSE(result.aborted);
     const int clay = static_cast<int>(protocol.materials.size()) - 1;
     // Each trial, in the order of the schedule.
     std::vector<int> expected;
@@ -131,6 +132,8 @@ TEST_CASE("a trial's events go to every output with its own codes, and condition
     }
     CHECK(onsets == 2 * static_cast<int>(schedule.trials.size()));
     CHECK(std::ranges::count(log.events, "noted: 1 marker could not be sent") == 2);
+    // And is told to the operator.
+    CHECK(result.marker_warnings == std::vector<std::string>(2, "noted: 1 marker could not be sent"));
 }
 
 TEST_CASE(
