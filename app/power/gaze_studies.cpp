@@ -88,7 +88,8 @@ GazeStudies::GazeStudies(const Experiment& experiment, std::vector<PowerEffect> 
         sculpture.axis_point = shown.scene.bounds.centre();
         sculpture.screen = scene_.screen;
         SculptureSurface surface;
-        surface.scale = surface_scale(sculpture.camera, sculpture.axis_point, sculpture.screen);
+        surface.scale = object_scale(sculpture.camera, sculpture.axis_point, sculpture.screen,
+                                     unit_of_lengths(protocol.sculptures[i]));
         if (surface.scale) {
             sculpture.mm_per_unit = surface.scale->mm_per_unit;
             sculpture.mm_per_deg = surface.scale->mm_per_deg;
@@ -196,7 +197,7 @@ void GazeStudies::add_trial(const Trial& trial, std::uint64_t seed, const Observ
             found.part = point->part;
             found.on_surface = 1.0;
             if (const auto& scale = surfaces_[sculpture].scale)
-                found.sigma_mm = scale->sigma_mm(settings_.sigma, point->depth);
+                found.sigma_mm = sigma_mm(settings_.sigma, *scale, point->depth);
         } else {
             found.why = NotCounted::not_on_surface;
         }

@@ -52,8 +52,12 @@ std::vector<LevelComparison> level_comparisons(const StudyResults& results, cons
     return comparisons;
 }
 
-double wss_difference_mm2(const LevelComparison& comparison, const SurfaceScale& scale) {
+double wss_difference_mm2(const LevelComparison& comparison, const ObjectScale& scale) {
     return (wss_of(comparison.a) - wss_of(comparison.b)) * scale.mm_per_unit * scale.mm_per_unit;
+}
+
+double wss_difference_deg2(const LevelComparison& comparison, const ObjectScale& scale) {
+    return wss_difference_mm2(comparison, scale) / (scale.mm_per_deg * scale.mm_per_deg);
 }
 
 std::optional<double> head_difference(const LevelComparison& comparison, const StudyResults& results) {

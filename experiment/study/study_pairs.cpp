@@ -76,10 +76,10 @@ Similarities ceiling_of(const Comparison& of, const FixationMaps& maps, const St
     return ceiling;
 }
 
-void reckon(Comparison& of, const FixationMaps* maps, const SurfaceScale& scale, const StudyOptions& options,
+void reckon(Comparison& of, const FixationMaps* maps, const ObjectScale& scale, const StudyOptions& options,
             std::uint64_t stream, int permutations) {
     of.wss_difference_mm2 = wss_difference_mm2(of, scale);
-    of.wss_difference_deg2 = *of.wss_difference_mm2 / (scale.mm_per_deg * scale.mm_per_deg);
+    of.wss_difference_deg2 = wss_difference_deg2(of, scale);
     if (!maps)
         return;
     of.map_a = maps->sum_of(of.a);
@@ -152,15 +152,16 @@ PairRow row_of(std::span<const Comparison> comparisons, int permutations, const 
     if (comparisons.empty())
         row.absent = "no observer saw a sculpture in both levels";
     const auto means = [&](const auto& value) { return observer_means(comparisons, value); };
-    const std::vector<double> mm2 = means([](const Comparison&of) { return of.wss_difference_mm2; }),
+    const std::vector<double> deg2 = means([](const Comparison&of) { return of.wss_difference_deg2; }),
                               head = means([](const Comparison&of) { return of.head_difference; });
-    row.observers = static_cast<int>(mm2.size());
-    row.wss_difference_mm2 = estimated_mean(mm2, options.bootstrap(), row.absent);
-    row.wss_difference_deg2 = estimated_mean(
-        means([](const Comparison& of) { return of.wss_difference_deg2; }), options.bootstrap(), row.absent);
+    row.observers = static_cast<int>(deg2.size());
+    row.wss_difference_mm2 = estimated_mean(means([](const Comparison& of) { return of.wss_difference_mm2; }),
+                                            options.bootstrap(), row.absent);
+    row.wss_difference_deg2 = estimated_mean(deg2, options.bootstrap(), row.absent);
     row.head_difference = estimated_mean(head, options.bootstrap(),
                                          row.absent.empty() ? "no sculpture has a head" : row.absent);
-    if (const auto test = sign_flip_test(mm2, options.permutation()))
+    // As they are seen: a large object would weigh more than a small one that looks as large.
+    if (const auto test = sign_flip_test(deg2, options.permutation()))
         row.wss_p = test->p;
     if (const auto test = sign_flip_test(head, options.permutation()))
         row.head_p = test->p;

@@ -103,6 +103,7 @@ StudySculpture describe_sculpture(const SessionHeader& header, int index) {
     }
     sculpture.camera = recorded.camera;
     sculpture.axis_point = recorded.axis_point;
+    sculpture.unit = recorded.unit;
     sculpture.screen = header.display.screen;
     return sculpture;
 }

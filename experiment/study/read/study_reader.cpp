@@ -206,7 +206,7 @@ class StudyReader {
                     GazeCone(sculpture.screen, Degrees{accuracy.value_or(0.0)}, 1).sigma().value;
                 if (!(sigma_deg > 0.0))
                     continue;
-                const glm::dvec2 px_per_deg = surface.scale->mm_per_deg *
+                const glm::dvec2 px_per_deg = surface.scale->mm_per_deg * surface.scale->shown_size *
                                               glm::dvec2(sculpture.screen.screen_px) /
                                               sculpture.screen.screen_mm;
                 for (StudyFixation& fixation : read_[session].trials[t].fixations) {
@@ -268,7 +268,7 @@ class StudyReader {
         Exposure exposure = exposure_of(*maps, header.animation, header.poses);
         if (surface.scale) {
             const ScreenGeometry& screen = sculpture.screen;
-            const double px_mm = screen.screen_mm.y / screen.screen_px.y;
+            const double px_mm = screen.screen_mm.y / screen.screen_px.y / surface.scale->shown_size;
             for (ExposureRow& row :
                  exposure_rows({exposure, *sculpture.mesh, surface.scale->mm_per_unit, px_mm * px_mm}, index,
                                sculpture.part_names))

@@ -68,7 +68,7 @@ void find_point(StudyFixation& fixation, std::span<const PlacedSample* const> pl
                 const FixationContext& context) {
     const PlacedSample* median = &median_in_space(placed);
     if (context.scale)
-        fixation.sigma_mm = context.scale->sigma_mm(context.options.sigma, median->surface.depth);
+        fixation.sigma_mm = sigma_mm(context.options.sigma, *context.scale, median->surface.depth);
     if (context.field && context.scale) {
         const auto [least, most] = std::minmax_element(
             placed.begin(), placed.end(),
@@ -77,7 +77,7 @@ void find_point(StudyFixation& fixation, std::span<const PlacedSample* const> pl
             ((*most)->surface.depth - (*least)->surface.depth) * context.scale->mm_per_unit;
         if (range_mm > 0.5 * fixation.sigma_mm) {
             median = &median_along_surface(placed, context);
-            fixation.sigma_mm = context.scale->sigma_mm(context.options.sigma, median->surface.depth);
+            fixation.sigma_mm = sigma_mm(context.options.sigma, *context.scale, median->surface.depth);
         }
     }
     fixation.position = median->surface.position;
@@ -98,7 +98,7 @@ void find_part(StudyFixation& fixation, std::span<const PlacedSample* const> pla
 }
 
 void find_spread(StudyFixation& fixation, std::span<const PlacedSample* const> placed,
-                 const SurfaceScale& scale) {
+                 const ObjectScale& scale) {
     double squares = 0.0, depth = 0.0;
     for (const PlacedSample* sample : placed) {
         const glm::dvec3 off = sample->surface.position - fixation.position;

@@ -18,7 +18,9 @@ std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
          "Columns of the table of trials whose values make the groups."},
         {"compare", options.compare, "", "The column whose levels are compared within observers."},
         {"sigma", fmt::format("{}", options.sigma.value), options.sigma.is_mm ? "mm" : "deg",
-         "Standard deviation of the maps' kernel; degrees are converted at the depth of each fixation."},
+         "Standard deviation of the maps' kernel: millimetres of the object itself, or degrees of visual "
+         "angle, which "
+         "are converted at the depth of each fixation."},
         {"kernel", std::string(name_of(options.kernel)), "",
          "How maps are blurred: geodesic is heat along the surface, euclidean a Gaussian in space on the "
          "vertices, voxel the same on a grid."},

@@ -22,7 +22,7 @@ inline constexpr auto names_of<MapKernel> = enum_names<MapKernel>("geodesic", "e
 /// The standard deviation of the kernel.
 struct KernelWidth {
     double value = 1.0;
-    bool is_mm = false; ///< apparent mm on the surface; else degrees of the observer's eye
+    bool is_mm = false; ///< of the object; else degrees of the observer's eye
 };
 
 /// Trials beyond a limit are excluded; nothing: none are for that reason.

@@ -1,9 +1,8 @@
 /// All that a study of one observer or fifty gives: what tables, figures and the report show. Plain data;
 /// analyze_study() fills it in, and nothing reckons with it afterwards.
 ///
-/// Lengths on surfaces are in apparent millimetres: the size that the sculpture's picture has on the display,
-/// measured in the depth of the axis about which it turns (StudySculpture::mm_per_unit). Angles are of the
-/// observer's eye.
+/// Places, lengths, areas and densities on surfaces are in the object's own millimetres (object_scale.h),
+/// which StudySculpture::mm_per_unit makes of the mesh's unit. Angles are of the observer's eye.
 #pragma once
 
 #include <array>
@@ -72,8 +71,9 @@ struct StudySculpture {
     Camera camera;
     glm::dvec3 axis_point{0.0}; ///< in the mesh's unit; the sculpture turns about the vertical through it
     ScreenGeometry screen;
-    std::optional<double> mm_per_unit; ///< apparent mm of the mesh's unit; nothing without a known camera
-    std::optional<double> mm_per_deg;  ///< on the surface in the axis's depth: viewing distance * tan 1 deg
+    std::string unit = "mm"; ///< of the mesh, as RecordedSculpture has it: "mm" if it is that
+    // As ObjectScale has them; nothing without a known camera.
+    std::optional<double> mm_per_unit, mm_per_deg, shown_size;
     /// By vertex of the mesh: how long one presentation shows it, in seconds; 0: never visible.
     std::vector<float> seconds_visible;
     /// By vertex: density that gaze would have that is spread evenly over the sculpture's picture all the

@@ -97,7 +97,7 @@ RowLayout<FixationRow> study_fixations_layout(const StudyResults& results) {
     to.text("part", "The part with most of both", [&results](const FixationRow& row) {
         return part_name(item(results.sculptures, row.trial.sculpture), row.fixation.part);
     });
-    to.number("x_mm", "Place on the surface, object coordinates in apparent mm", "mm", axis(0));
+    to.number("x_mm", "Place on the surface of the unturned object", "mm", axis(0));
     to.number("y_mm", "The same, y", "mm", axis(1));
     to.number("z_mm", "The same, z, upwards", "mm", axis(2));
     to.number("spread_mm", "Root mean square distance of its samples from that place", "mm",
@@ -260,7 +260,7 @@ RowLayout<ClusterRow> clusters_layout(const StudyResults& results) {
     to.number("area_mm2", "Area", "mm^2", of_cluster(&Cluster::area_mm2));
     to.number("difference", "Share of the time of fixation that a has there more than b, mean", "",
               of_cluster(&Cluster::difference));
-    to.number("x_mm", "Centre of the difference within the cluster, object coordinates in apparent mm", "mm",
+    to.number("x_mm", "Centre of the difference within the cluster, on the unturned object", "mm",
               centroid(0));
     to.number("y_mm", "The same, y", "mm", centroid(1));
     to.number("z_mm", "The same, z, upwards", "mm", centroid(2));

@@ -116,6 +116,8 @@ std::string study_json(const StudyResults& results) {
             one["mm_per_unit"] = *sculpture.mm_per_unit;
         if (sculpture.mm_per_deg)
             one["mm_per_deg"] = *sculpture.mm_per_deg;
+        if (sculpture.shown_size)
+            one["shown_size"] = *sculpture.shown_size;
         if (!sculpture.remark.empty())
             one["remark"] = sculpture.remark;
         json["sculptures"].push_back(std::move(one));

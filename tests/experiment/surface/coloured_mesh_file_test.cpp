@@ -38,8 +38,8 @@ struct Sample {
         }
     }
     ColouredMesh coloured() const {
-        return {
-            mesh, values, colours, "a \"ball\"", {{"quantity", "ms per mm^2"}, {"grey", "never\nvisible"}}};
+        return {mesh,         values, colours,
+                "a \"ball\"", 1.0,    {{"quantity", "ms per mm^2"}, {"grey", "never\nvisible"}}};
     }
 };
 
