@@ -189,10 +189,11 @@ std::optional<DriftOutcome> EyelinkDriver::drift_check(ScreenPoint target) {
     clock_->wait_until(clock_->now() + to_idle);
     EyelinkSetup setup(library_, nullptr, {settings_.target_deg}, *clock_,
                        clock_->now() + settings_.drift_patience);
-    // The target is on the screen already, and set-up is the session's to begin.
+    // The target is on the screen already. Set-up is the session's to begin, which has screen and keys for
+    // it: with the last argument 1 the library would begin it here, where nobody sees it.
     const std::int16_t result =
         library_->do_drift_correct(static_cast<std::int16_t>(std::lround(target.x_px)),
-                                   static_cast<std::int16_t>(std::lround(target.y_px)), 0, 1);
+                                   static_cast<std::int16_t>(std::lround(target.y_px)), 0, 0);
     setup.check();
     if (setup.is_out_of_time())
         return DriftOutcome{};

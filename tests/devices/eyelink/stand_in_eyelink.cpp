@@ -77,7 +77,7 @@ struct Hooks {
     void (*drift_beep)(i16);
     void (*drift_target_beep)();
     i16 (*key)(void*);
-    void (*alert)(const char*, ...);
+    void (*alert)(const char*);
 };
 struct Hooks2 {
     int major, minor;
@@ -264,9 +264,9 @@ i16 do_tracker_setup() {
             show_camera();
         if (key == 'a') {
             if (uses_hooks2)
-                hooks2.alert(hooks2.user, "no pupil");
+                hooks2.alert(hooks2.user, "no pupil in 50%s");
             else
-                hooks.alert("no %s", "pupil");
+                hooks.alert("no pupil in 50%s");
         }
         if (key == 'c') {
             show_target(960, 540);
@@ -288,9 +288,16 @@ i16 do_drift_correct(i16 x, i16 y, i16 draw, i16 allow_setup) {
     has_left_dialogue = false;
     said.push_back("drift " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(draw) + " " +
                    std::to_string(allow_setup));
+    const auto escaped = [&] {
+        if (allow_setup)
+            do_tracker_setup(); // until a key leaves it
+        return i16{27};
+    };
+    if (number("drift", 0) == 27)
+        return escaped();
     for (int i = 0; number("drift_waits", 0) != 0 && !has_left_dialogue; ++i)
         if (next_key() == 0x1B)
-            return 27;
+            return escaped();
     return static_cast<i16>(number("drift", 0));
 }
 void exit_calibration() { has_left_dialogue = true; }
@@ -367,8 +374,13 @@ static std::int32_t receive(char* source, char* destination, void (*progress)(un
     const unsigned sent = result < 0 ? size / 2 : static_cast<unsigned>(number("sent_bytes", size));
     for (unsigned i = 0; i < sent; ++i) {
         std::fputc(static_cast<int>(i % 251), file);
-        if (progress && i % 10'000 == 9'999)
-            progress(size, i + 1);
+        if (i % 10'000 == 9'999) {
+            // The library looks whether an operator breaks the transfer off, by whatever hooks it has.
+            if (hooks.key || hooks2.key)
+                next_key();
+            if (progress)
+                progress(size, i + 1);
+        }
     }
     std::fclose(file);
     return result;
