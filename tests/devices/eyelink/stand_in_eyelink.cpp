@@ -2,12 +2,14 @@
 // description of its functions, with a tracker in memory whose gaze is known. Variants are compiled with
 //   STAND_IN_OLD       without the functions that came later
 //   STAND_IN_LACKING   without two functions that are needed
-// Tests steer it through the functions stand_in_….
+// Tests steer it through the functions stand_in_…, or, where it is loaded by the program, by the environment:
+// STAND_IN_EYELINK_rate=500.
 #include <chrono>
 #include <cmath>
 #include <cstdarg>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <string>
@@ -33,7 +35,10 @@ int times_asked = 0;
 
 double number(const char* name, double otherwise) {
     const auto found = numbers.find(name);
-    return found == numbers.end() ? otherwise : found->second;
+    if (found != numbers.end())
+        return found->second;
+    const char* const told = std::getenv((std::string("STAND_IN_EYELINK_") + name).c_str());
+    return told ? std::atof(told) : otherwise;
 }
 double local_us() {
     return std::chrono::duration<double, std::micro>(Clock::now().time_since_epoch()).count();
@@ -256,6 +261,11 @@ i16 do_tracker_setup() {
     else
         hooks.set_up();
     numbers["calibrated"] = no_reply;
+    if (number("operated", 0) != 0) { // somebody sits at the host
+        show_target(960, 540);
+        numbers["calibrated"] = 0;
+        has_left_dialogue = true;
+    }
     for (int i = 0; i < 100'000 && !has_left_dialogue; ++i) {
         const int key = next_key();
         if (key == 0x1B || key == 0x7FFF)
