@@ -91,6 +91,7 @@ enum class NotCounted : std::uint8_t {
     not_on_surface,     ///< too small a share of its samples met the sculpture
     no_surface,         ///< the session has no maps of this sculpture
     trial_excluded,     ///< its trial is
+    no_stimulus,        ///< the session knows of no stimulus: an imported recording
 };
 
 /// How probable a fixation's measured place is, per square pixel, if the head was looked at, and if something
