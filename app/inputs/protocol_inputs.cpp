@@ -7,6 +7,7 @@
 #include "experiment/base/error.h"
 #include "experiment/checks/checked_protocol.h"
 #include "experiment/scene/metal_table.h"
+#include "experiment/stimulus/sculpture_size.h"
 #include "render/image/light_probe.h"
 #include "render/stimulus/given_maps.h"
 #include "render/stimulus/ready_made_frames.h"
@@ -58,8 +59,16 @@ std::vector<Sculpture> examine_sculptures(const Protocol& protocol, const std::f
             const Sculpture& sculpture = sculptures.emplace_back(load_sculpture(settings, protocol, cache));
             for (const std::string& remark : sculpture.remarks)
                 diagnostics.warning(protocol.file.string(), place, as_finding(remark));
-            if (sculpture.has_mesh())
-                examine_camera(protocol, sculpture, diagnostics);
+            if (!sculpture.has_mesh())
+                return;
+            examine_camera(protocol, sculpture, diagnostics);
+            const std::string unit = fmt::format("sculpture[{}].unit", i);
+            if (const auto doubt =
+                    doubt_of_size(size_of(sculpture, settings, protocol),
+                                  protocol.places.is_written(unit) || !settings.shipped.empty()))
+                diagnostics.warning(protocol.file.string(), place,
+                                    fmt::format("sculpture \"{}\": {}", settings.id, doubt->message),
+                                    doubt->hint);
         });
     }
     return sculptures;
