@@ -9,6 +9,7 @@
 #include "experiment/scene/metal_table.h"
 #include "experiment/stimulus/sculpture_size.h"
 #include "render/image/light_probe.h"
+#include "render/image/linear_image.h"
 #include "render/stimulus/given_maps.h"
 #include "render/stimulus/ready_made_frames.h"
 
@@ -115,6 +116,13 @@ void examine_frames(const Protocol& protocol, Diagnostics& diagnostics) {
         examine(protocol, protocol.places.of(fmt::format("frames[{}].files", i)), diagnostics, [&] {
             check_frame_pixels(sequence, protocol.animation.frame_count,
                                {protocol.view.width_px, protocol.view.height_px});
+            if (sequence.colour_space == FrameColours::display &&
+                has_other_primaries(frame_file(sequence, {0})))
+                diagnostics.warning(
+                    protocol.file.string(), protocol.places.of(fmt::format("frames[{}].files", i)),
+                    "the frames say that their colours are of another space, but their numbers are "
+                    "shown as the display's own light",
+                    "colour_space = \"rec709\" converts what they say to the display");
         });
     }
 }

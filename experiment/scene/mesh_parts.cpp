@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -159,6 +160,10 @@ std::vector<std::string> label_parts(Mesh& mesh, std::span<const PartRegion> reg
         own.assign(mesh.positions.begin(), mesh.positions.end());
         places = own;
     }
+    std::set<std::string> names(mesh.part_names.begin(), mesh.part_names.end());
+    for (const PartRegion& region : regions)
+        names.insert(region.name);
+    expect_few(names.size());
     const std::vector<std::size_t> region_of = regions_of(mesh, regions, places);
     const std::vector<PartInRegions> before = parts_in_regions(mesh, regions, region_of, places);
     const bool is_divided = before.size() > 1;

@@ -242,6 +242,10 @@ bool has_alpha(const std::filesystem::path& file) {
     return places_in(opened(file).header(), file).of[3] >= 0;
 }
 
+bool has_other_primaries(const std::filesystem::path& file) {
+    return to_rec709(opened(file).header(), file).has_value();
+}
+
 void write_linear_exr(const std::filesystem::path& file, const LinearImage& image,
                       const ImageAttributes& attributes) {
     PictureHeader header{

@@ -52,6 +52,10 @@ void read_linear_image(const std::filesystem::path& file, FrameEncoding encoding
 /// Size of a picture without reading its pixels. Throws InputError as read_linear_image does.
 glm::ivec2 image_size_px(const std::filesystem::path& file);
 
+/// Whether a picture says that its colours are of a space other than linear Rec. 709. Throws likewise, and if
+/// what it says is no space.
+bool has_other_primaries(const std::filesystem::path& file);
+
 /// Whether a picture has an alpha channel. Throws likewise.
 bool has_alpha(const std::filesystem::path& file);
 
