@@ -47,6 +47,10 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
         CLI::Range(0.0, 1.0), shown_default);
     command.add_flag("--as-gaze", options.as_gaze,
                      "Samples that mostly lie off the screen are gaze, though the file does not say so");
+    add_event_options(
+        command, options.events,
+        "Note that the session's fixations, saccades and blinks are to be found in its samples, in place of "
+        "any that the file has, which stay on record");
     option(command, "--print-session-to", options.print_session_to, "FILE",
            "Write the new session's path into a file");
     command.add_flag("--json", options.json, "Print JSON");

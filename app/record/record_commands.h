@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/cli/chosen_command.h"
+#include "app/cli/event_options.h"
 
 namespace overt {
 
@@ -28,6 +29,7 @@ struct ImportOptions {
     std::optional<std::string> missing; ///< in place of lost values; nothing: found in the file
     double least_read = 0.9;            ///< share of a recording's lines that must be read
     bool as_gaze = false;               ///< what the file does not say
+    EventOptions events;
     std::filesystem::path print_session_to;
     bool json = false;
 };

@@ -69,7 +69,7 @@ const std::array<TrialMeasure, 8> trial_measures{{
      "there was no drift check"},
     {"rms_s2s_deg", "precision (RMS-S2S)", "deg", 4, quality_of<&StudyQuality::rms_s2s_deg>,
      "there are no fixations, or degrees are not known"},
-    {"sd_deg", "precision (SD)", "deg", 4, quality_of<&StudyQuality::sd_deg>,
+    {"sd_deg", "precision (SD around the motion of the eye, a line through each 0.2 s)", "deg", 4, quality_of<&StudyQuality::sd_deg>,
      "there are no fixations, or degrees are not known"},
     {"lost_percent", "data loss, blinks apart", "%", 2, percent_of<&StudyQuality::lost>,
      "there are no samples"},
