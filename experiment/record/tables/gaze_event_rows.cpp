@@ -55,7 +55,7 @@ event_value_columns(const std::string& pixels, const std::string& of_pupil, cons
     };
 }
 
-RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins, const std::string& pupil) {
+RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins, const PupilWords& pupil) {
     RowLayout<GazeEventRow> layout{
         "gaze_events",
         "Fixations, saccades and blinks in the completed trials, and what the tracker's file said besides "
@@ -98,7 +98,7 @@ RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins, const std
              tracker_us_of(&GazeEvent::start)},
             {{"tracker_end_us", "end_s by the tracker's own clock", "us"}, tracker_us_of(&GazeEvent::end)},
         }};
-    layout.add<TrackerEventRow>(event_value_columns("px", "the tracker's own unit", pupil));
+    layout.add<TrackerEventRow>(event_value_columns("px", pupil.unit, pupil.meaning));
     layout.add<GazeEventRow>({
         {{"text", "Words and numbers of what is no fixation, saccade or blink"},
          [](auto& row) { return row.event.text; }},

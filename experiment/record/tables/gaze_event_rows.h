@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiment/record/read/session_record.h"
+#include "experiment/record/read/tracker_facts.h"
 #include "experiment/record/tables/row_layout.h"
 
 namespace overt {
@@ -28,7 +29,7 @@ struct GazeEventRow : TrackerEventRow {
 
 /// One row for each fixation, saccade, blink, message, button, input, begin and end of a recording, and note.
 /// `origins`: whole sentences on where fixations, saccades and blinks come from.
-RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins, const std::string& pupil);
+RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins, const PupilWords& pupil);
 
 /// Writes those of a trial. Throws RecordError.
 void write_gaze_events(TableWriter& writer, const RowLayout<GazeEventRow>& layout,
