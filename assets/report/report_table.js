@@ -49,9 +49,9 @@ function csv_field(value) {
   return /[",\r\n]/.test(text) ? '"' + text.replaceAll('"', '""') + '"' : text;
 }
 
-// Estimates take three columns: the value, and both ends of its interval.
-function csv_of(columns, rows) {
-  const wide = columns.map(column => rows.some(row => is_estimate(column.of(row))));
+// Of rows among all of a table. Estimates take three columns: the value, and both ends of its interval.
+function csv_of(columns, rows, all) {
+  const wide = columns.map(column => all.some(row => is_estimate(column.of(row))));
   const head = columns.flatMap((column, i) => (wide[i] ? [column.name, column.name + ', low', column.name + ', high'] : [column.name]));
   const exact = (column, value) => (typeof value === 'number' && column.scale ? Number(scaled(column, value).toPrecision(9)) : value);
   const lines = rows.map(row => columns.flatMap((column, i) => {
@@ -111,7 +111,7 @@ function table({name, title, columns, rows, note}) {
   });
   filter.addEventListener('input', show);
   const save = element('button', {type: 'button', 'aria-label': `Save as CSV what is shown of: ${title}`}, 'Save as CSV');
-  save.addEventListener('click', () => save_text(csv_of(columns, shown), name + '.csv'));
+  save.addEventListener('click', () => save_text(csv_of(columns, shown, rows), name + '.csv'));
   show();
   return element('div', {class: 'table', id: 'table_' + name},
                  element('div', {class: 'tools'}, element('label', {}, filter), save, count),

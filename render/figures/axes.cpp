@@ -50,11 +50,14 @@ std::vector<double> tick_values(double low, double high, int wanted) {
     return values;
 }
 
-std::string tick_text(double value) { return fmt::format("{:.4g}", std::abs(value) < 1e-12 ? 0.0 : value); }
+std::string tick_text(double value) {
+    return fmt::format("{:.6g}", value == 0.0 ? 0.0 : value); // there is a -0, too
+}
 
 std::vector<double> ticks_that_fit(const AxisRange& range, double length_mm, bool is_upwards) {
     std::vector<double> values;
-    for (int wanted = is_upwards ? 7 : 8; wanted > 0; --wanted) {
+    const int most = is_upwards ? 7 : 8;
+    for (int wanted = most; wanted > 0; --wanted) {
         values = range.is_logarithmic ? logarithmic_ticks(range.low, range.high)
                                       : tick_values(range.low, range.high, wanted);
         if (range.is_whole)
@@ -62,7 +65,7 @@ std::vector<double> ticks_that_fit(const AxisRange& range, double length_mm, boo
         // Of an axis of logarithms each second one, each third one.
         if (range.is_logarithmic && !values.empty()) {
             std::vector<double> fewer;
-            for (std::size_t i = 0; i < values.size(); i += static_cast<std::size_t>(9 - wanted))
+            for (std::size_t i = 0; i < values.size(); i += static_cast<std::size_t>(most - wanted + 1))
                 fewer.push_back(values[i]);
             values = fewer;
         }

@@ -11,7 +11,7 @@ namespace overt {
 /// Values at even steps of 1, 2 or 5 times a power of ten, from low to high.
 std::vector<double> tick_values(double low, double high, int wanted);
 
-/// A number as a tick has it: up to four digits, no trailing zeros.
+/// A number as a tick has it: up to six digits, no trailing zeros.
 std::string tick_text(double value);
 
 struct AxisRange {

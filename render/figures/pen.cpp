@@ -164,9 +164,7 @@ FigureColour figure_colour(std::size_t number) {
     return colours[number % figure_colours];
 }
 
-TextExtent extent_of(std::string_view text, double points) {
-    return measured(layout_of(text, points).get());
-}
+TextExtent extent_of(std::string_view text, double points) { return measured(layout_of(text, points).get()); }
 
 std::vector<std::string> broken_into_lines(std::string_view text, double points, double width_mm) {
     const Layout layout = layout_of(text, points);

@@ -104,14 +104,18 @@ RowLayout layout_of_columns(const RowChart& chart) {
     const double taken = std::accumulate(layout.width.begin(), layout.width.end(), fixed);
     if (chart.bars_before)
         layout.bars_width = least_bars_mm + std::max(0.0, layout.width_mm - taken);
+    // Room that is left over goes to the bars, or between the columns.
+    const double gap = gap_mm + (chart.bars_before || parts < 2 ? 0.0
+                                                                : std::max(0.0, layout.width_mm - taken) /
+                                                                      static_cast<double>(parts - 1));
     double at = margin_mm;
     for (std::size_t i = 0; i < chart.columns.size(); ++i) {
         if (chart.bars_before == i) {
             layout.bars_left = at;
-            at += layout.bars_width + gap_mm;
+            at += layout.bars_width + gap;
         }
         layout.left.push_back(at);
-        at += layout.width[i] + gap_mm;
+        at += layout.width[i] + gap;
     }
     if (chart.bars_before && *chart.bars_before >= chart.columns.size())
         layout.bars_left = at;

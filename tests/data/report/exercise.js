@@ -90,6 +90,7 @@ window.addEventListener('load', () => setTimeout(() => {
   by('all_traces_box').dispatchEvent(new Event('toggle'));
   step('a trace of all', () => by('all_traces').firstChild.click(), trial);
 
+  choose('unit5', 0);
   // Tables: sorting, the filter, and the file of what is shown.
   const figure5 = by('table_figure_5'), heads = [...figure5.querySelectorAll('thead th')], named = name => heads.findIndex(h => h.textContent.startsWith(name));
   const column = at => [...figure5.querySelectorAll('tbody tr')].map(row => row.children[at].firstChild.textContent);

@@ -98,7 +98,7 @@ nlohmann::ordered_json seen_of(const StudyResults& study, int width_px, const st
                                             options, width_px + 60, folder.path().string()));
     UNSCOPED_INFO(read_whole_file(folder.path() / "chromium.log"));
     const nlohmann::ordered_json seen = parse_json(between(
-        read_whole_file(folder.path() / "page.html"), "<script type=\"seen\" id=\"seen\">", "</script>"));
+        read_whole_file(folder.path() / "page.html"), "<script id=\"seen\" type=\"seen\">", "</script>"));
     REQUIRE(!seen.is_discarded());
     return seen;
 }
