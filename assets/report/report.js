@@ -79,15 +79,15 @@ draw_figure5();
 {
   const rows = data.tables.pairs;
   by_id('table1_body').append(rows.length ? table({name: 'table_1', title: 'Pairs of conditions within observers', rows, columns: [
-      ...factor_columns(rows, r => r.keys), text_column('a', r => r.a), text_column('b', r => r.b), number_column('WSS a - b / mm²', r => r.wss, {digits: 4}),
-      number_column('p', r => r.p), number_column('p (Holm)', r => r.holm),
-      number_column('CC', r => r.cc.value), number_column('CC: ceiling', r => r.cc.ceiling), number_column('CC: null', r => r.cc.null), number_column('CC: p', r => r.cc.p),
-      number_column('SIM', r => r.sim.value), number_column('SIM: ceiling', r => r.sim.ceiling), number_column('SIM: null', r => r.sim.null), number_column('SIM: p', r => r.sim.p),
-      number_column('SIM without scaling', r => r.sim_plain.value), number_column('observers', r => r.observers),
-      ...remark_column(rows, r => r.absent)],
-      note:
-      'Each score is of one observer and one sculpture, then averaged. The ceiling is what two halves of the gaze on one and the same condition give, ' +
-      'the null what labels exchanged within observers give: a CC or SIM below its ceiling, not below 1, tells of a difference. SIM after scaling each map from 0 to 1 (MIT benchmark), and without (pysaliency).'})
+      ...factor_columns(rows, r => r.keys), text_column('a', r => r.a), text_column('b', r => r.b),
+      number_column('WSS a - b / deg²', r => r.wss_deg), p_column('WSS: p', r => r.p), p_column('WSS: p after Holm', r => r.holm),
+      number_column('CC of all maps', r => r.maps_cc), p_column('CC of all maps: p', r => r.maps_p), p_column('CC of all maps: p after Holm', r => r.maps_holm),
+      ...[['CC', 'cc'], ['SIM', 'sim']].flatMap(([name, key]) => [number_column(name, r => r[key].value), number_column(name + ': halves of a and b', r => r[key].between), number_column(name + ': halves of one', r => r[key].within)]),
+      number_column('observers', r => r.observers), ...remark_column(rows, r => r.absent)],
+      note: `WSS, CC and SIM are of one observer and one sculpture, then averaged; in brackets the ${level} over observers. CC of all maps: the maps of all observers are added up for each level. ` +
+      'Whether maps differ is told by its p, for which an observer\'s two levels are swapped, whole maps at once; for the p of WSS the signs of observers\' differences are flipped. After Holm: corrected for the rows of the table, those over all groups apart. ' +
+      'A similarity grows with the number of fixations and is below 1 even where nothing differs. Halves all have as many fixations, so those of a and b can be held against two halves of one level. ' +
+      'The latter are somewhat more alike even without a difference where the fixations of a trial share an error of calibration. SIM: maps scaled from 0 to 1 first (MIT benchmark); table1_pairs has it without scaling, too.'})
       : element('p', {class: 'note'}, 'There is no factor whose levels the same observers saw on the same sculpture.'));
 }
 
@@ -106,9 +106,9 @@ draw_figure5();
   if (rows.length) by_id('differences_body').append(table({name: 'differences', title: 'Where conditions differ', rows, columns: [
       ...factor_columns(rows, r => r.d.keys).filter(c => c.name !== 'sculpture'), text_column('sculpture', r => data.sculptures[r.d.sculpture].title), text_column('a', r => r.d.a), text_column('b', r => r.d.b),
       number_column('observers', r => r.d.observers), text_column('where', r => r.where),
-      number_column('area / mm²', of_cluster(c => c.area)), ...['x', 'y', 'z'].map((axis, i) => number_column(`centre ${axis} / mm`, of_cluster(c => c.centre[i]))),
-      share_column('a less b, of the fixation time', of_cluster(c => c.difference)), number_column('p', of_cluster(c => c.p)), number_column('p over all maps', of_cluster(c => c.p_all)),
-      number_column('smallest p there can be', r => r.d.least_p)],
+      number_column('area / mm²', of_cluster(c => c.area)), ...['x', 'y', 'z'].map((axis, i) => mm_column(`centre ${axis} / mm`, of_cluster(c => c.centre[i]))),
+      share_column('a less b, of the fixation time', of_cluster(c => c.difference)), p_column('p', of_cluster(c => c.p)), p_column('p over all maps', of_cluster(c => c.p_all)),
+      p_column('smallest p there can be', r => r.d.least_p)],
       note:
       'Each observer with fixations in both conditions gives a map of differences; clusters of vertices with a t beyond the threshold are tested by flipping the signs of ' +
       'observers\' maps (largest cluster, sum of t times area). p holds for the whole surface of one sculpture; "over all maps" also for all rows (Bonferroni). ' +
@@ -138,7 +138,7 @@ draw_figure5();
       note: 'Correlation of the maps of random halves of the observers, and of all observers after Spearman and Brown; the interval is by leaving out each observer in turn.'}));
   const errors = data.maps.filter(m => m.by === 'duration' && m.values);
   put('errors_body', errors, () => ({columns: [
-      ...conditions(errors), ...[['accuracy', 'accuracy'], ['precision', 'precision'], ['timing', 'timing'], ['look-up', 'lut'], ['together', 'together']].map(([name, key]) => number_column(name + ' / mm', m => m.error[key])),
+      ...conditions(errors), ...[['accuracy', 'accuracy'], ['precision', 'precision'], ['timing', 'timing'], ['look-up', 'lut'], ['together', 'together']].map(([name, key]) => mm_column(name + ' / mm', m => m.error[key])),
       number_column('least kernel sigma / mm', m => m.sigma[0]), number_column('largest kernel sigma / mm', m => m.sigma[1]),
       share_column('Euclidean leak', m => m.leak), share_column('cone beyond an edge', m => m.error.at_edge), share_column('samples near an edge', m => m.error.near_edge)],
       note: 'Root mean squares over the fixations, along the surface. Accuracy: the gaze cone of the validation before each trial. Precision: of a single sample (RMS-S2S divided by the root of 2). ' +
@@ -151,7 +151,7 @@ draw_figure5();
   const rows = data.tables.effects;
   if (rows.length) by_id('effects_body').append(
       table({name: 'effects', title: 'Effects of the factors', rows, columns: [
-            text_column('measure', r => r.measure), text_column('effect', r => r.effect.replace(':', ' × ')), number_column('p', r => r.p), number_column('p after Holm', r => r.holm),
+            text_column('measure', r => r.measure), text_column('effect', r => r.effect.replace(':', ' × ')), p_column('p', r => r.p), p_column('p after Holm', r => r.holm),
             number_column('observers', r => r.observers), ...remark_column(rows, r => r.absent || (r.least > alpha + 1e-9 ? `so many observers can give no p below ${digits(r.least)}` : ''))],
             note:
             'Of trials: the share of counted fixations on the head, and the logarithm of WSS. Permutations within observers: of a factor the levels are exchanged, of two together (×) the signs of whole observers. ' +
@@ -263,22 +263,11 @@ draw_figure5();
 
 // Methods.
 {
-  const value = name => { const p = data.parameters.find(q => q[0] === name); return p ? p[1] + (p[2] ? ' ' + p[2] : '') : null; };
-  const g = data.glance, trackers = [...new Set(data.sessions.map(s => s.tracker))].join(', '), events = [...new Set(data.sessions.map(s => s.events))].join(' ');
-  const screens = [...new Set(data.sculptures.map(s => `${s.screen[0]} x ${s.screen[1]} pixels with ${digits(s.px_per_deg)} pixels per degree, the stimulus ${s.image[0]} x ${s.image[1]}`))].join('; ');
-  const parts = [
-    `${g.simulated ? 'Gaze was simulated. ' : ''}${g.observers} observers took part in ${g.sessions} sessions with ${g.trials} trials; ${g.excluded} trials were excluded. The display had ${screens}. Gaze was recorded by ${trackers}. ${events}`,
-    'Each sample was assigned to the animation frame that was lit at its time on its row of the screen, and to the point where the line of sight through it meets the sculpture in the pose of that frame. ' +
-    `A fixation's place is that of its samples whose summed distance to the others along the surface is least; ${g.counted} of ${g.fixations} fixations were counted.`,
-    'Maps were made by letting the weight of each fixation spread on the surface as heat (cotangent Laplacian on an intrinsic Delaunay triangulation, implicit steps), which is a Gaussian along the surface. ' +
-    `${data.parameters.map(p => p[3]).join(' ')}`,
-    `Intervals are ${level}s over observers. CC and SIM are reported beside the noise ceiling from halves of the same condition and beside the null distribution of exchanged labels. Maps cover only vertices that were visible; all values are weighted by area.`,
-  ];
-  for (const part of parts) by_id('methods_text').append(element('p', {}, part));
+  for (const [topic, text] of data.methods) by_id('methods_text').append(element('p', {}, element('b', {}, topic + '. '), text));
   by_id('parameters').append(table({name: 'parameters', title: 'Parameters of the analysis', rows: data.parameters, columns: [
       text_column('parameter', p => p[0]), text_column('value', p => p[1]), text_column('unit', p => p[2]), text_column('meaning', p => p[3], {long: true})]}));
   by_id('copy_methods').addEventListener('click', () => {
-    const text = parts.join('\n\n'), done = () => { by_id('copied').textContent = 'Copied.'; };
+    const text = data.methods.map(([topic, words]) => topic + '. ' + words).join('\n\n'), done = () => { by_id('copied').textContent = 'Copied.'; };
     const by_hand = () => {
       const range = document.createRange();
       range.selectNodeContents(by_id('methods_text'));

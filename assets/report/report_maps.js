@@ -102,7 +102,7 @@ class Panel {
           (map.least_p > alpha + 1e-9 ? ` So many observers can give no p below ${digits(map.least_p)}.` : '') + coarse;
       this.view.show(geometry, values, colour_tables.coolwarm, (value, v) => {
         const n = of_cluster[v], c = n ? map.clusters[n - 1] : null;
-        return `${digits((2 * value - 1) * most)} of the fixation time per mm²` + (c ? `, in cluster ${n} (${digits(c.area)} mm², p ${digits(c.p)})` : ', in no cluster');
+        return `${digits((2 * value - 1) * most)} of the fixation time per mm²` + (c ? `, in cluster ${n} (${digits(c.area)} mm², p ${p_text(c.p)})` : ', in no cluster');
       });
     } else {
       const unit = map.by === 'duration' ? 'ms/mm²' : 'fixations/mm²', most = scale.value === 'own' ? map.peak : common[map.by];
@@ -110,7 +110,7 @@ class Panel {
       text.textContent = `${map.observers} observers, ${map.trials} trials, ${map.fixations} fixations; peak ${digits(map.peak)} ${unit} a trial; ` +
           `kernel sigma ${digits(map.sigma[0])} to ${digits(map.sigma[1])} mm` +
           (map.leak !== null ? `; a Euclidean kernel would put ${percent(map.leak)} beyond three sigmas along the surface` : '') +
-          (map.error.together !== null ? `; uncertainty of a place ${digits(map.error.together)} mm` : '') + '.' + coarse;
+          (map.error.together !== null ? `; uncertainty of a place ${mm_text(map.error.together)} mm` : '') + '.' + coarse;
       this.view.show(geometry, values, colour_tables[colours.value], v => `${digits(v * most)} ${unit} a trial`);
     }
   }

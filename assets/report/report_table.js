@@ -1,11 +1,13 @@
 // Tables: one column per factor, heads that stay and sort, a filter, and what is shown as a CSV file.
 //
-// A column is {name, of, text, long, digits, scale}: `of` gives a row's cell, which is a text, a number, null, or an
-// estimate {v, lo, hi, absent}. text: words, else numbers; long: whole sentences; digits: significant ones; scale: what
-// numbers are multiplied by (100 for "/ %").
+// A column is {name, of, text, long, digits, show, scale}: `of` gives a row's cell, which is a text, a number, null, or an
+// estimate {v, lo, hi, absent}. text: words, else numbers; long: whole sentences; digits: significant ones; show: how a
+// number is written, else with these digits; scale: what numbers are multiplied by (100 for "/ %").
 
 const text_column = (name, of, more = {}) => ({name, of, text: true, ...more});
 const number_column = (name, of, more = {}) => ({name, of, ...more});
+const p_column = (name, of) => ({name, of, show: p_text});
+const mm_column = (name, of) => ({name, of, show: mm_text});
 const share_column = (name, of) => ({name: name + ' / %', of, scale: 100});
 
 // One column for each column of keys that any row has; "all" where a row has none of it.
@@ -22,10 +24,12 @@ const scaled = (column, value) => (value === null || value === undefined ? null 
 // A cell's text, and what stands below it: the interval, or why there is no value.
 function cell_texts(column, cell) {
   if (cell === null || cell === undefined) return ['n/a', ''];
-  const number = value => digits(scaled(column, value), column.digits);
+  const number = value => (column.show || (v => digits(v, column.digits)))(scaled(column, value));
   if (is_estimate(cell)) {
     if (cell.v === null || cell.v === undefined) return ['n/a', cell.absent || ''];
-    return [number(cell.v), cell.lo === undefined ? '' : `[${number(cell.lo)}, ${number(cell.hi)}]`];
+    const text = estimate_text({v: scaled(column, cell.v), ...(cell.lo === undefined ? {} : {lo: scaled(column, cell.lo), hi: scaled(column, cell.hi)})}, column.digits);
+    const end = text.indexOf(' [');
+    return end < 0 ? [text, ''] : [text.slice(0, end), text.slice(end + 1)];
   }
   return [typeof cell === 'number' && !column.text ? number(cell) : String(cell), ''];
 }

@@ -56,18 +56,17 @@ StudyTrace trace_of(std::span<const PlacedSample> samples, std::span<const GazeE
 
 /// The first rule that a trial breaks, as a sentence; empty: none.
 std::string exclusion_of(const StudyQuality& quality, const ExclusionRules& rules) {
-    if (rules.most_lost_share && quality.lost_share() > *rules.most_lost_share)
+    const std::optional<ExclusionRule> rule = broken_rule(quality, rules);
+    if (rule == ExclusionRule::lost_share)
         return fmt::format("{:.1f} % of the samples were lost outside of blinks.",
                            100.0 * quality.lost_share());
-    if (rules.most_accuracy_deg && quality.accuracy_deg && *quality.accuracy_deg > *rules.most_accuracy_deg)
+    if (rule == ExclusionRule::accuracy)
         return fmt::format("The validation before it had a mean error of {:.2f} deg.", *quality.accuracy_deg);
-    if (rules.most_drift_deg && quality.drift_deg && *quality.drift_deg > *rules.most_drift_deg)
+    if (rule == ExclusionRule::drift)
         return fmt::format("The drift check found an error of {:.2f} deg.", *quality.drift_deg);
-    // A rule that cannot be looked at is not kept.
-    if (rules.most_missed_refreshes && !quality.missed_refreshes)
-        return "How many refreshes were missed is unproven.";
-    if (rules.most_missed_refreshes && *quality.missed_refreshes > *rules.most_missed_refreshes)
-        return fmt::format("{} refreshes were missed.", *quality.missed_refreshes);
+    if (rule == ExclusionRule::missed_refreshes)
+        return quality.missed_refreshes ? fmt::format("{} refreshes were missed.", *quality.missed_refreshes)
+                                        : "How many refreshes were missed is unproven.";
     return {};
 }
 

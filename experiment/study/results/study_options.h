@@ -33,6 +33,13 @@ struct ExclusionRules {
     std::optional<int> most_missed_refreshes;
 };
 
+/// Those that have a limit.
+std::vector<ExclusionRule> rules_of(const ExclusionRules& rules);
+
+/// The first rule that a trial breaks; nothing: it counts. A trial without a validation or a drift check
+/// keeps the limits of these; one whose missed refreshes are unproven does not.
+std::optional<ExclusionRule> broken_rule(const StudyQuality& quality, const ExclusionRules& rules);
+
 struct StudyOptions {
     std::vector<std::string> by{"task", "sculpture", "material"};
     std::string compare = "material"; ///< the column whose levels are compared within observers

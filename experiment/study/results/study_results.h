@@ -22,6 +22,7 @@
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/statistics/estimate.h"
+#include "experiment/study/results/session_setup.h"
 
 namespace overt {
 
@@ -42,23 +43,27 @@ struct StudyParameter {
 
 /// One session as it was read.
 struct StudySession {
-    std::string folder;   ///< its name, without folders above
-    std::string observer; ///< label
-    int number = 1;       ///< of this observer's sessions
-    std::string protocol; ///< title
-    std::string tracker;  ///< its name, or the file that was imported
-    bool is_simulated = false;
+    std::string folder;         ///< its name, without folders above
+    std::string observer;       ///< label
+    int number = 1;             ///< of this observer's sessions
+    std::string protocol;       ///< title
     std::vector<StudyKey> form; ///< what the observer filled in
     std::string events;         ///< a sentence: whose fixations, saccades and blinks these are
     bool is_complete = false;
-    int trials = 0;              ///< that count, before exclusions of this analysis
-    std::vector<StudyKey> setup; ///< items of the reporting guideline that the record knows
+    int trials = 0; ///< that count, before exclusions of this analysis
+    SessionSetup setup;
+    bool is_simulated() const { return setup.gaze.is_simulated(); }
 };
 
 /// What an article has to report: see reporting.h.
 struct ReportingItem {
     std::string topic, item, value;
     bool is_recorded = false; ///< else the value says what to add
+};
+
+/// Whole sentences on one topic of the methods: see methods_text.h.
+struct MethodsParagraph {
+    std::string topic, text;
 };
 
 /// A sculpture with all sessions that showed the same mesh.
@@ -92,6 +97,9 @@ enum class NotCounted : std::uint8_t {
     no_surface,         ///< the session has no maps of this sculpture
     trial_excluded,     ///< its trial is
 };
+
+/// What a trial is excluded for, in the order in which it is asked (ExclusionRules).
+enum class ExclusionRule : std::uint8_t { lost_share, accuracy, drift, missed_refreshes };
 
 /// How probable a fixation's measured place is, per square pixel, if the head was looked at, and if something
 /// else of the sculpture was: the tracker's error lies between the two (part_evidence.h).
@@ -281,9 +289,13 @@ struct DistributionRow {
 /// A similarity of two maps beside what to compare it with.
 struct SimilarityEstimate {
     Estimate value;
-    Estimate ceiling; ///< of halves of the fixations of the same condition: what equal distributions give
-    Estimate null;    ///< with the conditions' labels permuted within observers
-    std::optional<double> p; ///< of the permutation: how often chance gives as small a similarity
+    /// Of random halves, as many fixations in each: one of either level, and both of the same level. Only these
+    /// two can be held against each other: a similarity grows with the number of fixations.
+    Estimate between_halves, within_halves;
+    Estimate null; ///< of all fixations, dealt out again over the levels within observers
+    /// How often dealing out gives as small a similarity. Takes fixations as exchangeable, which they are not
+    /// where trials differ in their error of calibration: then it is too small. PairRow::maps_p is the test.
+    std::optional<double> p;
 };
 
 /// Table 1: two levels of a factor compared within observers, then averaged.
@@ -414,6 +426,7 @@ struct StudyGlance {
     std::vector<std::pair<NotCounted, int>> not_counted; ///< reasons that occur, and how often
     double counted_s = 0.0;                              ///< of fixation
     bool any_simulated = false;
+    std::vector<std::pair<ExclusionRule, int>> excluded_by{}; ///< trials by the first rule that they break
 };
 
 struct StudyResults {
@@ -442,6 +455,7 @@ struct StudyResults {
     std::vector<TimeCourseRow> time_course;
     std::vector<StudyQuality> session_quality; ///< by session
     std::vector<ReportingItem> reporting;
+    std::vector<MethodsParagraph> methods;
     std::vector<StudyTrace> traces; ///< of each trial with samples, in the order of the trials
 };
 

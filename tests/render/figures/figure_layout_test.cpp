@@ -108,7 +108,9 @@ StudyResults study_with(int factors, int levels, Naming name, double value) {
         pair.column = "sculpture";
         pair.a = name(level);
         pair.b = name(level + 1);
-        pair.wss_difference_mm2 = Estimate::of(-value, Interval{-2.0 * value, value});
+        pair.wss_difference_deg2 = Estimate::of(-value, Interval{-2.0 * value, value});
+        pair.maps_cc = value;
+        pair.maps_p = 0.00012345;
         pair.cc.value = Estimate::of(0.123456, Interval{-0.998, 0.997});
         study.pairs.push_back(pair);
         for (int second = 0; second < 8; ++second)
