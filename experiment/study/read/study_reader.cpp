@@ -166,7 +166,7 @@ class StudyReader {
                                                       {lookup, surface.geometry.get(), surface.coarse.get(),
                                                        field ? &*field : nullptr, surface.scale,
                                                        light_of(light, record.header(), trial)},
-                                                      options_, t < 1);
+                                                      options_);
                 const std::scoped_lock lock(progress_mutex);
                 progress_(what, ++done, trials);
             }

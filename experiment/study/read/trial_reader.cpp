@@ -44,7 +44,7 @@ StudyTrace trace_of(std::span<const PlacedSample> samples, std::span<const GazeE
                     const std::optional<ClockMap>& clock_map, SessionTime onset, double presentation_s,
                     double rate_hz) {
     StudyTrace trace;
-    const auto step = static_cast<std::size_t>(std::max(1.0, std::ceil(rate_hz / 250.0 - 1e-6)));
+    const auto step = static_cast<std::size_t>(std::max(1.0, std::ceil(rate_hz / most_trace_hz - 1e-6)));
     bool had_gaze = true;
     std::size_t since = step;
     for (const PlacedSample& sample : samples) {
@@ -63,7 +63,8 @@ StudyTrace trace_of(std::span<const PlacedSample> samples, std::span<const GazeE
             const double begin = to_seconds(clock_map->to_session(event.start).time - onset);
             const double duration = std::chrono::duration<double>(event.duration).count();
             if (begin + duration > 0.0 && begin < presentation_s)
-                trace.events.push_back({event.kind, begin, duration});
+                trace.events.push_back(
+                    {event.kind, begin, duration, event.amplitude_deg, event.peak_velocity_deg_s});
         }
     }
     return trace;
@@ -89,7 +90,7 @@ std::string exclusion_of(const StudyQuality& quality, const ExclusionRules& rule
 
 ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, const TrialKeys& keys,
                      std::span<const RecordedAccuracy> validations, const TrialSurface& surface,
-                     const StudyOptions& options, bool with_trace) {
+                     const StudyOptions& options) {
     const SessionHeader& header = record.header();
     const std::optional<TrialLedger> ledger = record.ledger(trial);
     const bool has_onset = trial.reached(trial.outcome.presentation_onset);
@@ -149,9 +150,8 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
 
     if (ledger)
         of.turns = turns_of(*ledger, onset, header.poses.angles);
-    if (with_trace)
-        read.trace = trace_of(placed.samples, events, clock_map, onset, of.presentation_s,
-                              of.quality.rate_hz.value_or(0.0));
+    read.trace = trace_of(placed.samples, events, clock_map, onset, of.presentation_s,
+                          of.quality.rate_hz.value_or(0.0));
 
     // The cone is as wide as the validation says; few directions do for a share of some per cent.
     constexpr int cone_directions = 64;

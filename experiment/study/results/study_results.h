@@ -163,6 +163,9 @@ struct StudyFixation {
     bool counted() const { return why == NotCounted::counted; }
 };
 
+/// Samples a second of a trace: enough to see a saccade.
+inline constexpr double most_trace_hz = 125.0;
+
 /// One gaze sample of a trace.
 struct StudyTracePoint {
     double time_s = 0.0;             ///< since the presentation's onset
@@ -173,9 +176,10 @@ struct StudyTracePoint {
 struct StudyTraceEvent {
     GazeEvent::Kind kind = GazeEvent::Kind::fixation; ///< fixation, saccade or blink
     double onset_s = 0.0, duration_s = 0.0;
+    std::optional<double> amplitude_deg{}, peak_velocity_deg_s{}; ///< of a saccade, where its event has them
 };
 
-/// Gaze of a trial, thinned to at most 250 samples a second.
+/// Gaze of a trial, thinned to at most `most_trace_hz`.
 struct StudyTrace {
     int trial = 0; ///< index into StudyResults::trials
     std::vector<StudyTracePoint> points;
@@ -466,7 +470,7 @@ struct StudyResults {
     std::vector<StudyQuality> session_quality; ///< by session
     std::vector<ReportingItem> reporting;
     std::vector<MethodsParagraph> methods;
-    std::vector<StudyTrace> traces;
+    std::vector<StudyTrace> traces; ///< of each trial with samples, in the order of the trials
 };
 
 /// A few words for tables and sentences.
