@@ -8,6 +8,7 @@
 #include "app/cli/command_options.h"
 #include "app/cli/interruption.h"
 #include "app/cli/progress_bar.h"
+#include "app/inputs/session_folders.h"
 #include "app/record/export_formats.h"
 #include "app/record/record_commands.h"
 #include "experiment/record/session_schema.h"
@@ -54,8 +55,10 @@ std::filesystem::path folder_of(const ExportOptions& options, const ExportFormat
                           : options.out / folder.parent_path().filename() / folder.filename();
 }
 
-int run_export(const ExportOptions& options) {
+int run_export(const ExportOptions& given) {
     const Interruption interruption;
+    ExportOptions options = given;
+    options.sessions = sessions_in(given.sessions);
     const auto& [entry, format] = options.formats.at(options.format);
     for (const std::filesystem::path& session : options.sessions) {
         SessionRecord record(session);
@@ -90,7 +93,7 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
                     "overt export sessions/overt_2019/sub-07_ses-01 --format tsv --out tables\n"
                     "  overt export sessions/overt_2019/* --format bids --out dataset\n"
                     "  overt export sessions/overt_2019/sub-07_ses-01 --format asc --out asc");
-    command.add_option("SESSION", options.sessions, "Folders of sessions")->required();
+    command.add_option("SESSION", options.sessions, sessions_help)->required();
     std::vector<std::string> names, explained, joining;
     std::vector<std::shared_ptr<ExportFormat>> formats;
     for (const ExportFormatEntry& entry : export_formats()) {
