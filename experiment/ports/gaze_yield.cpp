@@ -13,11 +13,10 @@ double seconds(TrackerClock::duration duration) { return std::chrono::duration<d
 
 } // namespace
 
-void GazeYieldCount::begin(double rate_hz, std::array<bool, 2> eyes_measured) noexcept {
+void GazeYieldCount::begin(double rate_hz, int eyes_measured) noexcept {
     *this = {};
     rate_hz_ = std::max(0.0, rate_hz);
-    for (std::size_t eye = 0; eye < eyes_.size(); ++eye)
-        eyes_[eye].is_measured = eyes_measured[eye];
+    eyes_measured_ = eyes_measured;
 }
 
 void GazeYieldCount::take(const GazeSample& sample) noexcept {
@@ -36,14 +35,18 @@ void GazeYieldCount::take(const GazeSample& sample) noexcept {
 
 GazeYield GazeYieldCount::ended_after(SessionDuration recording) const noexcept {
     GazeYield yield = yield_;
+    const double all_s = std::max(0.0, to_seconds(recording));
+    int eyes_seen = 0;
+    double missing_s = 0.0;
     for (const OfEye& eye : eyes_) {
-        if (!eye.is_measured)
+        if (!eye.first)
             continue;
-        const double all_s = to_seconds(recording);
-        const double covered_s = eye.first ? seconds(*eye.last - *eye.first) : 0.0;
-        if (!eye.first || all_s - covered_s > begins_and_ends_s)
-            yield.missing += std::llround(std::max(0.0, all_s - covered_s) * rate_hz_);
+        ++eyes_seen;
+        const double outside_s = all_s - seconds(*eye.last - *eye.first);
+        missing_s += outside_s > begins_and_ends_s ? outside_s : 0.0;
     }
+    missing_s += all_s * std::max(0, eyes_measured_ - eyes_seen);
+    yield.missing += std::llround(missing_s * rate_hz_);
     return yield;
 }
 

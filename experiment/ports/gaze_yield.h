@@ -31,7 +31,8 @@ struct GazeYield {
 class GazeYieldCount {
   public:
     /// `rate_hz`: of each eye, by the tracker's word; 0: not known, and nothing counts as missing.
-    void begin(double rate_hz, std::array<bool, 2> eyes_measured) noexcept;
+    /// `eyes_measured`: 1 or 2.
+    void begin(double rate_hz, int eyes_measured) noexcept;
     /// In the order of an eye's own times.
     void take(const GazeSample& sample) noexcept;
     /// After the recording, which lasted so long by the session's clock.
@@ -39,11 +40,11 @@ class GazeYieldCount {
 
   private:
     struct OfEye {
-        bool is_measured = false;
         std::optional<TrackerTime> first, last;
     };
     std::array<OfEye, 2> eyes_; ///< by Eye
     double rate_hz_ = 0.0;
+    int eyes_measured_ = 1;
     GazeYield yield_;
 };
 

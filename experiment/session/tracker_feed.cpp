@@ -20,8 +20,7 @@ TrackerFeed::TrackerFeed(EyeTracker& tracker) : tracker_(tracker), items_(items_
 
 bool TrackerFeed::start_recording(SessionTime now) {
     const TrackerDescription description = tracker_.description();
-    yield_.begin(description.sample_rate_hz, {description.both_eyes || description.eye == Eye::left,
-                                              description.both_eyes || description.eye == Eye::right});
+    yield_.begin(description.sample_rate_hz, description.both_eyes ? 2 : 1);
     began_ = ended_ = now;
     doubled_count_ = 0;
     last_at_ = {};

@@ -6,6 +6,7 @@
 #include "experiment/events/event_detector.h"
 #include "experiment/record/gaze_rows.h"
 #include "experiment/record/read/session_record.h"
+#include "experiment/record/read/settings_words.h"
 #include "experiment/record/sql.h"
 
 namespace overt {
@@ -31,11 +32,11 @@ std::string sentence_on(const SessionRecord::EventOrigin& origin) {
         return "";
     if (origin.from == From::tracker)
         return "Fixations, saccades and blinks are those of the eye tracker itself.";
-    return fmt::format(
-        "Fixations, saccades and blinks were found {}, by the detector of {}, version {}, with {}.",
-        origin.from == From::recording ? "while the session was recorded"
-                                       : "in the recorded samples when they were exported",
-        origin.detection.name, origin.detection.version, origin.detection.parameters);
+    return fmt::format("Fixations, saccades and blinks were found {}, by the detector of {}, version {}: {}.",
+                       origin.from == From::recording ? "while the session was recorded"
+                                                      : "afterwards, in the recorded samples",
+                       origin.detection.name, origin.detection.version,
+                       settings_in_words(origin.detection.parameters));
 }
 
 void SessionRecord::read_gaze_events(const TrialRecord& trial,

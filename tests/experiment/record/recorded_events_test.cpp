@@ -134,7 +134,7 @@ TEST_CASE("a session without events has them found when it is read, by the defau
         CHECK(eye_events(record, trial) == expected_events(trial, {}));
     CHECK(record.event_origin(1).from == From::reading);
     CHECK(record.event_origin(1).detection == detection_by({}));
-    CHECK_THAT(record.event_origins(), Contains("when they were exported"));
+    CHECK_THAT(record.event_origins(), Contains("afterwards, in the recorded samples"));
     // Of earlier programs' sessions, which had no such table.
     SQLite::Database((session / session_file_name).string(), SQLite::OPEN_READWRITE)
         .exec("DROP TABLE event_detection; DROP TABLE gaze_event; DROP TABLE gaze_source");

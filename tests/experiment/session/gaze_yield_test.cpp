@@ -27,7 +27,7 @@ void give(GazeYieldCount& count, double from_s, double to_s, Eye eye = Eye::righ
 
 GazeYieldCount begun(bool both_eyes = false) {
     GazeYieldCount count;
-    count.begin(rate_hz, {both_eyes, true});
+    count.begin(rate_hz, both_eyes ? 2 : 1);
     return count;
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("what no eye was found in, what never came, and what came of one eye a
     }
     SECTION("a rate that is not known") {
         GazeYieldCount count;
-        count.begin(0.0, {false, true});
+        count.begin(0.0, 1);
         CHECK(count.ended_after(eight_seconds).share() == 0.0);
         give(count, 0.0, 1.0);
         CHECK(count.ended_after(eight_seconds).share() == 1.0);
