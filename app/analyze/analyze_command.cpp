@@ -12,6 +12,7 @@
 #include "app/cli/command_options.h"
 #include "app/cli/event_options.h"
 #include "app/cli/interruption.h"
+#include "app/inputs/session_folders.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/study/tables/study_tables.h"
@@ -149,6 +150,7 @@ int run_analyze(AnalyzeOptions options) {
         if (names_of<MapKernel>[i] == options.kernel)
             options.study.kernel = static_cast<MapKernel>(i);
     }
+    options.sessions = sessions_in(options.sessions, is_shard);
     if (!options.shard.empty())
         return run_shard(options);
     if (options.out.empty())
@@ -234,7 +236,8 @@ void add_analyze_command(CLI::App& app, ChosenCommand& chosen) {
         "  overt analyze shards/* --out analysis\n"
         "Exit codes: 0 done, 1 failed, 2 bad input.");
     options.by = fmt::format("{}", fmt::join(options.study.by, ","));
-    command.add_option("SESSION", options.sessions, "Folders of sessions, or of all shards of a study")
+    command
+        .add_option("SESSION", options.sessions, fmt::format("{}; or all shards of a study", sessions_help))
         ->required();
     option(command, "--out", options.out, "DIR", "Folder to write to; with --shard, the folder of all shards")
         ->default_str("analysis; with --shard: shards");

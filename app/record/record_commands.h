@@ -43,7 +43,7 @@ struct VerifyOptions {
 int run_verify(const VerifyOptions& options);
 
 struct ShowOptions {
-    std::filesystem::path session;
+    std::vector<std::filesystem::path> sessions;
     std::optional<int> trial;
     std::filesystem::path picture;
     std::filesystem::path plot; ///< of the presentation's timing, SVG

@@ -251,6 +251,11 @@ void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
         if (const std::string answer = answer_text(trial); !answer.empty())
             add(span->second, answer);
     }
+    // Of response boxes there are lines BUTTON.
+    if (clock_map)
+        for (const RecordedKeyPress& press : record.key_presses())
+            if (press.attempt_id == trial.id && !is_of_box(press))
+                add(at(press.at), "KEY " + press.name);
     if (clock_map)
         for (const RecordedButton& button : record.button_changes())
             if (button.attempt_id == trial.id) {

@@ -40,6 +40,7 @@ class ExportTables {
     RowLayout<RecordedStimulus> stimuli;
     RowLayout<DisplayBoxRow> display_box;
     RowLayout<RecordedButton> buttons;
+    RowLayout<RecordedKeyPress> key_presses;
     RowLayout<RecordedMarker> markers;
     RowLayout<ParticipantRow> participants;
 

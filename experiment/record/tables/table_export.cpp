@@ -108,6 +108,8 @@ void TableExport::write_what_belongs_to_no_trial() {
         write(tables_.stimuli, stimulus);
     for (const RecordedButton& button : record_.button_changes())
         write(tables_.buttons, button);
+    for (const RecordedKeyPress& press : record_.key_presses())
+        write(tables_.key_presses, press);
     for (const RecordedMarker& marker : record_.markers())
         write(tables_.markers, marker);
     for (const auto& [sitting, box] : record_.display_boxes()) {
