@@ -27,10 +27,11 @@ ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& sha
                            std::optional<Degrees> cone_accuracy, const std::string& event_origins,
                            const std::vector<ParticipantRow>& participant)
     : trials(trials_layout(shared, header)), flips(ledger_layout(shared, header)),
-      samples(samples_layout(shared, header, cone_accuracy)), gaze_events(gaze_events_layout(event_origins)),
-      events(events_layout()), responses(responses_layout(shared, header)),
-      stimuli(stimuli_layout(shared, header)), display_box(display_box_layout()), buttons(buttons_layout()),
-      markers(markers_layout()), participants(participants_layout(participant)) {
+      samples(samples_layout(shared, header, cone_accuracy)),
+      gaze_events(gaze_events_layout(header, event_origins)), events(events_layout()),
+      responses(responses_layout(shared, header)), stimuli(stimuli_layout(shared, header)),
+      display_box(display_box_layout()), buttons(buttons_layout()), markers(markers_layout()),
+      participants(participants_layout(participant)) {
     const std::vector<LeadingColumn> leading{
         {{"observer", "Label of the observer"}, header.schedule.observer.label},
         {{"session", "Which session of this observer, from 1"}, std::to_string(header.session_number), true}};

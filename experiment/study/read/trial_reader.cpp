@@ -77,22 +77,15 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                      const StudyOptions& options, bool with_trace) {
     const SessionHeader& header = record.header();
     const std::optional<TrialLedger> ledger = record.ledger(trial);
-    const bool has_onset = trial.reached(trial.outcome.presentation_onset);
-    const SessionTime onset = has_onset ? trial.outcome.presentation_onset : trial.started;
+    const TrialPresentation presentation = presentation_of(header, trial, validations);
+    const SessionTime onset = presentation.onset;
     ReadTrial read;
     StudyTrial& of = read.trial;
     of.number = trial.trial.index + 1;
     of.label = fmt::format("observer {}, trial {}", header.schedule.observer.label, of.number);
-    if (has_onset && trial.reached(trial.outcome.presentation_end))
-        of.presentation_s = to_seconds(trial.outcome.presentation_end - onset);
-    else if (trial.has_outcome() && trial.outcome.responded_at > onset)
-        of.presentation_s = to_seconds(trial.outcome.responded_at - onset);
-    else
-        of.presentation_s = header.animation.duration_s;
+    of.presentation_s = presentation.duration_s;
 
-    const auto validation = std::find_if(validations.rbegin(), validations.rend(),
-                                         [&](const auto& one) { return one.at <= trial.started; });
-    const double accuracy_deg = validation != validations.rend() ? validation->mean_deg : 0.0;
+    const double accuracy_deg = presentation.validation ? presentation.validation->mean_deg : 0.0;
     const PlacedSamples placed =
         placed_samples(record, trial, ledger, surface.lookup, onset, header.tracker.eye,
                        Degrees{options.reach_deg.value_or(accuracy_deg)});
@@ -109,9 +102,9 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                      [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
 
     of.quality = gaze_quality(placed.samples, events, header.display.screen);
-    if (validation != validations.rend()) {
-        of.quality.accuracy_deg = validation->mean_deg;
-        of.quality.worst_accuracy_deg = validation->worst_deg;
+    if (presentation.validation) {
+        of.quality.accuracy_deg = presentation.validation->mean_deg;
+        of.quality.worst_accuracy_deg = presentation.validation->worst_deg;
     }
     if (trial.outcome.drift)
         of.quality.drift_deg = trial.outcome.drift->value;
@@ -147,9 +140,8 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                                   header.poses.angles,
                                   surface.scale,
                                   surface.lookup != nullptr,
-                                  surface.fine,
-                                  surface.coarse,
-                                  surface.field,
+                                  surface.has_mesh,
+                                  surface.ways,
                                   surface.lookup,
                                   cone ? &*cone : nullptr,
                                   &header.display.screen,
