@@ -93,15 +93,15 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                      const StudyOptions& options) {
     const SessionHeader& header = record.header();
     const std::optional<TrialLedger> ledger = record.ledger(trial);
-    const bool has_onset = trial.reached(trial.outcome.presentation_onset);
-    const SessionTime onset = has_onset ? trial.outcome.presentation_onset : trial.started;
+    const TrialPresentation presentation = presentation_of(header, trial, validations);
+    const SessionTime onset = presentation.onset;
     ReadTrial read;
     StudyTrial& of = read.trial;
     of.number = trial.trial.index + 1;
     of.label = fmt::format("observer {}, trial {}", header.schedule.observer.label, of.number);
-    const auto validation = std::find_if(validations.rbegin(), validations.rend(),
-                                         [&](const auto& one) { return one.at <= trial.started; });
-    const double accuracy_deg = validation != validations.rend() ? validation->mean_deg : 0.0;
+    of.presentation_s = presentation.duration_s.value_or(0.0);
+
+    const double accuracy_deg = presentation.validation ? presentation.validation->mean_deg : 0.0;
     const PlacedSamples placed =
         placed_samples(record, trial, ledger, surface.lookup, onset, header.tracker.eye,
                        Degrees{options.reach_deg.value_or(accuracy_deg)});
@@ -119,19 +119,13 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
 
     const bool has_stimulus = ledger || !knows_no_stimulus(header);
     const std::optional<ClockMap> clock_map = record.clock_map(trial);
-    if (has_onset && trial.reached(trial.outcome.presentation_end))
-        of.presentation_s = to_seconds(trial.outcome.presentation_end - onset);
-    else if (trial.has_outcome() && trial.outcome.responded_at > onset)
-        of.presentation_s = to_seconds(trial.outcome.responded_at - onset);
-    else if (has_stimulus)
-        of.presentation_s = header.animation.duration_s;
-    else
+    if (!has_stimulus && !presentation.duration_s)
         of.presentation_s = recorded_s(placed.samples, events, clock_map, onset);
 
     of.quality = gaze_quality(placed.samples, events, header.display.screen);
-    if (validation != validations.rend()) {
-        of.quality.accuracy_deg = validation->mean_deg;
-        of.quality.worst_accuracy_deg = validation->worst_deg;
+    if (presentation.validation) {
+        of.quality.accuracy_deg = presentation.validation->mean_deg;
+        of.quality.worst_accuracy_deg = presentation.validation->worst_deg;
     }
     if (trial.outcome.drift)
         of.quality.drift_deg = trial.outcome.drift->value;
@@ -170,9 +164,8 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                                   surface.scale,
                                   surface.lookup != nullptr,
                                   has_stimulus,
-                                  surface.fine,
-                                  surface.coarse,
-                                  surface.field,
+                                  surface.has_mesh,
+                                  surface.ways,
                                   surface.lookup,
                                   cone ? &*cone : nullptr,
                                   &header.display.screen,
