@@ -10,6 +10,7 @@
 #include "app/analyze/kernel_width.h"
 #include "app/analyze/study_folder.h"
 #include "app/cli/command_options.h"
+#include "app/cli/event_options.h"
 #include "app/cli/interruption.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
@@ -26,6 +27,7 @@ struct AnalyzeOptions {
     std::optional<std::string> compare; ///< nothing: the usual one, where it makes groups
     std::string by, sigma = "1deg", kernel = "geodesic", format = "csv", shard;
     bool overwrite = false;
+    EventOptions events;
     StudyExtras extras;
     bool json = false;
 };
@@ -122,6 +124,7 @@ int run_shard(const AnalyzeOptions& options) {
 
 int run_analyze(AnalyzeOptions options) {
     options.study.by = listed(options.by);
+    options.study.detect_events = options.events.detection();
     if (options.compare) {
         if (std::ranges::find(options.study.by, *options.compare) == options.study.by.end())
             throw InputError(fmt::format("--compare {}: takes one of the columns of --by, which are {}",
@@ -191,6 +194,9 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
            "Exclude trials with a larger error at the drift check", not_negative());
     option(command, "--most-missed", study.exclude.most_missed_refreshes, "N",
            "Exclude trials with more missed refreshes", CLI::NonNegativeNumber);
+    add_event_options(command, options.events,
+                      "Find fixations, saccades and blinks anew in the samples, in place of those on record; "
+                      "imported recordings without any have them found anyway");
     option(command, "--time-step", study.time_step_s, "S", "Stretches of the time course", above_zero(),
            shown_default);
     option(command, "--confidence", study.confidence, "", "Level of intervals", CLI::Range(0.5, 0.999),

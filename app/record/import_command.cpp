@@ -83,6 +83,7 @@ int run_import(const ImportOptions& options) {
     if (options.screen_mm.size() == 2)
         request.screen_mm = glm::dvec2(options.screen_mm[0], options.screen_mm[1]);
     request.viewing_distance_mm = options.distance_mm;
+    request.detect_events = options.events.detection();
     request.program = this_build();
     request.now_utc = utc_now();
     request.report = [&](const std::string& line) {

@@ -38,6 +38,10 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
         ->expected(2);
     option(command, "--distance-mm", options.distance_mm, "MM",
            "From the eyes to the screen, where the file does not say it", above_zero());
+    add_event_options(
+        command, options.events,
+        "Note that the session's fixations, saccades and blinks are to be found in its samples, in place of "
+        "any that the file has, which stay on record");
     option(command, "--print-session-to", options.print_session_to, "FILE",
            "Write the new session's path into a file");
     command.add_flag("--json", options.json, "Print JSON");

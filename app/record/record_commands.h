@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/cli/chosen_command.h"
+#include "app/cli/event_options.h"
 
 namespace overt {
 
@@ -25,6 +26,7 @@ struct ImportOptions {
     std::string task = "imported";
     std::vector<double> screen_mm; ///< width and height, or empty
     std::optional<double> distance_mm;
+    EventOptions events;
     std::filesystem::path print_session_to;
     bool json = false;
 };

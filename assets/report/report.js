@@ -452,7 +452,7 @@ if (data.trials.length) {
             percent(q.lost), percent(q.blinked), q.blinks, digits(q.rate, 5), q.refreshes, q.missed, s.trials];
   });
   by_id('quality_table').append(table([{text: 'observer'}, {text: 'tracker'}, 'accuracy / deg', 'worst / deg', 'RMS-S2S / deg', 'SD / deg', 'lost', 'lost in blinks', 'blinks', 'rate / Hz', 'refreshes', 'missed', 'trials'], rows,
-      'As the minimum reporting guideline asks (Dunn et al. 2023). Accuracy: mean and largest offset at the validation targets. RMS-S2S and SD: within fixations, medians.'));
+      'As the minimum reporting guideline asks (Dunn et al. 2023). Accuracy: mean and largest offset at the validation targets. RMS-S2S and SD: within fixations, medians; SD around the motion of the eye, a line through each 0.2 s.'));
   by_id('reporting_body').append(table([{text: 'aspect'}, {text: 'item'}, {text: 'value'}], data.reporting.map(r => r.slice(0, 3)),
       'Aspects of Holmqvist et al. (2022, table 7), on which the minimum reporting guideline of Dunn et al. (2023) rests. What is not recorded has to be added by hand.'));
   const excluded = data.trials.filter(t => t.excluded);

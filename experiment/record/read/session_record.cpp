@@ -40,6 +40,7 @@ SessionRecord::SessionRecord(const std::filesystem::path& session)
     : directory_(std::filesystem::is_directory(session) ? session : session.parent_path()),
       file_(std::filesystem::is_directory(session) ? session / session_file_name : session),
       database_(std::make_unique<SQLite::Database>(open_session_file(file_, SessionFileUse::read))) {
+    make_ready_to_find();
     reading_session(file_, [&] {
         header_ = read_session_header(*database_);
         trials_ = read_trials(*database_);

@@ -122,8 +122,9 @@ void write_gaze_events_outside(TableWriter& writer, const RowLayout<GazeEventRow
         if (record.gaze_source(trial.sitting))
             sitting = trial.sitting;
     const std::optional<ClockMap> clock_map = record.clock_map(sitting);
+    const SessionRecord::EventOrigin::From origin = record.event_origin(sitting).from;
     record.read_gaze_events_outside([&](const GazeEvent& event) {
-        layout.write(writer, {{event}, 0, clock_map, SessionRecord::EventOrigin::From::tracker});
+        layout.write(writer, {{event}, 0, clock_map, origin});
     });
 }
 

@@ -23,7 +23,8 @@ std::string folder_name(const std::filesystem::path& session) {
 
 } // namespace
 
-std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> sessions) {
+std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> sessions,
+                                       const std::optional<ChosenThresholds>& detect_events) {
     std::vector<OpenSession> open;
     const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
     const std::size_t readers = (processors + sessions.size() - 1) / sessions.size();
@@ -35,7 +36,12 @@ std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> se
         one.path = std::filesystem::weakly_canonical(session);
         for (std::size_t i = 0; i < readers; ++i) {
             one.readers.push_back(std::make_unique<SessionRecord>(session));
-            one.readers.back()->detect_events_of_imports();
+            if (i > 0)
+                one.readers.back()->detect_events_as(*one.readers.front());
+            else if (detect_events)
+                one.readers.front()->detect_events(*detect_events);
+            else
+                one.readers.front()->detect_events_of_imports();
             one.keys.push_back(std::make_unique<TrialKeys>(*one.readers.back()));
         }
         one.record().read_events([&](const RecordedEvent& event) {

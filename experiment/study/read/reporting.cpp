@@ -193,9 +193,11 @@ std::vector<ReportingItem> reporting_items(const StudyResults& results, const St
     over_trials(
         "precision (RMS-S2S)", " deg", 1.0, [](const StudyQuality& q) { return q.rms_s2s_deg; },
         "there are no fixations");
-    over_trials(
-        "precision (SD)", " deg", 1.0, [](const StudyQuality& q) { return q.sd_deg; },
-        "there are no fixations");
+    std::string scatter =
+        spread_over_trials(results, " deg", 1.0, [](const StudyQuality& q) { return q.sd_deg; });
+    if (!scatter.empty())
+        scatter += "; around the motion of the eye, a line through each 0.2 s of a fixation";
+    add("6 data quality", "precision (SD)", std::move(scatter), "there are no fixations");
     const auto share = [](double StudyQuality::*number) {
         return [number](const StudyQuality& q) {
             return q.samples > 0.0 ? std::optional(q.*number / q.samples) : std::nullopt;

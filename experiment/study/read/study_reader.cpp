@@ -24,7 +24,8 @@ class StudyReader {
   public:
     StudyReader(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
                 const StudyOptions& options, const StudyProgress& progress)
-        : surface_for_(surface_for), options_(options), progress_(progress), open_(open_sessions(sessions)) {
+        : surface_for_(surface_for), options_(options), progress_(progress),
+          open_(open_sessions(sessions, options.detect_events)) {
         for (std::size_t i = 0; i < open_.size(); ++i)
             add_session(i, sessions[i]);
         study_.surfaces.resize(results().sculptures.size());
@@ -314,6 +315,11 @@ class StudyReader {
                     own.push_back(&trial.quality);
             }
             results().session_quality.push_back(quality_of_all(own));
+        }
+        const std::string no_angles = sentence_on({SessionRecord::EventOrigin::From::no_angles, {}});
+        for (const StudySession& session : results().sessions) {
+            if (session.events.find(no_angles) != std::string::npos)
+                results().remarks.push_back(fmt::format("{}: {}", session.folder, no_angles));
         }
         if (any_both_eyes)
             results().remarks.emplace_back(

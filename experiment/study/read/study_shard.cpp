@@ -221,7 +221,7 @@ bool is_shard(const std::filesystem::path& folder) {
 std::vector<StudyParameter> reading_parameters(const StudyOptions& options) {
     static const std::vector<std::string> of_reading{"sigma",      "shortest-fixation", "least-on-surface",
                                                      "reach",      "most-lost",         "most-accuracy",
-                                                     "most-drift", "most-missed"};
+                                                     "most-drift", "most-missed",       "detect-events"};
     std::vector<StudyParameter> parameters = parameters_of(options);
     std::erase_if(parameters, [](const StudyParameter& one) {
         return std::ranges::find(of_reading, one.name) == of_reading.end();

@@ -177,9 +177,9 @@ struct StudyQuality {
     std::optional<double> worst_accuracy_deg; ///< its largest
     std::optional<double> drift_deg;          ///< gaze error at the drift check
     std::optional<double> rms_s2s_deg;        ///< of successive samples within fixations, median over these
-    std::optional<double> sd_deg;             ///< standard deviation within fixations, median over these
-    std::optional<double> rate_hz;            ///< from the samples' own time stamps
-    double samples = 0.0, lost = 0.0;         ///< numbers of samples; lost ones outside of blinks
+    std::optional<double> sd_deg;  ///< of samples around the eye's motion within fixations, median over these
+    std::optional<double> rate_hz; ///< from the samples' own time stamps
+    double samples = 0.0, lost = 0.0; ///< numbers of samples; lost ones outside of blinks
     double lost_in_blinks = 0.0;
     int blinks = 0;
     int refreshes = 0;
