@@ -36,8 +36,8 @@ PlantedGaze planted_gaze() {
     // As they come back from a file with three decimals.
     for (GazeSample& sample : planted.samples)
         if (sample.gaze)
-            sample.gaze = ScreenPoint{1e-3 * std::round(1e3 * sample.gaze->x_px),
-                                      1e-3 * std::round(1e3 * sample.gaze->y_px)};
+            sample.gaze = ScreenPoint{std::stod(fmt::format("{:.3f}", sample.gaze->x_px)),
+                                      std::stod(fmt::format("{:.3f}", sample.gaze->y_px))};
     return planted;
 }
 
