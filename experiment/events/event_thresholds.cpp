@@ -15,7 +15,7 @@ constexpr double least_velocity_deg_s = 27.0, most_velocity_deg_s = 31.0;
 constexpr double widest_interval_ms = 7.0;
 constexpr double least_times_noise = 2.0;
 
-constexpr double usual_acceleration_deg_s2 = 8500.0;
+constexpr double usual_acceleration_deg_s2 = 8000.0;
 // At 500 Hz and more.
 constexpr double calm_noise_deg_s = 8.0, calm_interval_ms = 2.0;
 constexpr double most_acceleration_deg_s2 = 1e6; // which no eye reaches
