@@ -80,15 +80,13 @@ GazeStudies::GazeStudies(const Experiment& experiment, std::vector<PowerEffect> 
         StudySculpture sculpture;
         sculpture.id = shown.id;
         sculpture.part_names = shown.mesh.part_names;
-        for (std::size_t part = 0; part < shown.mesh.part_names.size(); ++part) {
-            if (shown.mesh.part_names[part] == "head")
-                sculpture.head = static_cast<PartIndex>(part);
-        }
+        sculpture.head = HeadParts(shown.mesh.part_names);
         sculpture.camera = shown.scene.view.camera;
         sculpture.axis_point = shown.scene.bounds.centre();
         sculpture.screen = scene_.screen;
         SculptureSurface surface;
-        surface.scale = surface_scale(sculpture.camera, sculpture.axis_point, sculpture.screen);
+        surface.scale = object_scale(sculpture.camera, sculpture.axis_point, sculpture.screen,
+                                     unit_of_lengths(protocol.sculptures[i]));
         if (surface.scale) {
             sculpture.mm_per_unit = surface.scale->mm_per_unit;
             sculpture.mm_per_deg = surface.scale->mm_per_deg;
@@ -196,7 +194,7 @@ void GazeStudies::add_trial(const Trial& trial, std::uint64_t seed, const Observ
             found.part = point->part;
             found.on_surface = 1.0;
             if (const auto& scale = surfaces_[sculpture].scale)
-                found.sigma_mm = scale->sigma_mm(settings_.sigma, point->depth);
+                found.sigma_mm = sigma_mm(settings_.sigma, *scale, point->depth);
         } else {
             found.why = NotCounted::not_on_surface;
         }

@@ -43,7 +43,7 @@ class Pilot {
 
     int observers() const { return studies_wanted_ * pilot_observers; }
 
-    /// In mm^2, over trials; 0 where none is compared.
+    /// In deg^2, over trials; 0 where none is compared.
     double mean_wss(std::span<const std::string> ids_of_tasks) const {
         std::vector<double> sums(static_cast<std::size_t>(studies_wanted_), 0.0);
         std::vector<int> counts(sums.size(), 0);
@@ -64,7 +64,8 @@ class Pilot {
                         points.push_back(fixation.position);
                     });
                     if (const auto spread = point_spread(points); spread && scale) {
-                        sums[at] += spread->wss() * scale->mm_per_unit * scale->mm_per_unit;
+                        const double deg_per_unit = scale->mm_per_unit / scale->mm_per_deg;
+                        sums[at] += spread->wss() * deg_per_unit * deg_per_unit;
                         ++counts[at];
                     }
                 }

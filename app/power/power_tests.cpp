@@ -97,7 +97,7 @@ std::vector<StudyOutcome> tested(const GazeStudies& studies, const StudyResults&
             const auto& scale = studies.surfaces()[static_cast<std::size_t>(one.sculpture)].scale;
             values.push_back({one.observer, effect.measure == PowerMeasure::head
                                                 ? head_difference(one, results)
-                                                : std::optional(wss_difference_mm2(one, *scale))});
+                                                : std::optional(wss_difference_deg2(one, *scale))});
         }
     }
     for (const int count : observers)

@@ -5,12 +5,11 @@
 
 namespace overt {
 
-VertexMaps::VertexMaps(const Mesh& mesh, const SurfaceScale& scale, const KernelWidth& sigma,
-                       int most_threads)
+VertexMaps::VertexMaps(const Mesh& mesh, const ObjectScale& scale, const KernelWidth& sigma, int most_threads)
     : fine_(mesh, scale.mm_per_unit), coarse_(fine_, coarse_nodes) {
     const SurfaceGeometry geometry(coarse_.mesh());
     areas_ = geometry.vertex_areas_mm2();
-    const double sigma_mm = scale.sigma_mm(sigma, scale.axis_depth);
+    const double sigma_mm = overt::sigma_mm(sigma, scale, scale.axis_depth);
     const SurfaceSmoother smoother(geometry, sigma_mm);
     maps_.reserve(coarse_.vertex_count());
     // Some at a time: in double they take twice the memory.

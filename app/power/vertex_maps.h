@@ -16,7 +16,7 @@ namespace overt {
 class VertexMaps {
   public:
     /// `most_threads` as in SurfaceSmoother::densities.
-    VertexMaps(const Mesh& mesh, const SurfaceScale& scale, const KernelWidth& sigma, int most_threads);
+    VertexMaps(const Mesh& mesh, const ObjectScale& scale, const KernelWidth& sigma, int most_threads);
 
     std::span<const double> areas() const { return areas_; }
     /// By vertex; fixations count alike.

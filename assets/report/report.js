@@ -120,7 +120,7 @@ class Panel {
           (map.least_p > alpha + 1e-9 ? ` So many observers can give no p below ${digits(map.least_p)}.` : '') + coarse;
       this.view.show(geometry, values, colour_tables.coolwarm, (value, v) => {
         const n = of_cluster[v], c = n ? map.clusters[n - 1] : null;
-        return `${digits((2 * value - 1) * most)} of the fixation time per mm²` + (c ? `, in cluster ${n} (${digits(c.area)} mm², p ${digits(c.p)})` : ', in no cluster');
+        return `${digits((2 * value - 1) * most)} of the fixation time per mm²` + (c ? `, in cluster ${n} (${digits(c.area)} mm², p ${p_text(c.p)})` : ', in no cluster');
       });
     } else {
       const unit = map.by === 'duration' ? 'ms/mm²' : 'fixations/mm²', most = scale.value === 'own' ? map.peak : common[map.by];
@@ -128,7 +128,7 @@ class Panel {
       text.textContent = `${map.observers} observers, ${map.trials} trials, ${map.fixations} fixations; peak ${digits(map.peak)} ${unit} a trial; ` +
           `kernel sigma ${digits(map.sigma[0])} to ${digits(map.sigma[1])} mm` +
           (map.leak !== null ? `; a Euclidean kernel would put ${percent(map.leak)} beyond three sigmas along the surface` : '') +
-          (map.error.together !== null ? `; uncertainty of a place ${digits(map.error.together)} mm` : '') + '.' + coarse;
+          (map.error.together !== null ? `; uncertainty of a place ${mm_text(map.error.together)} mm` : '') + '.' + coarse;
       this.view.show(geometry, values, colour_tables[colours.value], v => `${digits(v * most)} ${unit} a trial`);
     }
   }
@@ -217,15 +217,15 @@ draw_figure5();
 
 // Table 1.
 {
-  const cell = s => estimate_text(s.value), extra = s => estimate_text(s.ceiling), chance = s => estimate_text(s.null);
   const rows = data.tables.pairs;
   by_id('table1_body').append(rows.length ? table(
-      [{text: 'pair (a, b)'}, 'WSS a - b / mm²', 'p (Holm)', 'CC', 'its ceiling', 'its null', 'p', 'SIM', 'its ceiling', 'its null', 'p', 'SIM without scaling', 'observers'],
-      rows.map(r => [`${words(r.keys)}: ${r.a}, ${r.b}` + (r.absent ? ` (${r.absent})` : ''), estimate_text(r.wss, 4),
-                     digits(r.p) + (r.holm !== null ? ` (${digits(r.holm)})` : ''), cell(r.cc), extra(r.cc), chance(r.cc), digits(r.cc.p),
-                     cell(r.sim), extra(r.sim), chance(r.sim), digits(r.sim.p), cell(r.sim_plain), r.observers]),
-      'Each score is of one observer and one sculpture, then averaged. The ceiling is what two halves of the gaze on one and the same condition give, ' +
-      'the null what labels exchanged within observers give: a CC or SIM below its ceiling, not below 1, tells of a difference. SIM after scaling each map from 0 to 1 (MIT benchmark), and without (pysaliency).')
+      [{text: 'pair (a, b)'}, 'WSS a - b / deg²', 'its p', 'p after Holm', 'CC of all maps', 'its p', 'p after Holm', 'CC', 'halves of a and b', 'halves of one', 'SIM', 'halves of a and b', 'halves of one', 'observers'],
+      rows.map(r => [`${words(r.keys)}: ${r.a}, ${r.b}` + (r.absent ? ` (${r.absent})` : ''), estimate_text(r.wss_deg), p_text(r.p), p_text(r.holm),
+                     digits(r.maps_cc), p_text(r.maps_p), p_text(r.maps_holm), ...[r.cc, r.sim].flatMap(s => [estimate_text(s.value), estimate_text(s.between), estimate_text(s.within)]), r.observers]),
+      `WSS, CC and SIM are of one observer and one sculpture, then averaged; in brackets the ${level} over observers. CC of all maps: the maps of all observers are added up for each level. ` +
+      'Whether maps differ is told by its p, for which an observer\'s two levels are swapped, whole maps at once; for the p of WSS the signs of observers\' differences are flipped. After Holm: corrected for the rows of the table, those over all groups apart. ' +
+      'A similarity grows with the number of fixations and is below 1 even where nothing differs. Halves all have as many fixations, so those of a and b can be held against two halves of one level. ' +
+      'The latter are somewhat more alike even without a difference where the fixations of a trial share an error of calibration. SIM: maps scaled from 0 to 1 first (MIT benchmark); table1_pairs has it without scaling, too.')
       : element('p', {class: 'note'}, 'There is no factor whose levels the same observers saw on the same sculpture.'));
 }
 
@@ -234,12 +234,12 @@ draw_figure5();
   const maps = data.differences, rows = [];
   for (const d of maps) {
     const name = words(d.keys), where = data.sculptures[d.sculpture], pair = `${d.a} less ${d.b}`;
-    if (!d.values || !d.clusters.length) rows.push([name, where.title, pair, d.observers, d.absent || 'no vertex beyond the threshold', 'n/a', 'n/a', 'n/a', 'n/a', 'n/a', digits(d.least_p)]);
+    if (!d.values || !d.clusters.length) rows.push([name, where.title, pair, d.observers, d.absent || 'no vertex beyond the threshold', 'n/a', 'n/a', 'n/a', 'n/a', 'n/a', p_text(d.least_p)]);
     d.clusters.forEach((c, i) => {
       // Small ones are in the table of clusters.
       if (i > 0 && c.p > 0.2) return;
       rows.push([name, where.title, pair, d.observers, (c.part !== null ? where.parts[c.part] : 'n/a') + `, cluster ${i + 1} of ${d.clusters.length}`,
-                 digits(c.area), c.centre.map(x => digits(x)).join(', '), percent(c.difference), digits(c.p), digits(c.p_all), digits(d.least_p)]);
+                 digits(c.area), c.centre.map(mm_text).join(', '), percent(c.difference), p_text(c.p), p_text(c.p_all), p_text(d.least_p)]);
     });
   }
   by_id('differences').hidden = rows.length === 0;
@@ -272,7 +272,7 @@ draw_figure5();
   const errors = data.maps.filter(m => m.by === 'duration' && m.values);
   put('errors_body', errors, () => table(
       [{text: 'condition'}, {text: 'sculpture'}, 'accuracy / mm', 'precision / mm', 'timing / mm', 'look-up / mm', 'together / mm', 'kernel sigma / mm', 'Euclidean leak', 'cone beyond an edge', 'samples near an edge'],
-      errors.map(m => [condition(m), title(m), ...['accuracy', 'precision', 'timing', 'lut', 'together'].map(k => digits(m.error[k])), `${digits(m.sigma[0])} to ${digits(m.sigma[1])}`,
+      errors.map(m => [condition(m), title(m), ...['accuracy', 'precision', 'timing', 'lut', 'together'].map(k => mm_text(m.error[k])), `${digits(m.sigma[0])} to ${digits(m.sigma[1])}`,
                        percent(m.leak), percent(m.error.at_edge), percent(m.error.near_edge)]),
       'Root mean squares over the fixations, along the surface. Accuracy: the gaze cone of the validation before each trial. Precision: of a single sample (RMS-S2S divided by the root of 2). ' +
       'Timing: uncertainty of the clocks times the speed of the surface under gaze. An edge is where the sculpture ends or another sheet of it begins.'));
@@ -284,7 +284,7 @@ draw_figure5();
   const rows = data.tables.effects;
   if (rows.length) by_id('effects_body').append(
       table([{text: 'measure'}, {text: 'effect'}, 'p', 'p after Holm', 'observers', {text: 'remark'}],
-            rows.map(r => [r.measure, r.effect.replace(':', ' × '), digits(r.p), digits(r.holm), r.observers, r.absent || (r.least > alpha + 1e-9 ? `so many observers can give no p below ${digits(r.least)}` : '')]),
+            rows.map(r => [r.measure, r.effect.replace(':', ' × '), p_text(r.p), p_text(r.holm), r.observers, r.absent || (r.least > alpha + 1e-9 ? `so many observers can give no p below ${digits(r.least)}` : '')]),
             'Of trials: the share of counted fixations on the head, and the logarithm of WSS. Permutations within observers: of a factor the levels are exchanged, of two together (×) the signs of whole observers. ' +
             'Holm: corrected over the rows of the same measure. Mixed models (lme4): run mixed_models.R beside this page.'));
   else by_id('effects').hidden = true;
@@ -499,21 +499,10 @@ if (data.trials.length) {
 
 // Methods.
 {
-  const value = name => { const p = data.parameters.find(q => q[0] === name); return p ? p[1] + (p[2] ? ' ' + p[2] : '') : null; };
-  const g = data.glance, trackers = [...new Set(data.sessions.map(s => s.tracker))].join(', '), events = [...new Set(data.sessions.map(s => s.events))].join(' ');
-  const screens = [...new Set(data.sculptures.map(s => `${s.screen[0]} x ${s.screen[1]} pixels with ${digits(s.px_per_deg)} pixels per degree, the stimulus ${s.image[0]} x ${s.image[1]}`))].join('; ');
-  const parts = [
-    `${g.simulated ? 'Gaze was simulated. ' : ''}${g.observers} observers took part in ${g.sessions} sessions with ${g.trials} trials; ${g.excluded} trials were excluded. The display had ${screens}. Gaze was recorded by ${trackers}. ${events}`,
-    'Each sample was assigned to the animation frame that was lit at its time on its row of the screen, and to the point where the line of sight through it meets the sculpture in the pose of that frame. ' +
-    `A fixation's place is that of its samples whose summed distance to the others along the surface is least; ${g.counted} of ${g.fixations} fixations were counted.`,
-    'Maps were made by letting the weight of each fixation spread on the surface as heat (cotangent Laplacian on an intrinsic Delaunay triangulation, implicit steps), which is a Gaussian along the surface. ' +
-    `${data.parameters.map(p => p[3]).join(' ')}`,
-    `Intervals are ${level}s over observers. CC and SIM are reported beside the noise ceiling from halves of the same condition and beside the null distribution of exchanged labels. Maps cover only vertices that were visible; all values are weighted by area.`,
-  ];
-  for (const part of parts) by_id('methods_text').append(element('p', {}, part));
+  for (const [topic, text] of data.methods) by_id('methods_text').append(element('p', {}, element('b', {}, topic + '. '), text));
   by_id('parameters').append(table([{text: 'parameter'}, 'value', {text: 'unit'}, {text: 'meaning'}], data.parameters));
   by_id('copy_methods').addEventListener('click', () => {
-    const text = parts.join('\n\n'), done = () => { by_id('copied').textContent = 'Copied.'; };
+    const text = data.methods.map(([topic, words]) => topic + '. ' + words).join('\n\n'), done = () => { by_id('copied').textContent = 'Copied.'; };
     const by_hand = () => {
       const range = document.createRange();
       range.selectNodeContents(by_id('methods_text'));

@@ -17,21 +17,30 @@ function shape(name, attributes = {}, text) {
   return made;
 }
 
-// Three or so significant digits, without exponents where they can be had.
-function digits(value, count = 3) {
+// Three or so significant digits, without exponents where they can be had. `least`: nobody can use less than
+// this of the quantity, such as a thousandth of a millimetre.
+function digits(value, count = 3, least = 0) {
   if (value === null || value === undefined || !Number.isFinite(value)) return 'n/a';
   if (value === 0) return '0';
   const size = Math.abs(value);
+  if (size < least / 2) return `< ${least}`;
+  if (least) return String(Number(size >= 10 ** count ? value.toFixed(0) : Number(value.toPrecision(count)).toFixed(Math.max(0, Math.round(-Math.log10(least))))));
   if (size >= 1e6 || size < 1e-4) return value.toExponential(count - 1);
   return size >= 10 ** count ? value.toFixed(0) : String(Number(value.toPrecision(count)));
 }
+const mm_text = value => digits(value, 3, 0.001);
+const p_text = p => (p === null || p === undefined || !Number.isFinite(p) ? 'n/a' : p < 0.001 ? '< 0.001' : p.toFixed(3));
 
 function percent(value) { return value === null || value === undefined ? 'n/a' : (100 * value).toFixed(1) + ' %'; }
 
-// "0.61 [0.55, 0.67]", or why there is none.
+// "0.61 [0.55, 0.67]", or why there is none. With an interval as many decimals as tell its ends apart by two digits.
 function estimate_text(e, count = 3) {
   if (!e || e.v === null || e.v === undefined) return 'n/a' + (e && e.absent ? ' (' + e.absent + ')' : '');
-  return digits(e.v, count) + (e.lo !== undefined ? ` [${digits(e.lo, count)}, ${digits(e.hi, count)}]` : '');
+  const width = e.lo === undefined || e.lo === null ? 0 : e.hi - e.lo;
+  if (!(width > 0)) return digits(e.v, count) + (e.lo === undefined || e.lo === null ? '' : ` [${digits(e.lo, count)}, ${digits(e.hi, count)}]`);
+  const decimals = Math.min(9, Math.max(0, 1 - Math.floor(Math.log10(width))));
+  const text = v => v.toFixed(decimals).replace(/^-(0(\.0*)?)$/, '$1');
+  return `${text(e.v)} [${text(e.lo)}, ${text(e.hi)}]`;
 }
 
 function table(head, rows, note) {

@@ -118,8 +118,8 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
                             {"observer", s.observer},
                             {"number", s.number},
                             {"protocol", s.protocol},
-                            {"tracker", s.tracker},
-                            {"simulated", s.is_simulated},
+                            {"tracker", s.setup.gaze.tracker},
+                            {"simulated", s.is_simulated()},
                             {"form", json_of(s.form)},
                             {"events", s.events},
                             {"complete", s.is_complete},
@@ -139,6 +139,9 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
     Json reporting = Json::array();
     for (const ReportingItem& item : results.reporting)
         reporting.push_back({item.topic, item.item, item.value, item.is_recorded});
+    Json methods = Json::array();
+    for (const MethodsParagraph& paragraph : results.methods)
+        methods.push_back({paragraph.topic, paragraph.text});
     Json colours = Json::object();
     for (const ColourMap map : {ColourMap::viridis, ColourMap::cividis, ColourMap::coolwarm}) {
         std::vector<std::uint8_t> bytes;
@@ -167,6 +170,7 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
             {"sessions", sessions},
             {"session_quality", quality},
             {"reporting", reporting},
+            {"methods", methods},
             {"sculptures", std::move(maps.sculptures)},
             {"groups", groups},
             {"maps", std::move(maps.maps)},

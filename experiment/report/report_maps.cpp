@@ -187,6 +187,7 @@ ReportMaps report_maps(const StudyResults& results) {
              {"image", {sculpture.screen.image_px.x, sculpture.screen.image_px.y}},
              {"px_per_deg", number(sculpture.screen.px_per_deg_at_centre())},
              {"mm_per_unit", number(sculpture.mm_per_unit)},
+             {"shown_size", number(sculpture.shown_size)},
              {"remark", sculpture.remark},
              {"mesh", shown.back().json}});
         const ShownMesh& mesh = shown.back();

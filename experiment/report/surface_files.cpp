@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -14,14 +16,33 @@
 namespace overt {
 namespace {
 
-/// One file to be written.
+/// One map to be written.
 struct SurfaceFile {
-    std::string name, title, unit, kind;
+    std::string name, title, quantity, kind;
+    bool is_density; ///< per area, in mm^2
     const StudySculpture* sculpture;
     const std::vector<float>* values;
     ColourMap colours;
     double low, high;
 };
+
+/// A format with its unit of length.
+struct MeshFormat {
+    std::string_view ending, unit;
+    double units_per_mm;
+    void (*write)(const std::filesystem::path&, const ColouredMesh&);
+};
+constexpr MeshFormat mesh_formats[] = {{"glb", "m", 1e-3, write_glb}, {"ply", "mm", 1.0, write_coloured_ply}};
+
+/// What a value of the file is in one of the map.
+double value_scale(const SurfaceFile& file, const MeshFormat& format) {
+    return file.is_density ? 1.0 / (format.units_per_mm * format.units_per_mm) : 1.0;
+}
+
+std::string quantity_in(const SurfaceFile& file, const MeshFormat& format) {
+    return file.is_density ? fmt::format("{} per {}^2 of the object", file.quantity, format.unit)
+                           : file.quantity;
+}
 
 std::vector<std::array<std::uint8_t, 3>> colours_of(const SurfaceFile& file) {
     const ColourTable& table = colour_table(file.colours);
@@ -52,7 +73,8 @@ std::vector<SurfaceFile> files_of(const StudyResults& results) {
     }
     FileNames names;
     const auto add = [&](SurfaceFile file) {
-        const bool fits = file.sculpture->mesh && !file.sculpture->mesh->triangles.empty() &&
+        const bool fits = file.sculpture->mesh && file.sculpture->mm_per_unit &&
+                          !file.sculpture->mesh->triangles.empty() &&
                           file.values->size() == file.sculpture->mesh->positions.size();
         if (!fits)
             return;
@@ -66,7 +88,7 @@ std::vector<SurfaceFile> files_of(const StudyResults& results) {
         const std::vector<StudyKey>& keys = results.groups[static_cast<std::size_t>(map.group)].keys;
         const std::string words = words_of_keys(keys);
         add({fmt::format("map_{}_{}", sculpture.id, words), fmt::format("{}: {}", sculpture.title, words),
-             "ms of fixation per mm^2 and trial", "map", &sculpture, &map.density, ColourMap::viridis, 0.0,
+             "ms of fixation of a trial", "map", true, &sculpture, &map.density, ColourMap::viridis, 0.0,
              most > 0.0 ? most : 1.0});
     }
     for (const StudySculpture& sculpture : results.sculptures) {
@@ -75,22 +97,44 @@ std::vector<SurfaceFile> files_of(const StudyResults& results) {
             return top > 0.0 ? top : 1.0;
         };
         add({fmt::format("exposure_{}", sculpture.id), fmt::format("{}: exposure", sculpture.title),
-             "share of the exposure per mm^2", "exposure", &sculpture, &sculpture.exposure_density,
+             "share of the exposure", "exposure", true, &sculpture, &sculpture.exposure_density,
              ColourMap::viridis, 0.0, highest(sculpture.exposure_density)});
         add({fmt::format("visible_{}", sculpture.id), fmt::format("{}: time visible", sculpture.title),
-             "s of a presentation", "visible", &sculpture, &sculpture.seconds_visible, ColourMap::viridis,
-             0.0, highest(sculpture.seconds_visible)});
+             "s of a presentation", "visible", false, &sculpture, &sculpture.seconds_visible,
+             ColourMap::viridis, 0.0, highest(sculpture.seconds_visible)});
     }
     for (const DifferenceMap& map : results.differences) {
         const StudySculpture& sculpture = results.sculptures[static_cast<std::size_t>(map.sculpture)];
         const std::string words =
             fmt::format("{}, {} {} less {}", words_of_keys(map.keys), map.column, map.a, map.b);
         add({fmt::format("difference_{}_{}", sculpture.id, words),
-             fmt::format("{}: {}", sculpture.title, words), "share of fixation time per mm^2", "difference",
+             fmt::format("{}: {}", sculpture.title, words), "share of fixation time", "difference", true,
              &sculpture, &map.difference, ColourMap::coolwarm, largest > 0.0 ? -largest : -1.0,
              largest > 0.0 ? largest : 1.0});
     }
     return files;
+}
+
+void write_as(const MeshFormat& format, const SurfaceFile& file,
+              std::span<const std::array<std::uint8_t, 3>> colours, const std::filesystem::path& folder) {
+    const double per_value = value_scale(file, format);
+    std::vector<float> values;
+    values.reserve(file.values->size());
+    for (const float value : *file.values)
+        values.push_back(static_cast<float>(per_value * static_cast<double>(value)));
+    const StudySculpture& sculpture = *file.sculpture;
+    format.write(folder / fmt::format("{}.{}", file.name, format.ending),
+                 {*sculpture.mesh,
+                  values,
+                  colours,
+                  file.title,
+                  *sculpture.mm_per_unit * format.units_per_mm,
+                  {{"quantity", quantity_in(file, format)},
+                   {"lengths", fmt::format("{} of the object", format.unit)},
+                   {"shown", shown_size_words(sculpture)},
+                   {"colours", fmt::format("{} from {:.6g} to {:.6g}", name_of(file.colours),
+                                           per_value * file.low, per_value * file.high)},
+                   {"grey", "never visible in a presentation"}}});
 }
 
 } // namespace
@@ -101,22 +145,19 @@ int write_surfaces(const StudyResults& results, const std::filesystem::path& fol
     parallel_for(static_cast<int>(files.size()), [&](int i) {
         const SurfaceFile& file = files[static_cast<std::size_t>(i)];
         const auto colours = colours_of(file);
-        const ColouredMesh coloured{
-            *file.sculpture->mesh,
-            *file.values,
-            colours,
-            file.title,
-            {{"quantity", file.unit},
-             {"colours", fmt::format("{} from {:.6g} to {:.6g}", name_of(file.colours), file.low, file.high)},
-             {"grey", "never visible in a presentation"}}};
-        write_glb(folder / fmt::format("{}.glb", file.name), coloured);
-        write_coloured_ply(folder / fmt::format("{}.ply", file.name), coloured);
+        for (const MeshFormat& format : mesh_formats)
+            write_as(format, file, colours, folder);
     });
-    std::string index = "file,kind,sculpture,title,unit,colours,low,high\n";
-    for (const SurfaceFile& file : files)
-        index +=
-            fmt::format("{},{},\"{}\",\"{}\",{},{},{:.9g},{:.9g}\n", file.name, file.kind, file.sculpture->id,
-                        file.title, file.unit, name_of(file.colours), file.low, file.high);
+    std::string index = "file,kind,sculpture,title,quantity,lengths,colours,low,high\n";
+    for (const SurfaceFile& file : files) {
+        for (const MeshFormat& format : mesh_formats) {
+            const double per_value = value_scale(file, format);
+            index += fmt::format("{}.{},{},{},{},{},{} of the object,{},{:.9g},{:.9g}\n", file.name,
+                                 format.ending, file.kind, in_quotes(file.sculpture->id),
+                                 in_quotes(file.title), quantity_in(file, format), format.unit,
+                                 name_of(file.colours), per_value * file.low, per_value * file.high);
+        }
+    }
     write_whole_file(folder / "index.csv", index);
     return static_cast<int>(files.size());
 }

@@ -43,8 +43,11 @@ int write_volumes(const StudyResults& results, const std::filesystem::path& fold
         const std::string words = words_of_keys(group.keys);
         const std::string name = names.of(fmt::format("map_{}_{}", sculpture.id, words)),
                           title = fmt::format("{}: {}", sculpture.title, words);
-        write_nrrd(folder / fmt::format("{}.nrrd", name), voxels, "mm", "ms of fixation per mm^3 and trial");
-        write_cube_table(folder / fmt::format("{}.cube", name), voxels, bounds, most, table_side, title);
+        constexpr std::string_view meaning = "ms of fixation of a trial per mm^3 of the object";
+        write_nrrd(folder / fmt::format("{}.nrrd", name), voxels, "mm",
+                   fmt::format("{}; shown {}", meaning, shown_size_words(sculpture)));
+        write_cube_table(folder / fmt::format("{}.cube", name), voxels, bounds, most, table_side, title,
+                         meaning);
         index += fmt::format("{},{},{},{:.6g},{:.9g},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", name,
                              in_quotes(sculpture.id), in_quotes(title), sigma_mm, most, bounds.min.x,
                              bounds.min.y, bounds.min.z, bounds.max.x, bounds.max.y, bounds.max.z);

@@ -28,8 +28,10 @@ std::vector<LevelComparison> level_comparisons(const StudyResults& results, cons
                                                const std::string& column, const std::string& a,
                                                const std::string& b);
 
-/// WSS of a less that of b, in mm^2.
-double wss_difference_mm2(const LevelComparison& comparison, const SurfaceScale& scale);
+/// WSS of a less that of b: on the object, and as it is seen in the depth of the object's axis. What is
+/// averaged over objects is tested as it is seen.
+double wss_difference_mm2(const LevelComparison& comparison, const ObjectScale& scale);
+double wss_difference_deg2(const LevelComparison& comparison, const ObjectScale& scale);
 
 /// Share of the fixations on the head, of a less that of b; nothing if the sculpture has no head.
 std::optional<double> head_difference(const LevelComparison& comparison, const StudyResults& results);

@@ -14,7 +14,7 @@ Interval scaled(const Interval& interval, double factor) {
 }
 
 DistributionRow distribution_of(const StudyResults& results, int group, int sculpture,
-                                const std::optional<SurfaceScale>& scale, const StudyOptions& options) {
+                                const std::optional<ObjectScale>& scale, const StudyOptions& options) {
     DistributionRow row;
     row.group = group;
     row.sculpture = sculpture;

@@ -120,8 +120,8 @@ std::vector<float> exposure_density(const StudyResults& results, int of, const S
             is_done[v] = true;
             glm::dvec3 barycentric{0.0};
             barycentric[corner] = 1.0;
-            const double sigma = surface.scale->sigma_mm(
-                options.sigma, view.depth_of(glm::dvec3(sculpture.mesh->positions[v])));
+            const double sigma = sigma_mm(options.sigma, *surface.scale,
+                                          view.depth_of(glm::dvec3(sculpture.mesh->positions[v])));
             weights[0].push_back(
                 {{t, barycentric}, surface.pixel_seconds[v] / all, std::clamp(sigma, least, widest)});
         }

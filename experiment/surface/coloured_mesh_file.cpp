@@ -52,7 +52,7 @@ void write_glb(const std::filesystem::path& path, const ColouredMesh& coloured) 
     };
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const glm::vec3& position : mesh.positions) {
-        const glm::vec3 p = gltf_position(position);
+        const glm::vec3 p = gltf_position(glm::vec3(coloured.scale * glm::dvec3(position)));
         low = glm::min(low, p);
         high = glm::max(high, p);
         for (int axis = 0; axis < 3; ++axis)
@@ -164,8 +164,9 @@ void write_coloured_ply(const std::filesystem::path& path, const ColouredMesh& c
                         "property list uchar int vertex_indices\nend_header\n",
                         mesh.positions.size(), mesh.triangles.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const glm::vec3 position(coloured.scale * glm::dvec3(mesh.positions[v]));
         for (int axis = 0; axis < 3; ++axis)
-            append_bytes(file, mesh.positions[v][axis]);
+            append_bytes(file, position[axis]);
         for (const std::uint8_t channel : coloured.srgb[v])
             append_bytes(file, channel);
         append_bytes(file, coloured.values[v]);

@@ -18,12 +18,13 @@ struct ColouredMesh {
     std::span<const float> values;                     ///< by vertex
     std::span<const std::array<std::uint8_t, 3>> srgb; ///< by vertex
     std::string title;
+    double scale = 1.0; ///< of the file's lengths: what a unit of the mesh is in the file
     /// What a reader must know of the colours: name and text, such as unit, scale, grey.
     std::vector<std::pair<std::string, std::string>> legend;
 };
 
-/// Writes glTF 2.0, binary: positions in the mesh's unit with +y up as glTF has it, colours as COLOR_0
-/// (linear light, 16 bits), values as _SALIENCY, the legend in `extras`, and an unlit material
+/// Writes glTF 2.0, binary: positions, which `scale` has to make metres, with +y up as glTF has it, colours
+/// as COLOR_0 (linear light, 16 bits), values as _SALIENCY, the legend in `extras`, and an unlit material
 /// (KHR_materials_unlit), so that a colour on the screen is one of the legend. Throws RecordError; the mesh
 /// must have triangles.
 void write_glb(const std::filesystem::path& path, const ColouredMesh& coloured);

@@ -43,20 +43,20 @@ void write_nrrd(const std::filesystem::path& path, const VoxelDensity& voxels, s
 }
 
 void write_cube_table(const std::filesystem::path& path, const VoxelDensity& voxels, const Bounds& bounds,
-                      double most, int side, std::string_view title) {
+                      double most, int side, std::string_view title, std::string_view meaning) {
     OVERT_EXPECTS(side >= 2 && side <= 256);
     std::string quoted(title);
     std::replace_if(
         quoted.begin(), quoted.end(), [](char c) { return c == '"' || c == '\n' || c == '\r'; }, ' ');
     std::string text =
         fmt::format("TITLE \"{}\"\n"
-                    "# 1 stands for {} per cube of the mesh's unit\n"
+                    "# 1 stands for {} {}\n"
                     "# (0, 0, 0) is the object coordinate ({}, {}, {}), (1, 1, 1) is ({}, {}, {})\n"
                     "LUT_3D_SIZE {}\n"
                     "DOMAIN_MIN 0.0 0.0 0.0\n"
                     "DOMAIN_MAX 1.0 1.0 1.0\n",
-                    quoted, most, bounds.min.x, bounds.min.y, bounds.min.z, bounds.max.x, bounds.max.y,
-                    bounds.max.z, side);
+                    quoted, most, meaning, bounds.min.x, bounds.min.y, bounds.min.z, bounds.max.x,
+                    bounds.max.y, bounds.max.z, side);
     // Red, which is x, runs fastest.
     for (int blue = 0; blue < side; ++blue) {
         for (int green = 0; green < side; ++green) {

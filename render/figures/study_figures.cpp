@@ -172,8 +172,8 @@ bool pair_table(const StudyResults& results, const std::filesystem::path& folder
     const double height = 12.0 + 6.0 * static_cast<double>(results.pairs.size());
     save_figure(folder, "table_1", {page_mm, height}, [&](FigurePen& pen) {
         const std::array<double, 7> at{1.0, 62.0, 88.0, 104.0, 124.0, 138.0, 160.0};
-        const std::array<const char*, 7> heads{"pair a, b", "WSS a − b / mm²", "p", "CC", "ceiling",
-                                               "SIM",       "ceiling"};
+        const std::array<const char*, 7> heads{
+            "pair a, b", "WSS a − b / deg²", "p (Holm)", "CC of maps", "p (Holm)", "CC", "SIM"};
         for (std::size_t i = 0; i < at.size(); ++i)
             pen.text({at[i], 5.0}, heads[i], 6.5);
         pen.line({1.0, 6.6}, {page_mm - 1.0, 6.6}, figure_ink, 0.3);
@@ -182,12 +182,12 @@ bool pair_table(const StudyResults& results, const std::filesystem::path& folder
             const std::array<std::string, 7> cells{
                 fmt::format("{}{}{}, {}", values_of(row.keys) == "all" ? "" : values_of(row.keys),
                             row.keys.empty() ? "" : ": ", row.a, row.b),
-                text_of(row.wss_difference_mm2),
+                text_of(row.wss_difference_deg2),
                 number_text(row.wss_p_holm ? row.wss_p_holm : row.wss_p),
+                number_text(row.maps_cc),
+                number_text(row.maps_p_holm ? row.maps_p_holm : row.maps_p),
                 text_of(row.cc.value),
-                number_text(row.cc.ceiling.value),
-                text_of(row.sim_mit.value),
-                number_text(row.sim_mit.ceiling.value)};
+                text_of(row.sim_mit.value)};
             for (std::size_t i = 0; i < cells.size(); ++i)
                 pen.text({at[i], y}, cells[i], 5.6);
             y += 6.0;

@@ -25,11 +25,9 @@ struct AscImportOptions {
     std::optional<double> viewing_distance_mm; ///< the same
     /// It is noted that fixations, saccades and blinks are to be found in the samples, by these thresholds.
     std::optional<ChosenThresholds> detect_events;
-    ProgramBuild program; ///< that imports
-    std::string now_utc;  ///< for files without a date
-    AscReport report;     ///< told each line that is skipped; may be empty
-    std::function<void(std::int64_t done, std::int64_t all)>
-        progress; ///< in bytes that are read; may be empty
+    ProgramBuild program;     ///< that imports
+    std::string now_utc;      ///< for files without a date
+    AscSurveyOptions reading; ///< how the file is read; its report and progress, too
 };
 
 struct AscImportSummary {

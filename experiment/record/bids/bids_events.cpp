@@ -10,6 +10,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/json_text.h"
+#include "experiment/base/plain_text.h"
 #include "experiment/record/bids/bids_names.h"
 #include "experiment/record/preview_file.h"
 #include "experiment/record/tables/attempt_cells.h"
@@ -55,7 +56,7 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
                                    const std::optional<ClockMap>& clock_map) {
     Levels tasks, blocks;
     for (const RecordedTask& task : header.tasks)
-        tasks.emplace_back(task.id, task.question.empty() ? task.id : task.question);
+        tasks.emplace_back(task.id, task.question.empty() ? task.id : plain_line_of(task.question));
     for (const std::string& block : header.blocks)
         blocks.emplace_back(block, "the block of that name");
     return {
@@ -246,7 +247,7 @@ void write_bids_events(const SessionRecord& record, int run, std::optional<Sessi
 
     std::string questions;
     for (const RecordedTask& task : header.tasks)
-        questions += (questions.empty() ? "" : "\n") + task.question;
+        questions += (questions.empty() ? "" : "\n") + plain_line_of(task.question);
     Json json;
     json["TaskName"] = bids_task_name(header);
     json["TaskDescription"] = "Questions about animated sculptures, each asked before its presentation and "

@@ -10,6 +10,7 @@
 #include "experiment/events/recording_events.h"
 #include "experiment/record/gaze_rows.h"
 #include "experiment/record/read/session_record.h"
+#include "experiment/record/read/settings_words.h"
 #include "experiment/record/sql.h"
 
 namespace overt {
@@ -81,11 +82,11 @@ std::string sentence_on(const SessionRecord::EventOrigin& origin) {
                "neither how large its screen is and how far away it was, nor the tracker's pixels per "
                "degree. "
                "Import the recording again with --screen-mm and --distance-mm.";
-    return fmt::format(
-        "Fixations, saccades and blinks were found {}, by the detector of {}, version {}, with {}.",
-        origin.from == From::recording ? "while the session was recorded"
-                                       : "in the recorded samples when they were exported",
-        origin.detection.name, origin.detection.version, origin.detection.parameters);
+    return fmt::format("Fixations, saccades and blinks were found {}, by the detector of {}, version {}: {}.",
+                       origin.from == From::recording ? "while the session was recorded"
+                                                      : "afterwards, in the recorded samples",
+                       origin.detection.name, origin.detection.version,
+                       settings_in_words(origin.detection.parameters));
 }
 
 void SessionRecord::detect_events_of_imports() {

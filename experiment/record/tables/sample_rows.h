@@ -28,9 +28,10 @@ struct SampleCells : JoinedRow {
     const GazeCone::Shares* shares;                 ///< null without a cone, and beside lit frames
 };
 
-/// With the columns of a gaze cone if its accuracy is given. `header` must outlive it.
+/// With the columns of a gaze cone if its accuracy is given. `pupil`: see pupil_words(). `header` must
+/// outlive it.
 RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const SessionHeader& header,
-                                      std::optional<Degrees> cone_accuracy);
+                                      std::optional<Degrees> cone_accuracy, const std::string& pupil);
 
 class SampleRows {
   public:

@@ -1,15 +1,29 @@
 #include "experiment/record/tables/session_tables.h"
 
+#include "experiment/scene/object_scale.h"
+
 namespace overt {
 namespace {
 
 constexpr int rate_decimals = 3;  // a millihertz
 constexpr int drift_decimals = 3; // a thousandth of a millionth
+constexpr int scale_decimals = 9;
 
 /// What the header has of a stimulus's sculpture.
 auto of_sculpture(const SessionHeader& header, std::string RecordedSculpture::*what) {
     return [&header, what](const RecordedStimulus& row) {
         return of_maybe(item_of(header.sculptures, row.condition.sculpture), what);
+    };
+}
+
+/// How large the stimulus's sculpture is, and is shown.
+auto of_scale(const SessionHeader& header, double ObjectScale::*what) {
+    return [&header, what](const RecordedStimulus& row) {
+        const RecordedSculpture& of = item(header.sculptures, row.condition.sculpture);
+        const auto scale = object_scale(of.camera, of.axis_point, header.display.screen, of.unit);
+        return of_maybe(scale, [what](const ObjectScale& known) {
+            return Fixed{known.*what, scale_decimals};
+        });
     };
 }
 
@@ -50,6 +64,15 @@ RowLayout<RecordedStimulus> stimuli_layout(const SharedColumns& shared, const Se
             {{"mesh_file", "The sculpture's mesh, relative to the session's directory"},
              of_sculpture(header, &RecordedSculpture::mesh_file)},
             {{"mesh_sha256", "SHA-256 of the mesh"}, of_sculpture(header, &RecordedSculpture::mesh_sha256)},
+            {{"mm_per_unit",
+              "Millimetres of the object in a unit of surface_x, surface_y, surface_z and depth; "
+              "where the unit of the mesh is not known, the object is taken to be as large as "
+              "its picture",
+              "mm"},
+             of_scale(header, &ObjectScale::mm_per_unit)},
+            {{"shown_size", "Millimetres that the picture on the display has for a millimetre of the object, "
+                            "in the depth of the axis of its turn"},
+             of_scale(header, &ObjectScale::shown_size)},
         }};
 }
 

@@ -29,7 +29,8 @@ struct Exposure {
 Exposure exposure_of(const CoordinateMaps& maps, const Animation& animation, const PoseTable& poses);
 
 /// Each part with its area, how long it is visible, and its share of the exposure and of the fixations; the
-/// first row is the whole sculpture. `px_mm2`: apparent area of a pixel.
+/// first row is the whole sculpture. `px_mm2`: the area of the object, seen head-on in the depth of its axis,
+/// that a pixel shows.
 struct PartExposure {
     const Exposure& exposure;
     const Mesh& mesh;

@@ -8,7 +8,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/record/read/recorded_validation.h"
-#include "experiment/study/read/reporting.h"
+#include "experiment/study/read/session_setup.h"
 
 namespace overt {
 
@@ -60,8 +60,6 @@ StudySession describe_session(const OpenSession& open, const std::filesystem::pa
     session.observer = header.schedule.observer.label;
     session.number = header.session_number;
     session.protocol = header.protocol.title.empty() ? header.protocol.name : header.protocol.title;
-    session.tracker = header.tracker.name;
-    session.is_simulated = header.tracker.name.find("simulated") != std::string::npos;
     for (const RecordedObserverField& field : record.observer_fields())
         session.form.push_back({field.id, field.value});
     session.is_complete = record.is_complete();
@@ -103,12 +101,10 @@ StudySculpture describe_sculpture(const SessionHeader& header, int index) {
     sculpture.id = recorded.id;
     sculpture.title = recorded.title;
     sculpture.part_names = recorded.part_names;
-    for (std::size_t part = 0; part < recorded.part_names.size(); ++part) {
-        if (recorded.part_names[part] == "head")
-            sculpture.head = static_cast<PartIndex>(part);
-    }
+    sculpture.head = HeadParts(recorded.part_names);
     sculpture.camera = recorded.camera;
     sculpture.axis_point = recorded.axis_point;
+    sculpture.unit = recorded.unit;
     sculpture.screen = header.display.screen;
     return sculpture;
 }

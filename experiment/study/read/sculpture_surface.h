@@ -18,7 +18,7 @@ namespace overt {
 struct SculptureSurface {
     std::unique_ptr<SurfaceGeometry> geometry; ///< null without a mesh, or without a known camera
     std::vector<double> areas_mm2;             ///< by vertex
-    std::optional<SurfaceScale> scale;
+    std::optional<ObjectScale> scale;
     /// For statistics over many maps, and ways along the surface; null without a geometry or a scale.
     std::unique_ptr<CoarseSurface> coarse;
     std::unique_ptr<SurfaceGeometry> coarse_geometry;
@@ -29,11 +29,6 @@ struct SculptureSurface {
 
 /// Of the surface for statistics over many maps: a quarter of a usual kernel between neighbours.
 inline constexpr std::size_t coarse_nodes = 4000;
-
-/// The scale of a sculpture that turns about the vertical through a point of the mesh's unit; nothing if
-/// camera or screen are not known.
-std::optional<SurfaceScale> surface_scale(const Camera& camera, const glm::dvec3& axis_point,
-                                          const ScreenGeometry& screen);
 
 /// Gives the sculpture its scale, mesh and parts, and a remark on what is missing, and makes what maps need.
 /// `lookup`: of a session that has it; null if none has, for a `fault` if that is not empty.

@@ -68,7 +68,7 @@ void find_point(StudyFixation& fixation, std::span<const PlacedSample* const> pl
                 const FixationContext& context) {
     const PlacedSample* median = &median_in_space(placed);
     if (context.scale)
-        fixation.sigma_mm = context.scale->sigma_mm(context.options.sigma, median->surface.depth);
+        fixation.sigma_mm = sigma_mm(context.options.sigma, *context.scale, median->surface.depth);
     if (context.field && context.scale) {
         const auto [least, most] = std::minmax_element(
             placed.begin(), placed.end(),
@@ -77,7 +77,7 @@ void find_point(StudyFixation& fixation, std::span<const PlacedSample* const> pl
             ((*most)->surface.depth - (*least)->surface.depth) * context.scale->mm_per_unit;
         if (range_mm > 0.5 * fixation.sigma_mm) {
             median = &median_along_surface(placed, context);
-            fixation.sigma_mm = context.scale->sigma_mm(context.options.sigma, median->surface.depth);
+            fixation.sigma_mm = sigma_mm(context.options.sigma, *context.scale, median->surface.depth);
         }
     }
     fixation.position = median->surface.position;
@@ -98,7 +98,7 @@ void find_part(StudyFixation& fixation, std::span<const PlacedSample* const> pla
 }
 
 void find_spread(StudyFixation& fixation, std::span<const PlacedSample* const> placed,
-                 const SurfaceScale& scale) {
+                 const ObjectScale& scale) {
     double squares = 0.0, depth = 0.0;
     for (const PlacedSample* sample : placed) {
         const glm::dvec3 off = sample->surface.position - fixation.position;
@@ -236,7 +236,7 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
     StudyFixation fixation;
     if (!context.clock_map) {
         fixation.duration_s = std::chrono::duration<double>(event.duration).count();
-        fixation.why = NotCounted::no_frame_lit;
+        fixation.why = context.has_stimulus ? NotCounted::no_frame_lit : NotCounted::no_stimulus;
         fixation.place = event.place.value_or(ScreenPoint{});
         return fixation;
     }
@@ -253,7 +253,7 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
     glm::dvec2 sum{0.0};
     for (std::size_t i = begin; i < end; ++i) {
         const PlacedSample& sample = context.samples[i];
-        if (!sample.has_gaze || sample.frame < 0)
+        if (!sample.has_gaze || (context.has_stimulus && sample.frame < 0))
             continue;
         lit.push_back(&sample);
         sum += glm::dvec2(sample.gaze.x_px, sample.gaze.y_px);
@@ -292,6 +292,8 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
         fixation.why = NotCounted::began_before_onset;
     else if (fixation.duration_s < context.options.shortest_fixation_s)
         fixation.why = NotCounted::too_short;
+    else if (!context.has_stimulus)
+        fixation.why = NotCounted::no_stimulus;
     else if (lit.empty())
         fixation.why = NotCounted::no_frame_lit;
     else if (!context.has_surface)

@@ -10,6 +10,7 @@
 #include "experiment/clock_map.h"
 #include "experiment/gaze_event.h"
 #include "experiment/maps/light_pictures.h"
+#include "experiment/scene/object_scale.h"
 #include "experiment/study/read/placed_samples.h"
 #include "experiment/study/results/study_options.h"
 #include "experiment/surface/coarse_surface.h"
@@ -17,16 +18,11 @@
 
 namespace overt {
 
-/// What a sculpture's fixations need to know of it. Lengths: see StudySculpture.
-struct SurfaceScale {
-    double mm_per_unit = 0.0;
-    double axis_depth = 0.0; ///< of the axis of its turn from the camera, in the mesh's unit
-    double mm_per_deg = 0.0; ///< on the surface in that depth
-    /// Of a kernel, at a place of this depth: what is farther away is seen smaller.
-    double sigma_mm(const KernelWidth& width, double depth) const {
-        return width.is_mm ? width.value : width.value * mm_per_deg * depth / axis_depth;
-    }
-};
+/// Standard deviation of a kernel, in millimetres of the object, at a place of this depth in the mesh's unit:
+/// what is farther away is seen smaller.
+inline double sigma_mm(const KernelWidth& width, const ObjectScale& scale, double depth) {
+    return width.is_mm ? width.value : width.value * scale.mm_per_deg * depth / scale.axis_depth;
+}
 
 /// Where a trial's fixations are to be found.
 struct FixationContext {
@@ -35,9 +31,12 @@ struct FixationContext {
     const std::optional<ClockMap>& clock_map;
     SessionTime onset;
     double presentation_s = 0.0;
-    std::span<const Degrees> angles;          ///< by PoseIndex
-    const std::optional<SurfaceScale>& scale; ///< nothing without a known camera
+    std::span<const Degrees> angles;         ///< by PoseIndex
+    const std::optional<ObjectScale>& scale; ///< nothing without a known camera
     bool has_surface = false;
+    /// Of a session that knows of no stimulus: its fixations are told with their places on the screen alone,
+    /// and no frame needs to have been lit.
+    bool has_stimulus = true;
     const SurfaceGeometry* fine = nullptr;  ///< the sculpture's mesh; null without one
     const CoarseSurface* coarse = nullptr;  ///< of that; null without a scale
     GeodesicField* field = nullptr;         ///< on the coarse surface; the same

@@ -29,7 +29,7 @@ struct TrialSurface {
     const SurfaceGeometry* fine = nullptr; ///< null without a mesh
     const CoarseSurface* coarse = nullptr; ///< null without a mesh or a scale; so is the field on it
     GeodesicField* field = nullptr;
-    std::optional<SurfaceScale> scale;
+    std::optional<ObjectScale> scale;
     const LightScores* light = nullptr; ///< of the trial's stimulus; null: not known
 };
 

@@ -21,6 +21,36 @@ std::string words_of(const std::optional<ChosenThresholds>& detect_events) {
 
 } // namespace
 
+std::vector<ExclusionRule> rules_of(const ExclusionRules& rules) {
+    std::vector<ExclusionRule> set;
+    if (rules.most_lost_share)
+        set.push_back(ExclusionRule::lost_share);
+    if (rules.most_accuracy_deg)
+        set.push_back(ExclusionRule::accuracy);
+    if (rules.most_drift_deg)
+        set.push_back(ExclusionRule::drift);
+    if (rules.most_missed_refreshes)
+        set.push_back(ExclusionRule::missed_refreshes);
+    return set;
+}
+
+std::optional<ExclusionRule> broken_rule(const StudyQuality& quality, const ExclusionRules& rules) {
+    const auto is_beyond = [](const auto& value, const auto& limit) {
+        return limit && value && *value > *limit;
+    };
+    if (rules.most_lost_share && quality.lost_share() > *rules.most_lost_share)
+        return ExclusionRule::lost_share;
+    if (is_beyond(quality.accuracy_deg, rules.most_accuracy_deg))
+        return ExclusionRule::accuracy;
+    if (is_beyond(quality.drift_deg, rules.most_drift_deg))
+        return ExclusionRule::drift;
+    // A rule that cannot be looked at is not kept.
+    if (rules.most_missed_refreshes &&
+        (!quality.missed_refreshes || *quality.missed_refreshes > *rules.most_missed_refreshes))
+        return ExclusionRule::missed_refreshes;
+    return std::nullopt;
+}
+
 std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
     const ExclusionRules& rules = options.exclude;
     return {
@@ -28,7 +58,9 @@ std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
          "Columns of the table of trials whose values make the groups."},
         {"compare", options.compare, "", "The column whose levels are compared within observers."},
         {"sigma", fmt::format("{}", options.sigma.value), options.sigma.is_mm ? "mm" : "deg",
-         "Standard deviation of the maps' kernel; degrees are converted at the depth of each fixation."},
+         "Standard deviation of the maps' kernel: millimetres of the object itself, or degrees of visual "
+         "angle, which "
+         "are converted at the depth of each fixation."},
         {"kernel", std::string(name_of(options.kernel)), "",
          "How maps are blurred: geodesic is heat along the surface, euclidean a Gaussian in space on the "
          "vertices, voxel the same on a grid."},

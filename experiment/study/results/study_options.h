@@ -23,7 +23,7 @@ inline constexpr auto names_of<MapKernel> = enum_names<MapKernel>("geodesic", "e
 /// The standard deviation of the kernel.
 struct KernelWidth {
     double value = 1.0;
-    bool is_mm = false; ///< apparent mm on the surface; else degrees of the observer's eye
+    bool is_mm = false; ///< of the object; else degrees of the observer's eye
 };
 
 /// Trials beyond a limit are excluded; nothing: none are for that reason.
@@ -33,6 +33,13 @@ struct ExclusionRules {
     std::optional<double> most_drift_deg;    ///< at the drift check
     std::optional<int> most_missed_refreshes;
 };
+
+/// Those that have a limit.
+std::vector<ExclusionRule> rules_of(const ExclusionRules& rules);
+
+/// The first rule that a trial breaks; nothing: it counts. A trial without a validation or a drift check
+/// keeps the limits of these; one whose missed refreshes are unproven does not.
+std::optional<ExclusionRule> broken_rule(const StudyQuality& quality, const ExclusionRules& rules);
 
 struct StudyOptions {
     std::vector<std::string> by{"task", "sculpture", "material"};

@@ -1,9 +1,8 @@
 /// All that a study of one observer or fifty gives: what tables, figures and the report show. Plain data;
 /// analyze_study() fills it in, and nothing reckons with it afterwards.
 ///
-/// Lengths on surfaces are in apparent millimetres: the size that the sculpture's picture has on the display,
-/// measured in the depth of the axis about which it turns (StudySculpture::mm_per_unit). Angles are of the
-/// observer's eye.
+/// Places, lengths, areas and densities on surfaces are in the object's own millimetres (object_scale.h),
+/// which StudySculpture::mm_per_unit makes of the mesh's unit. Angles are of the observer's eye.
 #pragma once
 
 #include <array>
@@ -19,10 +18,11 @@
 
 #include "experiment/animation.h"
 #include "experiment/gaze_event.h"
-#include "experiment/scene/mesh.h"
+#include "experiment/scene/mesh_parts.h"
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/statistics/estimate.h"
+#include "experiment/study/results/session_setup.h"
 
 namespace overt {
 
@@ -43,17 +43,16 @@ struct StudyParameter {
 
 /// One session as it was read.
 struct StudySession {
-    std::string folder;   ///< its name, without folders above
-    std::string observer; ///< label
-    int number = 1;       ///< of this observer's sessions
-    std::string protocol; ///< title
-    std::string tracker;  ///< its name, or the file that was imported
-    bool is_simulated = false;
+    std::string folder;         ///< its name, without folders above
+    std::string observer;       ///< label
+    int number = 1;             ///< of this observer's sessions
+    std::string protocol;       ///< title
     std::vector<StudyKey> form; ///< what the observer filled in
     std::string events;         ///< a sentence: whose fixations, saccades and blinks these are
     bool is_complete = false;
-    int trials = 0;              ///< that count, before exclusions of this analysis
-    std::vector<StudyKey> setup; ///< items of the reporting guideline that the record knows
+    int trials = 0; ///< that count, before exclusions of this analysis
+    SessionSetup setup;
+    bool is_simulated() const { return setup.gaze.is_simulated(); }
 };
 
 /// What an article has to report: see reporting.h.
@@ -62,18 +61,24 @@ struct ReportingItem {
     bool is_recorded = false; ///< else the value says what to add
 };
 
+/// Whole sentences on one topic of the methods: see methods_text.h.
+struct MethodsParagraph {
+    std::string topic, text;
+};
+
 /// A sculpture with all sessions that showed the same mesh.
 struct StudySculpture {
     std::string id, title;
     /// Null where the sessions have no mesh, such as imported ones: no maps then, and `remark` says why.
     std::shared_ptr<const Mesh> mesh;
     std::vector<std::string> part_names;
-    std::optional<PartIndex> head; ///< the part "head"; nothing if there is none
+    HeadParts head; ///< false if there is none
     Camera camera;
     glm::dvec3 axis_point{0.0}; ///< in the mesh's unit; the sculpture turns about the vertical through it
     ScreenGeometry screen;
-    std::optional<double> mm_per_unit; ///< apparent mm of the mesh's unit; nothing without a known camera
-    std::optional<double> mm_per_deg;  ///< on the surface in the axis's depth: viewing distance * tan 1 deg
+    std::string unit = "mm"; ///< of the mesh, as RecordedSculpture has it: "mm" if it is that
+    // As ObjectScale has them; nothing without a known camera.
+    std::optional<double> mm_per_unit, mm_per_deg, shown_size;
     /// By vertex of the mesh: how long one presentation shows it, in seconds; 0: never visible.
     std::vector<float> seconds_visible;
     /// By vertex: density that gaze would have that is spread evenly over the sculpture's picture all the
@@ -91,7 +96,11 @@ enum class NotCounted : std::uint8_t {
     not_on_surface,     ///< too small a share of its samples met the sculpture
     no_surface,         ///< the session has no maps of this sculpture
     trial_excluded,     ///< its trial is
+    no_stimulus,        ///< the session knows of no stimulus: an imported recording
 };
+
+/// What a trial is excluded for, in the order in which it is asked (ExclusionRules).
+enum class ExclusionRule : std::uint8_t { lost_share, accuracy, drift, missed_refreshes };
 
 /// How probable a fixation's measured place is, per square pixel, if the head was looked at, and if something
 /// else of the sculpture was: the tracker's error lies between the two (part_evidence.h).
@@ -277,9 +286,13 @@ struct DistributionRow {
 /// A similarity of two maps beside what to compare it with.
 struct SimilarityEstimate {
     Estimate value;
-    Estimate ceiling; ///< of halves of the fixations of the same condition: what equal distributions give
-    Estimate null;    ///< with the conditions' labels permuted within observers
-    std::optional<double> p; ///< of the permutation: how often chance gives as small a similarity
+    /// Of random halves, as many fixations in each: one of either level, and both of the same level. Only
+    /// these two can be held against each other: a similarity grows with the number of fixations.
+    Estimate between_halves, within_halves;
+    Estimate null; ///< of all fixations, dealt out again over the levels within observers
+    /// How often dealing out gives as small a similarity. Takes fixations as exchangeable, which they are not
+    /// where trials differ in their error of calibration: then it is too small. PairRow::maps_p is the test.
+    std::optional<double> p;
 };
 
 /// Table 1: two levels of a factor compared within observers, then averaged.
@@ -410,6 +423,7 @@ struct StudyGlance {
     std::vector<std::pair<NotCounted, int>> not_counted; ///< reasons that occur, and how often
     double counted_s = 0.0;                              ///< of fixation
     bool any_simulated = false;
+    std::vector<std::pair<ExclusionRule, int>> excluded_by{}; ///< trials by the first rule that they break
 };
 
 struct StudyResults {
@@ -438,6 +452,7 @@ struct StudyResults {
     std::vector<TimeCourseRow> time_course;
     std::vector<StudyQuality> session_quality; ///< by session
     std::vector<ReportingItem> reporting;
+    std::vector<MethodsParagraph> methods;
     std::vector<StudyTrace> traces;
 };
 

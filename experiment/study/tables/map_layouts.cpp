@@ -22,8 +22,8 @@ RowLayout<StudyMap> study_maps_layout(const StudyResults& results) {
     to.count("fixations", "Counted fixations", &Row::fixations);
     to.number("total", "Integral over the surface: ms, or fixations, of a trial", "", of_made(&Row::total),
               density_decimals);
-    to.number("peak", "Highest density", "1/mm^2 of that", of_made(&Row::peak), density_decimals);
-    to.number("mean", "Mean density over the whole surface", "1/mm^2 of that", of_made(&Row::mean),
+    to.number("peak", "Highest density", "of that per mm^2", of_made(&Row::peak), density_decimals);
+    to.number("mean", "Mean density over the whole surface", "of that per mm^2", of_made(&Row::mean),
               density_decimals);
     to.number("area_mm2", "Area of the surface", "mm^2", of_made(&Row::area_mm2), density_decimals);
     to.number("least_sigma_mm", "Narrowest kernel", "mm", of_made(&Row::least_sigma_mm), density_decimals);

@@ -84,7 +84,10 @@ template <class Row> class StudyLayout : public RowLayout<Row> {
     }
 
   private:
+    /// Lengths are the object's own, and their units say so.
     template <class Value> void column(TableColumn what, Value value) {
+        if (what.unit.find("mm") != std::string::npos)
+            what.unit += " of the object";
         this->template add<Row>({{std::move(what), std::move(value)}});
     }
 };

@@ -140,7 +140,7 @@ TEST_CASE("a session without events has them found when it is read, by its rate 
     CHECK(origin.settings == usual_settings(GazeNoise{1.0, measured_noise_deg_s(origin)}));
     for (const std::size_t trial : {0u, 1u})
         CHECK(eye_events(record, trial) == expected_events(trial, origin.settings));
-    CHECK_THAT(record.event_origins(), Contains("when they were exported"));
+    CHECK_THAT(record.event_origins(), Contains("afterwards, in the recorded samples"));
     // Of earlier programs' sessions, which had no such table.
     SQLite::Database((session / session_file_name).string(), SQLite::OPEN_READWRITE)
         .exec("DROP TABLE event_detection; DROP TABLE gaze_event; DROP TABLE gaze_source");

@@ -55,7 +55,7 @@ struct TurningBall {
         event.end = samples.back().sampled_at;
         event.duration = event.end - event.start;
         const StudyOptions options;
-        const std::optional<SurfaceScale> scale = SurfaceScale{1.0, 1000.0, 30.0};
+        const std::optional<ObjectScale> scale = ObjectScale{1.0, 1000.0, 30.0};
         return *surface_fixation(event, {.options = options,
                                          .samples = samples,
                                          .clock_map = clock_map,

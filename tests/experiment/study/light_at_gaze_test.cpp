@@ -73,7 +73,7 @@ struct LitBall {
         event.end = samples.back().sampled_at;
         event.duration = event.end - event.start;
         const StudyOptions options;
-        const std::optional<SurfaceScale> scale = SurfaceScale{1.0, 1000.0, 30.0};
+        const std::optional<ObjectScale> scale = ObjectScale{1.0, 1000.0, 30.0};
         const std::vector<double> pose_seconds(poses, 0.1);
         return *surface_fixation(event, {.options = options,
                                          .samples = samples,

@@ -44,7 +44,7 @@ class PaintedStudy {
         SculptureSurface& surface = surfaces.emplace_back();
         surface.geometry = std::make_unique<SurfaceGeometry>(*mesh);
         surface.areas_mm2 = surface.geometry->vertex_areas_mm2();
-        surface.scale = SurfaceScale{1.0, 1000.0, 30.0};
+        surface.scale = ObjectScale{1.0, 1000.0, 30.0};
         surface.coarse = std::make_unique<CoarseSurface>(*surface.geometry, 10000);
         surface.coarse_geometry = std::make_unique<SurfaceGeometry>(surface.coarse->mesh());
         for (int observer = 0; observer < observers; ++observer) {

@@ -90,7 +90,7 @@ TEST_CASE("a look-up table takes an object coordinate to the map's value there",
     VoxelDensity voxels = three_points();
     voxels.blur();
     const Bounds bounds{glm::dvec3(1.0, 1.0, 1.0), glm::dvec3(11.0, 9.0, 7.0)};
-    write_cube_table(folder.path() / "map.cube", voxels, bounds, 0.05, 5, "task \"1\"");
+    write_cube_table(folder.path() / "map.cube", voxels, bounds, 0.05, 5, "task \"1\"", "fixations per mm^3");
     std::istringstream stream(read_whole_file(folder.path() / "map.cube"));
     std::vector<double> values;
     for (std::string line; std::getline(stream, line);) {
