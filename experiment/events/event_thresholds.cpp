@@ -15,9 +15,10 @@ constexpr double least_velocity_deg_s = 27.0, most_velocity_deg_s = 31.0;
 constexpr double widest_interval_ms = 7.0;
 constexpr double least_times_noise = 2.0;
 
-constexpr double usual_acceleration_deg_s2 = 8500.0;
+constexpr double usual_acceleration_deg_s2 = 8000.0;
 // At 500 Hz and more.
-constexpr double calm_noise_deg_s = 5.0, calm_interval_ms = 2.0;
+constexpr double calm_noise_deg_s = 8.0, calm_interval_ms = 2.0;
+constexpr double most_acceleration_deg_s2 = 1e6; // which no eye reaches
 
 /// To steps that read well, and are far finer than thresholds are known.
 double rounded(double value, double step) { return step * std::round(value / step); }
@@ -99,8 +100,9 @@ EventSettings usual_settings(const GazeNoise& noise) {
     settings.velocity_deg_s =
         rounded(std::max(fast_deg_s * seen, least_times_noise * noise.speed_deg_s), 0.1);
     const double calm_deg_s = calm_noise_deg_s * std::max(1.0, noise.interval_ms / calm_interval_ms);
+    const double excess = std::max(1.0, noise.speed_deg_s / calm_deg_s);
     settings.acceleration_deg_s2 =
-        rounded(usual_acceleration_deg_s2 * std::max(1.0, noise.speed_deg_s / calm_deg_s), 100.0);
+        rounded(std::min(usual_acceleration_deg_s2 * std::pow(excess, 4), most_acceleration_deg_s2), 100.0);
     return settings;
 }
 

@@ -95,9 +95,9 @@ class GazeNoiseMeter {
 /// - Velocity: 35 deg/s less the median speed, 27 to 31 deg/s, for it is raised by the mean speed of the last
 ///   40 ms, which in a quiet eye is noise. Where samples lie more than 7 ms apart, less in proportion: a
 ///   saccade then shows the mean speed between samples, not its peak. Never less than twice the median speed.
-/// - Acceleration: 8500 deg/s2, and where the median speed is more than 5 deg/s (at 500 Hz and more; below in
-///   proportion to the interval), more in proportion: in noisy gaze it is the noise, and the swing at a
-///   saccade's end, that change velocity so fast.
+/// - Acceleration: 8000 deg/s2. Where the median speed is more than 8 deg/s (at 500 Hz and more; below in
+///   proportion to the interval), more with the fourth power of it, so that it soon decides nothing: in noisy
+///   gaze it is the noise, and the swing at a saccade's end, that change velocity so fast.
 /// Chosen on a part of the recordings of docs/events.md, which tells how they do on the rest.
 EventSettings usual_settings(const GazeNoise& noise);
 

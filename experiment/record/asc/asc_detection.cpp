@@ -6,6 +6,7 @@
 #include "experiment/record/asc/imported_session.h"
 #include "experiment/record/gaze_rows.h"
 #include "experiment/record/read/session_record.h"
+#include "experiment/record/read/settings_words.h"
 #include "experiment/record/session_schema.h"
 
 namespace overt {
@@ -45,7 +46,7 @@ void note_detection(const std::filesystem::path& folder, int sitting, const std:
     summary.remarks.push_back(fmt::format(
         "Fixations, saccades and blinks are found in the samples{}, with {}.",
         of_file.from == From::tracker ? ", and those of the file stay on record but are not used" : "",
-        found.detection.parameters));
+        settings_in_words(found.detection.parameters)));
 }
 
 } // namespace overt

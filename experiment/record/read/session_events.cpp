@@ -80,10 +80,11 @@ std::string sentence_on(const SessionRecord::EventOrigin& origin) {
         return "Fixations, saccades and blinks were not looked for, because angles are unknown: the session says "
                "neither how large its screen is and how far away it was, nor the tracker's pixels per degree. "
                "Import the recording again with --screen-mm and --distance-mm.";
-    return fmt::format(
-        "Fixations, saccades and blinks were found {}, by the detector of {}, version {}: {}.",
-        origin.from == From::recording ? "while the session was recorded" : "afterwards, in the recorded samples",
-        origin.detection.name, origin.detection.version, settings_in_words(origin.detection.parameters));
+    return fmt::format("Fixations, saccades and blinks were found {}, by the detector of {}, version {}: {}.",
+                       origin.from == From::recording ? "while the session was recorded"
+                                                      : "afterwards, in the recorded samples",
+                       origin.detection.name, origin.detection.version,
+                       settings_in_words(origin.detection.parameters));
 }
 
 void SessionRecord::detect_events_of_imports() {

@@ -301,8 +301,8 @@ struct DistributionRow {
 /// A similarity of two maps beside what to compare it with.
 struct SimilarityEstimate {
     Estimate value;
-    /// Of random halves, as many fixations in each: one of either level, and both of the same level. Only these
-    /// two can be held against each other: a similarity grows with the number of fixations.
+    /// Of random halves, as many fixations in each: one of either level, and both of the same level. Only
+    /// these two can be held against each other: a similarity grows with the number of fixations.
     Estimate between_halves, within_halves;
     Estimate null; ///< of all fixations, dealt out again over the levels within observers
     /// How often dealing out gives as small a similarity. Takes fixations as exchangeable, which they are not

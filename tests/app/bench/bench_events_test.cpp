@@ -36,7 +36,8 @@ int fixations_in(const fs::path& table) {
 }
 
 double figure(const std::string& json, const std::string& name) {
-    for (const auto& one : nlohmann::json::parse(json).at("figures"))
+    const nlohmann::json said = nlohmann::json::parse(json);
+    for (const auto& one : said.at("figures"))
         if (one.at("figure") == name)
             return one.at("value").get<double>();
     FAIL("there is no figure \"" << name << "\" in " << json);

@@ -36,8 +36,8 @@ PlantedGaze planted_gaze() {
     // As they come back from a file with three decimals.
     for (GazeSample& sample : planted.samples)
         if (sample.gaze)
-            sample.gaze = ScreenPoint{1e-3 * std::round(1e3 * sample.gaze->x_px),
-                                      1e-3 * std::round(1e3 * sample.gaze->y_px)};
+            sample.gaze = ScreenPoint{std::stod(fmt::format("{:.3f}", sample.gaze->x_px)),
+                                      std::stod(fmt::format("{:.3f}", sample.gaze->y_px))};
     return planted;
 }
 
@@ -180,14 +180,14 @@ TEST_CASE("an import notes by which thresholds events are to be found, and keeps
     options.detect_events.emplace().values[0] = 45.0;
     const AscImportSummary summary = import_asc(file, options);
     CHECK(std::any_of(summary.remarks.begin(), summary.remarks.end(), [](const std::string& remark) {
-        return remark.find("\"velocity_deg_s\":45,") != std::string::npos;
+        return remark.find("velocity 45 deg/s,") != std::string::npos;
     }));
     const SessionRecord record(root.path() / "session");
     const SessionRecord::EventOrigin origin = record.event_origin(1);
     REQUIRE(origin.from == From::reading);
     CHECK(origin.settings.velocity_deg_s == 45.0);
-    CHECK_THAT(record.event_origins(), Catch::Matchers::Contains("\"velocity_deg_s\":45,") &&
-                                           Catch::Matchers::Contains("measured_speed_deg_s"));
+    CHECK_THAT(record.event_origins(), Catch::Matchers::Contains("velocity 45 deg/s,") &&
+                                           Catch::Matchers::Contains("measured speed "));
     CHECK(all_events(record) == detect(planted.samples, origin.settings, GazeAngles(px_per_deg, px_per_deg)));
     SQLite::Database database((root.path() / "session" / session_file_name).string());
     const int on_record =
