@@ -225,7 +225,7 @@ class StudyReader {
             return;
         const SceneView scene{{sculpture.camera, sculpture.screen.image_px}, sculpture.mesh->bounds()};
         const auto evidence =
-            part_evidence(*sculpture.mesh, *sculpture.head, scene, header->poses.angles, places);
+            part_evidence(*sculpture.mesh, sculpture.head, scene, header->poses.angles, places);
         for (std::size_t i = 0; i < fixations.size(); ++i)
             fixations[i]->evidence = evidence[i];
     }
