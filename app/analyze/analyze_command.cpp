@@ -23,7 +23,8 @@ struct AnalyzeOptions {
     std::vector<std::filesystem::path> sessions;
     std::filesystem::path out; ///< empty: "analysis", of shards "shards"
     StudyOptions study;
-    std::optional<std::string> compare; ///< nothing: the usual one, where it makes groups
+    std::optional<std::string> compare;     ///< nothing: the usual one, where it makes groups
+    std::vector<std::string> same_observer; ///< LABEL=LABEL
     std::string by, sigma = "1deg", kernel = "geodesic", format = "csv", shard;
     bool overwrite = false;
     StudyExtras extras;
@@ -40,6 +41,17 @@ std::vector<std::string> listed(const std::string& text) {
         begin = end + 1;
     }
     return items;
+}
+
+std::vector<std::pair<std::string, std::string>> same_observers(const std::vector<std::string>& given) {
+    std::vector<std::pair<std::string, std::string>> pairs;
+    for (const std::string& text : given) {
+        const std::size_t equals = text.find('=');
+        if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+            throw InputError(fmt::format("--same-observer {}: write LABEL=LABEL, as 01=1", text));
+        pairs.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    }
+    return pairs;
 }
 
 void print_summary(const StudyResults& results, const std::filesystem::path& out, TableFormat format) {
@@ -129,6 +141,7 @@ int run_analyze(AnalyzeOptions options) {
         options.study.compare = *options.compare;
     }
     options.study.sigma = kernel_width(options.sigma);
+    options.study.same_observer = same_observers(options.same_observer);
     for (std::size_t i = 0; i < names_of<MapKernel>.size(); ++i) {
         if (names_of<MapKernel>[i] == options.kernel)
             options.study.kernel = static_cast<MapKernel>(i);
@@ -191,6 +204,8 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
            "Exclude trials with a larger error at the drift check", not_negative());
     option(command, "--most-missed", study.exclude.most_missed_refreshes, "N",
            "Exclude trials with more missed refreshes", CLI::NonNegativeNumber);
+    option(command, "--same-observer", options.same_observer, "LABEL=LABEL",
+           "Sessions of the first observer are those of the second, as 01=1; once for each", one_each_time);
     option(command, "--time-step", study.time_step_s, "S", "Stretches of the time course", above_zero(),
            shown_default);
     option(command, "--confidence", study.confidence, "", "Level of intervals", CLI::Range(0.5, 0.999),

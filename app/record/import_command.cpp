@@ -124,7 +124,8 @@ int run_import(const ImportOptions& options) {
                                                      : AscFiles(options.files.front());
     AscImportOptions request;
     request.place = {options.sessions, options.task,
-                     options.observer.empty() ? label_from(options.files.front()) : options.observer};
+                     options.observer.empty() ? label_from(options.files.front()) : options.observer,
+                     options.is_another_person};
     request.session_number = options.session_number;
     request.out = options.out;
     if (options.screen_mm.size() == 2)

@@ -30,6 +30,8 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
     option(command, "--sessions", options.sessions, "DIR", "Folder of all sessions", shown_default);
     option(command, "--observer", options.observer, "LABEL",
            "Label of the observer (default: letters and digits of the file's name)");
+    command.add_flag("--another-person", options.is_another_person,
+                     "This observer is not the one whose label differs in case or leading zeros only");
     option(command, "--session", options.session_number, "N",
            "Number of the session (default: the next free one)", above_zero());
     option(command, "--task", options.task, "NAME", "Name for what was done", shown_default);

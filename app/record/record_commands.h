@@ -22,6 +22,7 @@ struct ImportOptions {
     std::filesystem::path sessions = "sessions";
     std::string observer; ///< empty: letters and digits of the file's name
     std::optional<int> session_number;
+    bool is_another_person = false; ///< see SessionPlace
     std::string task = "imported";
     std::vector<double> screen_mm; ///< width and height, or empty
     std::optional<double> distance_mm;

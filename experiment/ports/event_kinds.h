@@ -8,6 +8,8 @@
 namespace overt {
 
 // Steps of a session that have no rows of their own; each change of phase is a phase_event (session_phase.h).
+/// Which session of this observer begins, and what became of those before. Not in one that is run again.
+inline constexpr std::string_view earlier_sessions_event = "earlier sessions";
 inline constexpr std::string_view text_shown_event = "text shown"; ///< to the observer; which
 inline constexpr std::string_view practice_event = "practice";     ///< begins: number and condition
 inline constexpr std::string_view practice_answered_event = "practice answered";

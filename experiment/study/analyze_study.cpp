@@ -5,7 +5,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -24,6 +23,7 @@
 #include "experiment/study/map_reliability.h"
 #include "experiment/study/point_distributions.h"
 #include "experiment/study/read/reporting.h"
+#include "experiment/study/results/study_observers.h"
 #include "experiment/study/study_maps.h"
 #include "experiment/study/study_pairs.h"
 
@@ -33,16 +33,15 @@ namespace {
 
 void glance_at(StudyResults& results) {
     StudyGlance& glance = results.glance;
-    std::set<std::string> observers;
     std::vector<std::string> protocols;
     for (const StudySession& session : results.sessions) {
-        observers.insert(session.observer);
         if (std::find(protocols.begin(), protocols.end(), session.protocol) == protocols.end())
             protocols.push_back(session.protocol);
         glance.any_simulated |= session.is_simulated;
     }
     glance.title = fmt::format("{}", fmt::join(protocols, "; "));
-    glance.observers = static_cast<int>(observers.size());
+    results.observers = study_observers(results);
+    glance.observers = static_cast<int>(std::ranges::count_if(results.observers, &StudyObserver::counts));
     glance.sessions = static_cast<int>(results.sessions.size());
     glance.trials = static_cast<int>(results.trials.size());
     for (const StudyTrial& trial : results.trials)
@@ -66,6 +65,8 @@ void glance_at(StudyResults& results) {
             "The sessions are of {} protocols: {}. Groups with the same words are pooled; a sculpture "
             "with another mesh or camera is one of its own.",
             protocols.size(), fmt::join(protocols, "; ")));
+    for (std::string& remark : remarks_on_observers(results.observers))
+        remarks.push_back(std::move(remark));
     if (glance.observers < 3)
         remarks.push_back(fmt::format("There {} only {}: intervals over observers need three.",
                                       glance.observers == 1 ? "is" : "are",

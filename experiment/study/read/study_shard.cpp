@@ -68,9 +68,9 @@ template <class Archive> void fields(Archive& archive, StudyQuality& quality) {
 }
 template <class Archive> void fields(Archive& archive, StudyTrial& trial) {
     auto& [session, sculpture, label, number, keys, presentation_s, excluded, why, first_fixation, fixations,
-           turns, clock_uncertainty_s, quality] = trial;
+           turns, clock_uncertainty_s, quality, has_gaze] = trial;
     archive(session, sculpture, label, number, keys, presentation_s, excluded, why, first_fixation, fixations,
-            turns, clock_uncertainty_s, quality);
+            turns, clock_uncertainty_s, quality, has_gaze);
 }
 template <class Archive> void fields(Archive& archive, FixationLight& light) {
     auto& [met, at_place, at_point] = light;

@@ -141,7 +141,11 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
         of.quality.missed_refreshes = trial.outcome.missed_refreshes;
     of.quality.refreshes = trial.outcome.shown_refreshes + trial.outcome.missed_refreshes;
     of.quality.off_plan = static_cast<double>(placed.counts.off_plan);
-    of.why_excluded = exclusion_of(of.quality, options.exclude);
+    const auto is_fixation = [](const GazeEvent& event) { return event.kind == GazeEvent::Kind::fixation; };
+    of.has_gaze = std::ranges::any_of(placed.samples, &PlacedSample::has_gaze) ||
+                  std::ranges::any_of(events, is_fixation);
+    // Means over trials would be too low with a trial in which nobody was measured.
+    of.why_excluded = of.has_gaze ? exclusion_of(of.quality, options.exclude) : "No gaze was recorded in it.";
     of.excluded = !of.why_excluded.empty();
 
     if (ledger)

@@ -7,6 +7,13 @@ namespace overt {
 
 namespace {
 
+std::string same_observers(const StudyOptions& options) {
+    std::string text;
+    for (const auto& [label, other] : options.same_observer)
+        text += fmt::format("{}{}={}", text.empty() ? "" : ",", label, other);
+    return text.empty() ? "none" : text;
+}
+
 std::string number_or_none(const auto& limit) { return limit ? fmt::format("{}", *limit) : "none"; }
 
 } // namespace
@@ -43,6 +50,9 @@ std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
          "Trials with a larger error at the drift check are excluded."},
         {"most-missed", number_or_none(rules.most_missed_refreshes), "refreshes",
          "Trials with more missed refreshes are excluded."},
+        {"same-observer", same_observers(options), "",
+         "Labels of observers that stand for another observer's, whose sessions are then counted as one "
+         "person's."},
         {"time-step", fmt::format("{}", options.time_step_s), "s", "Stretches of the time course."},
         {"confidence", fmt::format("{}", options.confidence), "", "Level of all intervals."},
         {"resamples", fmt::format("{}", options.resamples), "",

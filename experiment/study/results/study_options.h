@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiment/base/enum_names.h"
@@ -44,6 +45,8 @@ struct StudyOptions {
     /// Nothing: the mean error of the validation before the trial, and 0 if there was none.
     std::optional<double> reach_deg;
     ExclusionRules exclude;
+    /// Labels that stand for the same observer as another, and that one's.
+    std::vector<std::pair<std::string, std::string>> same_observer;
     double time_step_s = 1.0; ///< of the time course
     double confidence = 0.95;
     int resamples = 2000;    ///< of the bootstrap

@@ -55,6 +55,16 @@ struct StudySession {
     std::vector<StudyKey> setup; ///< items of the reporting guideline that the record knows
 };
 
+/// An observer of the sessions that were given, and whether N has them. One counts whose gaze there is in a
+/// trial that counts and is not excluded.
+struct StudyObserver {
+    std::string label;
+    bool counts = false;
+    std::string why; ///< a clause, such as "no gaze was recorded in any trial"; empty if counted
+    std::vector<std::string> alike; ///< labels of others that differ in case or leading zeros only
+    int sessions = 0, trials = 0, fixations = 0; ///< trials not excluded; counted fixations
+};
+
 /// What an article has to report: see reporting.h.
 struct ReportingItem {
     std::string topic, item, value;
@@ -204,6 +214,7 @@ struct StudyTrial {
     std::vector<StudyTurn> turns;
     double clock_uncertainty_s = 0.0; ///< bound on the error of its samples' times by the session's clock
     StudyQuality quality;
+    bool has_gaze = true; ///< any, or a fixation that the tracker told; a trial without it is excluded
     /// The value in a column; n/a if there is no such column.
     const std::string& key(const std::string& column) const;
 };
@@ -403,7 +414,8 @@ struct TimeCourseRow {
 
 struct StudyGlance {
     std::string title; ///< of the protocol, or of several
-    int observers = 0, sessions = 0, trials = 0, excluded_trials = 0;
+    int observers = 0; ///< N: those who count, see StudyObserver
+    int sessions = 0, trials = 0, excluded_trials = 0;
     std::int64_t samples = 0;
     int fixations = 0; ///< all
     int counted = 0;
@@ -421,6 +433,7 @@ struct StudyResults {
     std::vector<std::string> by; ///< columns that make the groups
     double confidence = 0.95;
     std::vector<StudySession> sessions;
+    std::vector<StudyObserver> observers; ///< in the order of the sessions
     std::vector<StudySculpture> sculptures;
     std::vector<StudyTrial> trials;
     std::vector<StudyFixation> fixations; ///< by trial, in the order of their onsets
