@@ -283,7 +283,7 @@ SetupOutcome CalibratedTracker::set_up(SetupScreen& setup_screen) {
         Fits fits;
         for (const Eye eye : eyes()) {
             fits[index_of(eye)] = GazeFit(pairs_of(visits, eye), settings_.model, screen_);
-            method = fits[index_of(eye)].description();
+            method = fmt::format("{} of {} points", fits[index_of(eye)].description(), settings_.points);
         }
         fits_ = fits;
     } catch (const InputError& error) {

@@ -72,15 +72,14 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
               "",
               {{"trial", "an attempt at a trial, from its begin to the answer"},
                {"question", "the screen with the question"},
-               {"presentation", "the animated stimulus"},
+               {"presentation", "the stimulus"},
                {"response", "the screen during the answer"},
                {"button", "a button of a response box was pressed"},
                {"marker", "another device was told of an event"}}},
              &BidsEvent::what},
             {{"response_time", "From the onset of the response screen to the end of the answer", "s"},
              &BidsEvent::response_time},
-            {{"stim_file", "First frame of the animated stimulus, in the folder stimuli"},
-             &BidsEvent::stimulus_file},
+            {{"stim_file", "First frame of the stimulus, in the folder stimuli"}, &BidsEvent::stimulus_file},
             {{"tracker_onset",
               "Begin of the event by the tracker's own clock, as the timestamps of the samples; by the line "
               "through the readings of both clocks. The two clocks run apart: onsets are by the session's",
@@ -211,9 +210,12 @@ Json screen_of(const SessionRecord& record) {
     Json json{{"ScreenDistance", metres(screen.viewing_distance_mm)},
               {"ScreenOrigin", {"top", "left"}},
               {"ScreenResolution", {screen.screen_px.x, screen.screen_px.y}},
-              {"ScreenSize", {metres(screen.screen_mm.x), metres(screen.screen_mm.y)}},
-              {"SoftwareName", "overt"},
-              {"SoftwareVersion", record.header().program.version}};
+              {"ScreenSize", {metres(screen.screen_mm.x), metres(screen.screen_mm.y)}}};
+    // By which the stimuli were shown: nobody knows of a recording made elsewhere.
+    if (!was_recorded_elsewhere(record.header())) {
+        json["SoftwareName"] = "overt";
+        json["SoftwareVersion"] = record.header().program.version;
+    }
     if (display.refresh_hz > 0.0)
         json["ScreenRefreshRate"] = display.refresh_hz;
     return json;
@@ -249,9 +251,14 @@ void write_bids_events(const SessionRecord& record, int run, std::optional<Sessi
         questions += (questions.empty() ? "" : "\n") + task.question;
     Json json;
     json["TaskName"] = bids_task_name(header);
-    json["TaskDescription"] = "Questions about animated sculptures, each asked before its presentation and "
-                              "answered after it";
-    json["Instructions"] = questions.empty() ? "none" : questions;
+    if (was_recorded_elsewhere(header)) {
+        json["TaskDescription"] = "Not known: the recording was made with another program, and imported";
+        json["Instructions"] = "n/a";
+    } else {
+        json["TaskDescription"] = "Animated objects are looked at; what is asked of each is asked before its "
+                                  "presentation and answered after it";
+        json["Instructions"] = questions.empty() ? "none" : questions;
+    }
     constexpr std::pair<std::string_view, const char*> institution[] = {
         {"institution_name", "InstitutionName"},
         {"institution_address", "InstitutionAddress"},

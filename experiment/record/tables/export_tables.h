@@ -27,8 +27,7 @@ class ExportTables {
     /// outlive it.
     explicit ExportTables(const SessionHeader& header, std::optional<Degrees> cone_accuracy = {},
                           const std::string& event_origins = {},
-                          const std::vector<ParticipantRow>& participant = {},
-                          const std::string& pupil = "Pupil area")
+                          const std::vector<ParticipantRow>& participant = {}, const PupilWords& pupil = {})
         : ExportTables(header, SharedColumns(header), cone_accuracy, event_origins, participant, pupil) {}
 
     RowLayout<TrialRow> trials;
@@ -48,7 +47,7 @@ class ExportTables {
   private:
     ExportTables(const SessionHeader& header, const SharedColumns& shared,
                  std::optional<Degrees> cone_accuracy, const std::string& event_origins,
-                 const std::vector<ParticipantRow>& participant, const std::string& pupil);
+                 const std::vector<ParticipantRow>& participant, const PupilWords& pupil);
 };
 
 /// Of each column Description, Units and Levels, as in BIDS side cars.

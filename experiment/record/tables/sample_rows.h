@@ -8,6 +8,7 @@
 
 #include "experiment/analysis/gaze_cone.h"
 #include "experiment/record/tables/joined_cells.h"
+#include "experiment/record/tables/pupil_words.h"
 #include "experiment/record/tables/shared_columns.h"
 
 namespace overt {
@@ -31,7 +32,7 @@ struct SampleCells : JoinedRow {
 /// With the columns of a gaze cone if its accuracy is given. `pupil`: see pupil_words(). `header` must
 /// outlive it.
 RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const SessionHeader& header,
-                                      std::optional<Degrees> cone_accuracy, const std::string& pupil);
+                                      std::optional<Degrees> cone_accuracy, const PupilWords& pupil);
 
 class SampleRows {
   public:
