@@ -40,6 +40,15 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
         ->expected(2);
     option(command, "--distance-mm", options.distance_mm, "MM",
            "From the eyes to the screen, where the file does not say it", above_zero());
+    option(command, "--missing", options.missing, "VALUE",
+           "What the file has in place of lost values (edf2asc -miss)")
+        ->default_str("found by its lost samples");
+    option(
+        command, "--least-read", options.least_read, "SHARE",
+        "Refuse a file if a smaller share of its samples or events can be read, in all or of one recording",
+        CLI::Range(0.0, 1.0), shown_default);
+    command.add_flag("--as-gaze", options.as_gaze,
+                     "Samples that mostly lie off the screen are gaze, though the file does not say so");
     option(command, "--print-session-to", options.print_session_to, "FILE",
            "Write the new session's path into a file");
     command.add_flag("--json", options.json, "Print JSON");

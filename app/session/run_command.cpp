@@ -129,7 +129,7 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
     Rig rig(protocol, experiment.sculptures,
             {options.context, options.virtual_time, options.windowed, options.simulate_observer.has_value(),
              seed_of_simulated(options, plan), options.maps, options.monitor, options.operator_keys,
-             options.draws_stimuli},
+             options.draws_stimuli, observer.label},
             cache);
     if (rig.is_on_a_real_screen() && options.refresh_check_s <= 0.0 &&
         protocol.display.timing == TimingClaim::proven)

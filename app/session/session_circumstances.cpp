@@ -84,6 +84,8 @@ void note_tracker(const RecordedTracker& recorded, const Clock& clock) {
     if (!recorded.tracker.measures_gaze())
         return;
     const TrackerDescription tracker = recorded.tracker.description();
+    if (!tracker.model.empty())
+        fmt::print("{}: {}\n", name_of(recorded), tracker.model);
     const auto note = [&](const std::string& what) {
         recorded.store.event({clock.now(), -1, tracker_event, what});
     };

@@ -6,9 +6,11 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
 #include "experiment/base/utf8_text.h"
+#include "experiment/record/asc/asc_pair_check.h"
 #include "experiment/record/asc/asc_words.h"
 
 namespace overt {
@@ -48,6 +50,8 @@ class Surveyor final : public AscListener {
     int trials(AscTrialCutter::By by) const {
         return 1 + (by == AscTrialCutter::By::trial_ids ? by_ids_ : by_recordings_).trial();
     }
+    std::string fault_of_pair() const { return pair_.fault(); }
+    double share_off_screen() const;
     std::int64_t shortest_interval_us() const { return shortest_interval_us_; }
     bool clock_began_anew() const { return clock_began_anew_; }
     TrackerTime began_anew_at() const { return began_anew_at_; }
@@ -64,6 +68,8 @@ class Surveyor final : public AscListener {
     TrackerTime began_anew_at_;
     std::optional<TrackerTime> last_sample_;
     std::int64_t shortest_interval_us_ = 0;
+    AscPairCheck pair_;
+    std::array<std::int64_t, 2> off_screen_{}; ///< places: of negative coordinates, and all
 };
 
 void Surveyor::take_time(TrackerTime time) {
@@ -88,11 +94,24 @@ void Surveyor::samples(std::span<const GazeSample> samples) {
             shortest_interval_us_ == 0 ? interval_us : std::min(shortest_interval_us_, interval_us);
     }
     last_sample_ = time;
+    if (files_.are_two())
+        pair_.samples(samples);
     for (const GazeSample& sample : samples) {
+        if (sample.gaze) {
+            constexpr double largest_screen_px = 8192.0;
+            const auto is_off = [&](double px) { return px < 0.0 || px > largest_screen_px; };
+            off_screen_[0] += is_off(sample.gaze->x_px) || is_off(sample.gaze->y_px);
+            ++off_screen_[1];
+        }
         (sample.eye == Eye::left ? survey_.has_left : survey_.has_right) = true;
         ++survey_.samples;
         survey_.samples_without_gaze += !sample.gaze;
     }
+}
+
+double Surveyor::share_off_screen() const {
+    return off_screen_[1] > 0 ? static_cast<double>(off_screen_[0]) / static_cast<double>(off_screen_[1])
+                              : 0.0;
 }
 
 void Surveyor::event(const GazeEvent& event) {
@@ -101,6 +120,8 @@ void Surveyor::event(const GazeEvent& event) {
     if (is_trial_id(event) && !survey_.trial_numbers.empty())
         survey_.trial_numbers.back() = asc_trial_number(event);
     by_recordings_.take(event);
+    if (files_.are_two())
+        pair_.event(event);
     ++survey_.events;
     if (event.kind == Kind::note)
         return;
@@ -205,14 +226,100 @@ bool AscTrialCutter::take_sample() {
     return begin();
 }
 
-AscSurvey survey_asc(const AscFiles& files, const AscReport& report,
-                     const std::function<void(std::int64_t, std::int64_t)>& progress) {
+namespace {
+
+/// Throws InputError if the samples are no gaze.
+void check_gaze(const AscSurvey& survey, const Surveyor& surveyor, const std::string& file,
+                const AscSurveyOptions& options) {
+    const bool takes_events_alone = options.least_read <= 0.0;
+    if (2 * survey.raw_samples > survey.samples && !takes_events_alone)
+        throw InputError(fmt::format(
+            "{}: {} of {} samples have pupils of less than 0, EyeLink's sign of raw data (the tracker's "
+            "setting "
+            "file_sample_raw_pcr): places of the pupil and of its corneal reflection in the camera's "
+            "picture, and "
+            "no gaze. Record with that setting off; to import events and messages all the same, give "
+            "--least-read 0.",
+            file, survey.raw_samples, survey.samples));
+    if (survey.samples == 0 && survey.samples_that_are_no_gaze > 0 && !takes_events_alone)
+        throw InputError(fmt::format(
+            "{}: its samples are raw places of the pupil, or in the head's frame (SAMPLES PUPIL or HREF), "
+            "and no "
+            "places on a screen. Convert the recording again with gaze: edf2asc -sg; to import events and "
+            "messages all the same, give --least-read 0.",
+            file));
+    if (!survey.format.kind_is_declared && !options.is_gaze && surveyor.share_off_screen() > 0.5)
+        throw InputError(fmt::format(
+            "{}: nothing says of what its samples are, and {:.0f} % of them lie off the screen: they seem to "
+            "be "
+            "raw places of the pupil, or in the head's frame (edf2asc -sp or -sh), and no gaze. Convert the "
+            "recording again with gaze and with events: edf2asc -sg. If they are gaze, give --as-gaze.",
+            file, 100.0 * surveyor.share_off_screen()));
+}
+
+/// The share of lines that were read of those of one kind.
+struct ReadLines {
+    std::int64_t read = 0, lines = 0;
+    /// A line or two may be broken in a file however short.
+    bool is_too_few(double least) const {
+        constexpr std::int64_t few_lost = 2;
+        return lines - read > few_lost && static_cast<double>(read) < least * static_cast<double>(lines);
+    }
+};
+
+/// All recordings together must be read, and each that has more than a few lines.
+void check_shares(const AscSurvey& survey, const std::string& file, double least) {
+    constexpr std::int64_t few_lines = 20;
+    AscReadShare all;
+    std::vector<std::string> faults;
+    const auto check = [&](const AscReadShare& share, std::string_view of, std::int64_t fewest) {
+        const ReadLines samples{share.samples_read, share.sample_lines},
+            events{share.events_read, share.event_lines};
+        if (samples.lines >= fewest && samples.is_too_few(least))
+            faults.push_back(fmt::format("{} of {} lines of samples{}", samples.read, samples.lines, of));
+        if (events.lines >= fewest && events.is_too_few(least))
+            faults.push_back(fmt::format("{} of {} lines of fixations, saccades and blinks{}", events.read,
+                                         events.lines, of));
+    };
+    for (const AscReadShare& share : survey.recordings) {
+        all.sample_lines += share.sample_lines;
+        all.samples_read += share.samples_read;
+        all.event_lines += share.event_lines;
+        all.events_read += share.events_read;
+    }
+    check(all, "", 1);
+    if (faults.empty())
+        for (const AscReadShare& share : survey.recordings)
+            check(share,
+                  share.start ? fmt::format(" of the recording that began at {} ms",
+                                            share.start->time_since_epoch().count() / 1000)
+                              : std::string(" before the first START"),
+                  few_lines);
+    if (faults.empty())
+        return;
+    constexpr std::size_t shown = 5;
+    const std::size_t more = faults.size() - std::min(faults.size(), shown);
+    faults.resize(std::min(faults.size(), shown));
+    throw InputError(fmt::format(
+        "{}: only {}{} could be imported. {}To import what is there all the same, give --least-read 0.", file,
+        fmt::join(faults, ", and "), more > 0 ? fmt::format(", and {} more", more) : "",
+        survey.samples_that_are_no_gaze > 0
+            ? fmt::format("{} samples are no gaze on a screen (SAMPLES HREF or PUPIL). ",
+                          survey.samples_that_are_no_gaze)
+            : std::string()));
+}
+
+} // namespace
+
+AscSurvey survey_asc(const AscFiles& files, const AscSurveyOptions& options) {
     AscSurvey survey;
     const std::string file = files.path();
-    Surveyor surveyor(survey, files, report);
-    AscParser parser(surveyor);
-    files.parse(parser, progress);
+    survey.conventions = find_conventions(files, options.missing, part_of(options.progress, 0, 1, 2));
+    Surveyor surveyor(survey, files, options.report);
+    AscParser parser(surveyor, survey.conventions);
+    files.parse(parser, part_of(options.progress, 1, 1, 2));
     survey.format = parser.format();
+    survey.recordings = parser.recordings();
     static_cast<AscCounts&>(survey) = parser.counts();
     survey.cut_by = surveyor.has_trial_ids() ? AscTrialCutter::By::trial_ids : AscTrialCutter::By::recordings;
     survey.trials = surveyor.trials(survey.cut_by);
@@ -221,14 +328,13 @@ AscSurvey survey_asc(const AscFiles& files, const AscReport& report,
         survey.has_left = survey.format.has_left;
         survey.has_right = survey.format.has_right || !survey.has_left;
     }
-    if (survey.rate_hz <= 0.0 && surveyor.shortest_interval_us() > 0)
-        survey.rate_hz = 1e6 / static_cast<double>(surveyor.shortest_interval_us());
-    if (survey.samples == 0 && survey.samples_that_are_no_gaze > 0)
-        throw InputError(
-            fmt::format("{}: its samples are of the pupil or in the head's frame (SAMPLES HREF or "
-                        "PUPIL), and no places on a screen. Convert the recording again with gaze.",
-                        file));
-    if (survey.trials == 0)
+    if (survey.rate_hz <= 0.0)
+        survey.rate_hz = survey.conventions.stamps_are_rounded && survey.conventions.rate_hz > 0.0
+                             ? survey.conventions.rate_hz
+                         : surveyor.shortest_interval_us() > 0
+                             ? 1e6 / static_cast<double>(surveyor.shortest_interval_us())
+                             : 0.0;
+    if (survey.trials == 0 && survey.samples_that_are_no_gaze == 0)
         throw InputError(
             fmt::format("{}: no recording of an EyeLink was found in {} lines, {} of them could not "
                         "be read. Give a file that edf2asc has written.",
@@ -238,19 +344,27 @@ AscSurvey survey_asc(const AscFiles& files, const AscReport& report,
             "{}: is a table of numbers, and nothing in it is as an EyeLink has it: no header, no message, "
             "no event, no status after the values of a sample. Give a file that edf2asc has written.",
             file));
+    check_gaze(survey, surveyor, file, options);
     if (surveyor.clock_began_anew())
         throw InputError(
             fmt::format("{}: the tracker's clock began anew at time stamp {}: this is two recordings "
                         "in one file. Cut it there and import both.",
                         file, surveyor.began_anew_at().time_since_epoch().count() / 1000));
+    if (const std::string fault = files.are_two() ? surveyor.fault_of_pair() : ""; !fault.empty())
+        throw InputError(fmt::format(
+            "{}: {}. They are not of one recording: give the samples and the events of the same one.", file,
+            fault));
+    check_shares(survey, file, options.least_read);
     return survey;
 }
 
-ByteProgress part_of(const ByteProgress& progress, int reading) {
+ByteProgress part_of(const ByteProgress& progress, int before, int readings, int all) {
     if (!progress)
         return {};
-    return
-        [progress, reading](std::int64_t done, std::int64_t all) { progress(done + reading * all, 2 * all); };
+    return [progress, before, readings, all](std::int64_t done, std::int64_t bytes) {
+        const std::int64_t once = bytes / readings;
+        progress(done + before * once, all * once);
+    };
 }
 
 } // namespace overt

@@ -2,7 +2,6 @@
 
 #include <cctype>
 #include <charconv>
-#include <set>
 
 namespace overt {
 
@@ -50,34 +49,6 @@ TrackerFacts tracker_facts(const SessionRecord& record, int sitting) {
     if (source->pupil_is_diameter)
         facts.pupil = PupilMeasure::diameter;
     return facts;
-}
-
-PupilWords pupil_words(PupilMeasure pupil) {
-    switch (pupil) {
-    case PupilMeasure::area:
-        return {"pupil_area", "Pupil area", "the tracker's own unit"};
-    case PupilMeasure::diameter:
-        return {"pupil_diameter", "Pupil diameter", "the tracker's own unit"};
-    case PupilMeasure::diameter_mm:
-        return {"pupil_diameter", "Pupil diameter", "mm"};
-    case PupilMeasure::none:
-        return {"pupil_size",
-                "1 while there is gaze: there is no pupil, and neither area nor diameter of one", ""};
-    case PupilMeasure::unknown:
-        break;
-    }
-    return {"pupil_size", "Pupil size; whether it is an area or a diameter the tracker does not say",
-            "the tracker's own unit"};
-}
-
-PupilWords pupil_words(const SessionRecord& record) {
-    std::set<PupilMeasure> measures;
-    for (const TrialRecord& trial : record.trials())
-        measures.insert(tracker_facts(record, trial.sitting).pupil);
-    if (measures.size() > 1)
-        return {"pupil_size", "Pupil size, of some sittings the area and of others the diameter",
-                "the tracker's own unit, or mm"};
-    return pupil_words(measures.empty() ? tracker_facts(record.header().tracker).pupil : *measures.begin());
 }
 
 std::optional<int> calibration_points(std::string_view method) {

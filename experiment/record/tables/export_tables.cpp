@@ -23,12 +23,12 @@ std::string_view description_of(TableFormat format) {
 
 } // namespace
 
-ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& shared, const PupilWords& pupil,
+ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& shared,
                            std::optional<Degrees> cone_accuracy, const std::string& event_origins,
-                           const std::vector<ParticipantRow>& participant)
+                           const std::vector<ParticipantRow>& participant, const PupilWords& pupil)
     : trials(trials_layout(shared, header)), flips(ledger_layout(shared, header)),
-      samples(samples_layout(shared, header, pupil, cone_accuracy)),
-      gaze_events(gaze_events_layout(event_origins)), events(events_layout()),
+      samples(samples_layout(shared, header, cone_accuracy, pupil)),
+      gaze_events(gaze_events_layout(event_origins, pupil.meaning)), events(events_layout()),
       responses(responses_layout(shared, header)), stimuli(stimuli_layout(shared, header)),
       display_box(display_box_layout()), buttons(buttons_layout()), markers(markers_layout()),
       participants(participants_layout(participant)) {

@@ -21,15 +21,14 @@ namespace overt {
 /// All tables of one session's export. Levels name the session's own tasks, sculptures and materials.
 class ExportTables {
   public:
-    /// `pupil`: what the tracker calls the size of a pupil. With the columns of a gaze cone if its accuracy
-    /// is given. `event_origins`: see gaze_events_layout(). `participant` is the session's. All tables begin
-    /// with the observer and the number of the session, so that those of several sessions can be put one
-    /// below the other. `header` must outlive it.
-    explicit ExportTables(const SessionHeader& header,
-                          const PupilWords& pupil = pupil_words(PupilMeasure::unknown),
-                          std::optional<Degrees> cone_accuracy = {}, const std::string& event_origins = {},
-                          const std::vector<ParticipantRow>& participant = {})
-        : ExportTables(header, SharedColumns(header), pupil, cone_accuracy, event_origins, participant) {}
+    /// With the columns of a gaze cone if its accuracy is given. `event_origins`: see gaze_events_layout().
+    /// `participant` is the session's; `pupil`: see pupil_words(). All tables begin with the observer and the
+    /// number of the session, so that those of several sessions can be put one below the other. `header` must
+    /// outlive it.
+    explicit ExportTables(const SessionHeader& header, std::optional<Degrees> cone_accuracy = {},
+                          const std::string& event_origins = {},
+                          const std::vector<ParticipantRow>& participant = {}, const PupilWords& pupil = {})
+        : ExportTables(header, SharedColumns(header), cone_accuracy, event_origins, participant, pupil) {}
 
     RowLayout<TrialRow> trials;
     RowLayout<LedgerRow> flips;
@@ -46,9 +45,9 @@ class ExportTables {
     std::vector<const Table*> all() const;
 
   private:
-    ExportTables(const SessionHeader& header, const SharedColumns& shared, const PupilWords& pupil,
+    ExportTables(const SessionHeader& header, const SharedColumns& shared,
                  std::optional<Degrees> cone_accuracy, const std::string& event_origins,
-                 const std::vector<ParticipantRow>& participant);
+                 const std::vector<ParticipantRow>& participant, const PupilWords& pupil);
 };
 
 /// Of each column Description, Units and Levels, as in BIDS side cars.

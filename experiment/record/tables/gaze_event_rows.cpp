@@ -26,8 +26,8 @@ std::string_view detector_of(const GazeEventRow& row) {
 
 } // namespace
 
-std::vector<RowLayout<TrackerEventRow>::Column> event_value_columns(const std::string& pixels,
-                                                                    const std::string& of_pupil) {
+std::vector<RowLayout<TrackerEventRow>::Column>
+event_value_columns(const std::string& pixels, const std::string& of_pupil, const std::string& pupil) {
     using Place = std::optional<ScreenPoint> GazeEvent::*;
     using Number = std::optional<double> GazeEvent::*;
     const auto coordinate = [](Place place, double ScreenPoint::*axis) {
@@ -47,14 +47,15 @@ std::vector<RowLayout<TrackerEventRow>::Column> event_value_columns(const std::s
         {{"end_x_px", "End of a saccade, to the right", pixels},
          coordinate(&GazeEvent::arrival, &ScreenPoint::x_px)},
         {{"end_y_px", "The same, downwards", pixels}, coordinate(&GazeEvent::arrival, &ScreenPoint::y_px)},
-        {{"pupil", "Mean pupil size of a fixation", of_pupil}, number(&GazeEvent::pupil, pupil_decimals)},
+        {{"pupil", "Mean pupil size of a fixation" + (pupil.empty() ? pupil : ". " + pupil), of_pupil},
+         number(&GazeEvent::pupil, pupil_decimals)},
         {{"amplitude_deg", "Size of a saccade", "deg"}, number(&GazeEvent::amplitude_deg, pixel_decimals)},
         {{"peak_velocity_deg_s", "Peak velocity of a saccade", "deg/s"},
          number(&GazeEvent::peak_velocity_deg_s, pixel_decimals)},
     };
 }
 
-RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins) {
+RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins, const std::string& pupil) {
     RowLayout<GazeEventRow> layout{
         "gaze_events",
         "Fixations, saccades and blinks in the completed trials, and what the tracker's file said besides "
@@ -97,7 +98,7 @@ RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins) {
              tracker_us_of(&GazeEvent::start)},
             {{"tracker_end_us", "end_s by the tracker's own clock", "us"}, tracker_us_of(&GazeEvent::end)},
         }};
-    layout.add<TrackerEventRow>(event_value_columns("px", "the tracker's own unit"));
+    layout.add<TrackerEventRow>(event_value_columns("px", "the tracker's own unit", pupil));
     layout.add<GazeEventRow>({
         {{"text", "Words and numbers of what is no fixation, saccade or blink"},
          [](auto& row) { return row.event.text; }},

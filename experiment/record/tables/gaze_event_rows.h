@@ -16,8 +16,9 @@ struct TrackerEventRow {
 };
 
 /// Its places, pupil, size and speed; the same in each kind of export, but for the words of its units.
-std::vector<RowLayout<TrackerEventRow>::Column> event_value_columns(const std::string& pixels,
-                                                                    const std::string& of_pupil);
+/// `pupil`: see pupil_words().
+std::vector<RowLayout<TrackerEventRow>::Column>
+event_value_columns(const std::string& pixels, const std::string& of_pupil, const std::string& pupil = {});
 
 struct GazeEventRow : TrackerEventRow {
     int trial; ///< from 1; 0: outside of trials
@@ -27,7 +28,7 @@ struct GazeEventRow : TrackerEventRow {
 
 /// One row for each fixation, saccade, blink, message, button, input, begin and end of a recording, and note.
 /// `origins`: whole sentences on where fixations, saccades and blinks come from.
-RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins);
+RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins, const std::string& pupil);
 
 /// Writes those of a trial. Throws RecordError.
 void write_gaze_events(TableWriter& writer, const RowLayout<GazeEventRow>& layout,

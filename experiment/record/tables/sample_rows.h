@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "experiment/analysis/gaze_cone.h"
-#include "experiment/record/read/tracker_facts.h"
 #include "experiment/record/tables/joined_cells.h"
+#include "experiment/record/tables/pupil_words.h"
 #include "experiment/record/tables/shared_columns.h"
 
 namespace overt {
@@ -29,9 +29,10 @@ struct SampleCells : JoinedRow {
     const GazeCone::Shares* shares;                 ///< null without a cone, and beside lit frames
 };
 
-/// With the columns of a gaze cone if its accuracy is given. `header` must outlive it.
+/// With the columns of a gaze cone if its accuracy is given. `pupil`: see pupil_words(). `header` must
+/// outlive it.
 RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const SessionHeader& header,
-                                      const PupilWords& pupil, std::optional<Degrees> cone_accuracy);
+                                      std::optional<Degrees> cone_accuracy, const PupilWords& pupil);
 
 class SampleRows {
   public:

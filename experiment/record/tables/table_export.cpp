@@ -11,6 +11,7 @@
 #include "experiment/base/export_folder.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/record/tables/export_tables.h"
+#include "experiment/record/tables/pupil_words.h"
 
 namespace fs = std::filesystem;
 
@@ -30,8 +31,8 @@ class TableExport {
     TableExport(const SessionRecord& record, const fs::path& directory, const TableExportOptions& options)
         : record_(record), header_(record.header()), format_(options.format), words_(trial_words(record)),
           participant_(participant_row(record)),
-          tables_(with_words(ExportTables(header_, pupil_words(record), options.cone_accuracy,
-                                          record.event_origins(), {participant_}),
+          tables_(with_words(ExportTables(header_, options.cone_accuracy, record.event_origins(),
+                                          {participant_}, pupil_words(record)),
                              words_)),
           directory_(directory), sample_rows_(tables_.samples, record, format_, options.cone_accuracy) {
         for (const Table* table : tables_.all())

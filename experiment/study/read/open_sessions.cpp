@@ -145,10 +145,7 @@ StudySculpture describe_sculpture(const SessionHeader& header, int index) {
     sculpture.id = recorded.id;
     sculpture.title = recorded.title;
     sculpture.part_names = recorded.part_names;
-    for (std::size_t part = 0; part < recorded.part_names.size(); ++part) {
-        if (recorded.part_names[part] == "head")
-            sculpture.head = static_cast<PartIndex>(part);
-    }
+    sculpture.head = HeadParts(recorded.part_names);
     sculpture.camera = recorded.camera;
     sculpture.axis_point = recorded.axis_point;
     sculpture.unit = recorded.unit;

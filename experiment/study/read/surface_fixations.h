@@ -34,6 +34,9 @@ struct FixationContext {
     std::span<const Degrees> angles;         ///< by PoseIndex
     const std::optional<ObjectScale>& scale; ///< nothing without a known camera
     bool has_surface = false;
+    /// Of a session that knows of no stimulus: its fixations are told with their places on the screen alone,
+    /// and no frame needs to have been lit.
+    bool has_stimulus = true;
     const SurfaceGeometry* fine = nullptr;  ///< the sculpture's mesh; null without one
     const CoarseSurface* coarse = nullptr;  ///< of that; null without a scale
     GeodesicField* field = nullptr;         ///< on the coarse surface; the same

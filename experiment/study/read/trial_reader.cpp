@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/record/no_stimulus.h"
 #include "experiment/study/read/gaze_quality.h"
 
 namespace overt {
@@ -21,6 +22,21 @@ std::vector<StudyTurn> turns_of(const TrialLedger& ledger, SessionTime onset,
                          angles[static_cast<std::size_t>(flip.pose.value)].value, flip.shown.value});
     }
     return turns;
+}
+
+/// From the onset to the last sample, or to the end of the last event: how long a trial was recorded that
+/// does not say how long it showed something.
+double recorded_s(std::span<const PlacedSample> samples, std::span<const GazeEvent> events,
+                  const std::optional<ClockMap>& clock_map, SessionTime onset) {
+    double last_s = 0.0;
+    for (const PlacedSample& sample : samples)
+        if (sample.has_time)
+            last_s = std::max(last_s, sample.time_s);
+    if (clock_map)
+        for (const GazeEvent& event : events)
+            last_s = std::max(last_s, to_seconds(clock_map->to_session(event.start).time - onset) +
+                                          std::chrono::duration<double>(event.duration).count());
+    return last_s;
 }
 
 /// Every n-th sample, but the first of each loss of the eye too, so that blinks stay visible.
@@ -83,13 +99,6 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
     StudyTrial& of = read.trial;
     of.number = trial.trial.index + 1;
     of.label = fmt::format("observer {}, trial {}", header.schedule.observer.label, of.number);
-    if (has_onset && trial.reached(trial.outcome.presentation_end))
-        of.presentation_s = to_seconds(trial.outcome.presentation_end - onset);
-    else if (trial.has_outcome() && trial.outcome.responded_at > onset)
-        of.presentation_s = to_seconds(trial.outcome.responded_at - onset);
-    else
-        of.presentation_s = header.animation.duration_s;
-
     const auto validation = std::find_if(validations.rbegin(), validations.rend(),
                                          [&](const auto& one) { return one.at <= trial.started; });
     const double accuracy_deg = validation != validations.rend() ? validation->mean_deg : 0.0;
@@ -107,6 +116,17 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
     });
     std::stable_sort(events.begin(), events.end(),
                      [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
+
+    const bool has_stimulus = ledger || !knows_no_stimulus(header);
+    const std::optional<ClockMap> clock_map = record.clock_map(trial);
+    if (has_onset && trial.reached(trial.outcome.presentation_end))
+        of.presentation_s = to_seconds(trial.outcome.presentation_end - onset);
+    else if (trial.has_outcome() && trial.outcome.responded_at > onset)
+        of.presentation_s = to_seconds(trial.outcome.responded_at - onset);
+    else if (has_stimulus)
+        of.presentation_s = header.animation.duration_s;
+    else
+        of.presentation_s = recorded_s(placed.samples, events, clock_map, onset);
 
     of.quality = gaze_quality(placed.samples, events, header.display.screen);
     if (validation != validations.rend()) {
@@ -130,7 +150,6 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
 
     if (ledger)
         of.turns = turns_of(*ledger, onset, header.poses.angles);
-    const std::optional<ClockMap> clock_map = record.clock_map(trial);
     if (with_trace)
         read.trace = trace_of(placed.samples, events, clock_map, onset, of.presentation_s,
                               of.quality.rate_hz.value_or(0.0));
@@ -151,6 +170,7 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                                   header.poses.angles,
                                   surface.scale,
                                   surface.lookup != nullptr,
+                                  has_stimulus,
                                   surface.fine,
                                   surface.coarse,
                                   surface.field,

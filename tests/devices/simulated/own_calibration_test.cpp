@@ -195,6 +195,23 @@ TEST_CASE("an eye that is never seen, or never follows, calibrates nothing and h
         CHECK(outcome.validation->max_error.value > 2.0);
 }
 
+TEST_CASE(
+    "gaze that rests at one place for all targets is a failed calibration, after which the next can be good",
+    "[unit]") {
+    Sitting sitting(34, test::without_wandering());
+    SimulatedTrackerSettings settings = uncalibrated();
+    settings.noise_deg = 0.0;
+    const auto tracker = tracker_of(sitting, settings);
+    WatchedSetupScreen setup_screen(sitting);
+    setup_screen.is_ignored = [](ScreenPoint) { return true; };
+    const SetupOutcome outcome = tracker->set_up(setup_screen);
+    CHECK(outcome.kind == SetupOutcome::Kind::failed);
+    CHECK_THAT(outcome.message, Catch::Contains("in a line or at one place"));
+    CHECK(setup_screen.beeps.back() == SetupBeep::calibration_bad);
+    setup_screen.is_ignored = {};
+    CHECK(tracker->set_up(setup_screen).kind == SetupOutcome::Kind::done);
+}
+
 TEST_CASE("escape ends a calibration, backspace shows the target before again, space accepts", "[unit]") {
     Sitting sitting(36);
     CalibrationSettings by_key;

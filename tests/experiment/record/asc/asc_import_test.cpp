@@ -22,7 +22,7 @@ AscImportOptions options_for(const fs::path& out, std::vector<std::string>* repo
     options.out = out;
     options.now_utc = "2026-01-01T00:00:00Z";
     if (reports)
-        options.report = [reports](const std::string& line) { reports->push_back(line); };
+        options.reading.report = [reports](const std::string& line) { reports->push_back(line); };
     return options;
 }
 
