@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "experiment/record/asc/asc_survey.h"
 #include "experiment/base/utf8_text.h"
+#include "experiment/record/asc/asc_survey.h"
 #include "experiment/record/asc/asc_words.h"
 #include "experiment/record/preview_file.h"
 
