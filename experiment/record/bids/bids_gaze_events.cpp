@@ -10,6 +10,7 @@
 #include "experiment/record/asc/asc_trial.h"
 #include "experiment/record/bids/bids_names.h"
 #include "experiment/record/tables/export_tables.h"
+#include "experiment/record/read/tracker_facts.h"
 #include "experiment/record/tables/gaze_event_rows.h"
 #include "experiment/record/tables/joined_cells.h"
 #include "experiment/record/tables/table_writer.h"
