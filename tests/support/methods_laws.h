@@ -80,8 +80,8 @@ inline void check_methods(const nlohmann::json& study) {
     static const std::regex hole(
         R"([{}<>]|\bnan\b|\binf\b|n/a|\bnull\b|  | [.,;:)]|\(\)|\( |""|\.\.|,,|; ?\.|\b(of|by|at|with|in|from|was|were|had) ?[.,;])");
     std::smatch found;
-    CHECK_FALSE(std::regex_search(text, found, hole));
-    INFO(found.str());
+    const std::string empty_place = std::regex_search(text, found, hole) ? found.str() : std::string();
+    CHECK(empty_place == "");
     // Singular and plural.
     static const std::regex one_of_many(
         R"((^|[^\d.,])1 (trials|sessions|observers|simulated observers|fixations|maps|sculptures|materials|refreshes|times|questions|samples|calibrations|were)\b)");

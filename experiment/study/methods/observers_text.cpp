@@ -64,7 +64,7 @@ std::string limit_of(ExclusionRule rule, const ExclusionRules& rules) {
         return fmt::format("the drift check before it found an error above {} deg",
                            as_set(*rules.most_drift_deg));
     case ExclusionRule::missed_refreshes:
-        return fmt::format("more than {} of its refreshes were missed, or it is not proven how many were",
+        return fmt::format("more than {} of its refreshes were missed, or their number is not proven",
                            *rules.most_missed_refreshes);
     }
     return {};
