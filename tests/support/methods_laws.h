@@ -107,7 +107,7 @@ inline void check_methods(const nlohmann::json& study) {
            text.find("analysed, was measured at") != text.npos) == is_measured);
     CHECK((text.find("simulated observer") != text.npos) == (study.at("simulated_observers") > 0));
     CHECK(text.find("recorded by") == text.npos);
-    bool has_rule = false;
+    bool has_rule = study.at("trials_without_gaze") > 0;
     for (const auto& parameter : study.at("parameters"))
         has_rule |=
             parameter.at("name").get<std::string>().starts_with("most-") && parameter.at("value") != "none";
