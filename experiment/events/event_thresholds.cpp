@@ -20,8 +20,11 @@ constexpr double usual_acceleration_deg_s2 = 8000.0;
 constexpr double calm_noise_deg_s = 8.0, calm_interval_ms = 2.0;
 constexpr double most_acceleration_deg_s2 = 1e6; // which no eye reaches
 
-/// To steps that read well, and are far finer than thresholds are known.
-double rounded(double value, double step) { return step * std::round(value / step); }
+/// To the decimals that read well, and are far finer than thresholds are known; -2: to hundreds.
+double rounded(double value, int decimals) {
+    const double power = std::pow(10.0, std::abs(decimals));
+    return decimals < 0 ? power * std::round(value / power) : std::round(value * power) / power;
+}
 
 } // namespace
 
@@ -89,7 +92,7 @@ std::optional<GazeNoise> GazeNoiseMeter::measured() const {
     const std::optional<double> interval_ms = intervals_ms_.median(), speed_deg_s = speeds_deg_s_.median();
     if (!interval_ms || !speed_deg_s)
         return std::nullopt;
-    return GazeNoise{rounded(*interval_ms, 0.01), rounded(*speed_deg_s, 0.1)};
+    return GazeNoise{rounded(*interval_ms, 2), rounded(*speed_deg_s, 1)};
 }
 
 EventSettings usual_settings(const GazeNoise& noise) {
@@ -97,12 +100,11 @@ EventSettings usual_settings(const GazeNoise& noise) {
     const double fast_deg_s =
         std::clamp(raised_velocity_deg_s - noise.speed_deg_s, least_velocity_deg_s, most_velocity_deg_s);
     const double seen = std::min(1.0, widest_interval_ms / noise.interval_ms);
-    settings.velocity_deg_s =
-        rounded(std::max(fast_deg_s * seen, least_times_noise * noise.speed_deg_s), 0.1);
+    settings.velocity_deg_s = rounded(std::max(fast_deg_s * seen, least_times_noise * noise.speed_deg_s), 1);
     const double calm_deg_s = calm_noise_deg_s * std::max(1.0, noise.interval_ms / calm_interval_ms);
     const double excess = std::max(1.0, noise.speed_deg_s / calm_deg_s);
     settings.acceleration_deg_s2 =
-        rounded(std::min(usual_acceleration_deg_s2 * std::pow(excess, 4), most_acceleration_deg_s2), 100.0);
+        rounded(std::min(usual_acceleration_deg_s2 * std::pow(excess, 4), most_acceleration_deg_s2), -2);
     return settings;
 }
 
