@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
-#include "experiment/record/read/recorded_validation.h"
 #include "experiment/study/read/reporting.h"
 
 namespace overt {
@@ -38,10 +37,7 @@ std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> se
             one.readers.back()->detect_events_of_imports();
             one.keys.push_back(std::make_unique<TrialKeys>(*one.readers.back()));
         }
-        one.record().read_events([&](const RecordedEvent& event) {
-            if (const std::optional<ValidationResult> result = validation_of(event))
-                one.validations.push_back({event.at, result->mean_error.value, result->max_error.value});
-        });
+        one.validations = validations_of(one.record());
     }
     return open;
 }
