@@ -19,16 +19,15 @@ struct RecordedAccuracy {
 std::vector<RecordedAccuracy> validations_of(const SessionRecord& record);
 
 struct TrialPresentation {
-    /// Whether the session knows of a stimulus: imported recordings do not.
-    bool has_stimulus = true;
-    SessionTime onset; ///< the trial's begin where no presentation is recorded
-    /// Until the answer, or as planned, where its end is not recorded; nothing: as long as was recorded.
+    SessionTime onset;       ///< the trial's begin where no presentation is recorded
+    /// Until the answer, or as planned, where its end is not recorded. Nothing if the session knows of no
+    /// stimulus and the trial of neither end nor answer.
     std::optional<double> duration_s;
     std::optional<RecordedAccuracy> validation; ///< the last before the trial
 };
 
-/// `has_ledger`: whether the trial has a TrialLedger. `validations` by their times.
-TrialPresentation presentation_of(const SessionHeader& header, const TrialRecord& trial, bool has_ledger,
+/// `validations` by their times.
+TrialPresentation presentation_of(const SessionHeader& header, const TrialRecord& trial,
                                   std::span<const RecordedAccuracy> validations);
 
 } // namespace overt
