@@ -48,7 +48,8 @@ std::vector<RowLayout<GazeEventRow>::Column> surface_columns(const SessionHeader
     const auto share = [](double StudyFixation::*of) {
         return [of](const GazeEventRow& row) {
             const bool is_known =
-                row.fixation && row.fixation->samples > 0 && row.fixation->why != NotCounted::no_surface;
+                row.fixation && row.fixation->samples > 0 && row.fixation->why != NotCounted::no_surface &&
+                row.fixation->why != NotCounted::no_stimulus;
             return when(is_known, Fixed{is_known ? (*row.fixation).*of : 0.0, share_decimals});
         };
     };
@@ -97,8 +98,8 @@ std::vector<RowLayout<GazeEventRow>::Column> surface_columns(const SessionHeader
 
 } // namespace
 
-std::vector<RowLayout<TrackerEventRow>::Column> event_value_columns(const std::string& pixels,
-                                                                    const std::string& of_pupil) {
+std::vector<RowLayout<TrackerEventRow>::Column>
+event_value_columns(const std::string& pixels, const std::string& of_pupil, const std::string& pupil) {
     using Place = std::optional<ScreenPoint> GazeEvent::*;
     using Number = std::optional<double> GazeEvent::*;
     const auto coordinate = [](Place place, double ScreenPoint::*axis) {
@@ -118,14 +119,16 @@ std::vector<RowLayout<TrackerEventRow>::Column> event_value_columns(const std::s
         {{"end_x_px", "End of a saccade, to the right", pixels},
          coordinate(&GazeEvent::arrival, &ScreenPoint::x_px)},
         {{"end_y_px", "The same, downwards", pixels}, coordinate(&GazeEvent::arrival, &ScreenPoint::y_px)},
-        {{"pupil", "Mean pupil size of a fixation", of_pupil}, number(&GazeEvent::pupil, pupil_decimals)},
+        {{"pupil", "Mean pupil size of a fixation" + (pupil.empty() ? pupil : ". " + pupil), of_pupil},
+         number(&GazeEvent::pupil, pupil_decimals)},
         {{"amplitude_deg", "Size of a saccade", "deg"}, number(&GazeEvent::amplitude_deg, pixel_decimals)},
         {{"peak_velocity_deg_s", "Peak velocity of a saccade", "deg/s"},
          number(&GazeEvent::peak_velocity_deg_s, pixel_decimals)},
     };
 }
 
-RowLayout<GazeEventRow> gaze_events_layout(const SessionHeader& header, const std::string& origins) {
+RowLayout<GazeEventRow> gaze_events_layout(const SessionHeader& header, const std::string& origins,
+                                           const PupilWords& pupil) {
     RowLayout<GazeEventRow> layout{
         "gaze_events",
         "Fixations, saccades and blinks in the completed trials, and what the tracker's file said besides "
@@ -168,7 +171,7 @@ RowLayout<GazeEventRow> gaze_events_layout(const SessionHeader& header, const st
              tracker_us_of(&GazeEvent::start)},
             {{"tracker_end_us", "end_s by the tracker's own clock", "us"}, tracker_us_of(&GazeEvent::end)},
         }};
-    layout.add<TrackerEventRow>(event_value_columns("px", "the tracker's own unit"));
+    layout.add<TrackerEventRow>(event_value_columns("px", pupil.unit, pupil.meaning));
     layout.add<GazeEventRow>(surface_columns(header));
     layout.add<GazeEventRow>({
         {{"text", "Words and numbers of what is no fixation, saccade or blink"},
@@ -197,8 +200,9 @@ void write_gaze_events_outside(TableWriter& writer, const RowLayout<GazeEventRow
         if (record.gaze_source(trial.sitting))
             sitting = trial.sitting;
     const std::optional<ClockMap> clock_map = record.clock_map(sitting);
+    const SessionRecord::EventOrigin::From origin = record.event_origin(sitting).from;
     record.read_gaze_events_outside([&](const GazeEvent& event) {
-        layout.write(writer, {{event}, 0, clock_map, SessionRecord::EventOrigin::From::tracker});
+        layout.write(writer, {{event}, 0, clock_map, origin});
     });
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiment/record/read/session_record.h"
+#include "experiment/record/read/tracker_facts.h"
 #include "experiment/record/tables/joined_cells.h"
 #include "experiment/record/tables/row_layout.h"
 #include "experiment/study/results/study_results.h"
@@ -18,8 +19,9 @@ struct TrackerEventRow {
 };
 
 /// Its places, pupil, size and speed; the same in each kind of export, but for the words of its units.
-std::vector<RowLayout<TrackerEventRow>::Column> event_value_columns(const std::string& pixels,
-                                                                    const std::string& of_pupil);
+/// `pupil`: see pupil_words().
+std::vector<RowLayout<TrackerEventRow>::Column>
+event_value_columns(const std::string& pixels, const std::string& of_pupil, const std::string& pupil = {});
 
 struct GazeEventRow : TrackerEventRow {
     int trial; ///< from 1; 0: outside of trials
@@ -32,7 +34,8 @@ struct GazeEventRow : TrackerEventRow {
 
 /// One row for each fixation, saccade, blink, message, button, input, begin and end of a recording, and note.
 /// `origins`: whole sentences on where fixations, saccades and blinks come from. `header` must outlive it.
-RowLayout<GazeEventRow> gaze_events_layout(const SessionHeader& header, const std::string& origins);
+RowLayout<GazeEventRow> gaze_events_layout(const SessionHeader& header, const std::string& origins,
+                                           const PupilWords& pupil);
 
 /// Writes those of a trial, `events` with where they met the surface, `fixations`. Throws RecordError.
 void write_gaze_events(TableWriter& writer, const RowLayout<GazeEventRow>& layout,

@@ -27,14 +27,18 @@ ExportTables with_words(ExportTables tables, const TrialWords& words) {
     return tables;
 }
 
+/// Of a recording of which nobody knows when a presentation ended.
+constexpr double without_end_s = 1e9;
+
 /// Writes one session's tables into a directory.
 class TableExport {
   public:
     TableExport(const SessionRecord& record, const fs::path& directory, const TableExportOptions& options)
         : record_(record), header_(record.header()), format_(options.format), words_(trial_words(record)),
           participant_(participant_row(record)),
-          tables_(with_words(
-              ExportTables(header_, options.cone_accuracy, record.event_origins(), {participant_}), words_)),
+          tables_(with_words(ExportTables(header_, pupil_words(record), options.cone_accuracy,
+                                          record.event_origins(), {participant_}),
+                             words_)),
           directory_(directory), sample_rows_(tables_.samples, record, format_, options.cone_accuracy),
           validations_(validations_of(record)) {
         for (const Table* table : tables_.all())
@@ -125,16 +129,18 @@ Eye TableExport::eye_of_unnamed(std::span<const GazeEvent> events, int sitting) 
 void TableExport::join_samples(const TrialRecord& trial) {
     std::vector<GazeEvent> events;
     record_.read_gaze_events(trial, [&](const GazeEvent& event) { events.push_back(event); });
-    const TrialPresentation presentation = presentation_of(header_, trial, validations_);
+    const std::optional<TrialLedger> ledger = record_.ledger(trial);
+    const TrialPresentation presentation = presentation_of(header_, trial, ledger.has_value(), validations_);
     const std::optional<ClockMap> clock_map = record_.clock_map(trial);
     FixationContext context{analysis_,
                             {},
                             clock_map,
                             presentation.onset,
-                            presentation.duration_s,
+                            presentation.duration_s.value_or(without_end_s),
                             header_.poses.angles,
                             scale_,
                             lookup_ != nullptr,
+                            presentation.has_stimulus,
                             dynamic_cast<const CoordinateMaps*>(lookup_) != nullptr,
                             ways_ ? &*ways_ : nullptr,
                             lookup_};
@@ -142,7 +148,7 @@ void TableExport::join_samples(const TrialRecord& trial) {
                                Degrees{presentation.validation ? presentation.validation->mean_deg : 0.0});
     Aside& aside = aside_[trial.id];
     TableWriter samples = aside_writer(tables_.samples.table(), trial);
-    aside.samples = sample_rows_.write(samples, trial, record_.ledger(trial), lookup_, fixations);
+    aside.samples = sample_rows_.write(samples, trial, ledger, lookup_, fixations);
     samples.close();
     TableWriter rows = aside_writer(tables_.gaze_events.table(), trial);
     write_gaze_events(rows, tables_.gaze_events, record_, trial, events, fixations.finish());
@@ -177,6 +183,8 @@ void TableExport::write_what_belongs_to_no_trial() {
         write(tables_.stimuli, stimulus);
     for (const RecordedButton& button : record_.button_changes())
         write(tables_.buttons, button);
+    for (const RecordedKeyPress& press : record_.key_presses())
+        write(tables_.key_presses, press);
     for (const RecordedMarker& marker : record_.markers())
         write(tables_.markers, marker);
     for (const auto& [sitting, box] : record_.display_boxes()) {

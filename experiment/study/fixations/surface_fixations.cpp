@@ -224,7 +224,7 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
     StudyFixation fixation;
     if (!context.clock_map) {
         fixation.duration_s = std::chrono::duration<double>(event.duration).count();
-        fixation.why = NotCounted::no_frame_lit;
+        fixation.why = context.has_stimulus ? NotCounted::no_frame_lit : NotCounted::no_stimulus;
         fixation.place = event.place.value_or(ScreenPoint{});
         return fixation;
     }
@@ -241,7 +241,7 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
     glm::dvec2 sum{0.0};
     for (std::size_t i = begin; i < end; ++i) {
         const PlacedSample& sample = context.samples[i];
-        if (!sample.has_gaze || sample.frame < 0)
+        if (!sample.has_gaze || (context.has_stimulus && sample.frame < 0))
             continue;
         lit.push_back(&sample);
         sum += glm::dvec2(sample.gaze.x_px, sample.gaze.y_px);
@@ -280,6 +280,8 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
         fixation.why = NotCounted::began_before_onset;
     else if (fixation.duration_s < context.options.shortest_fixation_s)
         fixation.why = NotCounted::too_short;
+    else if (!context.has_stimulus)
+        fixation.why = NotCounted::no_stimulus;
     else if (lit.empty())
         fixation.why = NotCounted::no_frame_lit;
     else if (!context.has_surface)

@@ -33,6 +33,9 @@ struct FixationContext {
     std::span<const Degrees> angles;         ///< by PoseIndex
     const std::optional<ObjectScale>& scale; ///< nothing without a known camera
     bool has_surface = false;
+    /// Of a session that knows of no stimulus: its fixations are told with their places on the screen alone,
+    /// and no frame needs to have been lit.
+    bool has_stimulus = true;
     bool has_mesh = false;                  ///< points have triangles
     SurfaceWays* ways = nullptr;            ///< along the mesh; null without one, or without a scale
     const SurfaceLookup* lookup = nullptr;  ///< for the gaze cone; may be null

@@ -23,12 +23,27 @@ std::vector<StudyTurn> turns_of(const TrialLedger& ledger, SessionTime onset,
     return turns;
 }
 
+/// From the onset to the last sample, or to the end of the last event: how long a trial was recorded that
+/// does not say how long it showed something.
+double recorded_s(std::span<const PlacedSample> samples, std::span<const GazeEvent> events,
+                  const std::optional<ClockMap>& clock_map, SessionTime onset) {
+    double last_s = 0.0;
+    for (const PlacedSample& sample : samples)
+        if (sample.has_time)
+            last_s = std::max(last_s, sample.time_s);
+    if (clock_map)
+        for (const GazeEvent& event : events)
+            last_s = std::max(last_s, to_seconds(clock_map->to_session(event.start).time - onset) +
+                                          std::chrono::duration<double>(event.duration).count());
+    return last_s;
+}
+
 /// Every n-th sample, but the first of each loss of the eye too, so that blinks stay visible.
 StudyTrace trace_of(std::span<const PlacedSample> samples, std::span<const GazeEvent> events,
                     const std::optional<ClockMap>& clock_map, SessionTime onset, double presentation_s,
                     double rate_hz) {
     StudyTrace trace;
-    const auto step = static_cast<std::size_t>(std::max(1.0, std::ceil(rate_hz / 250.0 - 1e-6)));
+    const auto step = static_cast<std::size_t>(std::max(1.0, std::ceil(rate_hz / most_trace_hz - 1e-6)));
     bool had_gaze = true;
     std::size_t since = step;
     for (const PlacedSample& sample : samples) {
@@ -47,7 +62,8 @@ StudyTrace trace_of(std::span<const PlacedSample> samples, std::span<const GazeE
             const double begin = to_seconds(clock_map->to_session(event.start).time - onset);
             const double duration = std::chrono::duration<double>(event.duration).count();
             if (begin + duration > 0.0 && begin < presentation_s)
-                trace.events.push_back({event.kind, begin, duration});
+                trace.events.push_back(
+                    {event.kind, begin, duration, event.amplitude_deg, event.peak_velocity_deg_s});
         }
     }
     return trace;
@@ -55,18 +71,17 @@ StudyTrace trace_of(std::span<const PlacedSample> samples, std::span<const GazeE
 
 /// The first rule that a trial breaks, as a sentence; empty: none.
 std::string exclusion_of(const StudyQuality& quality, const ExclusionRules& rules) {
-    if (rules.most_lost_share && quality.lost_share() > *rules.most_lost_share)
+    const std::optional<ExclusionRule> rule = broken_rule(quality, rules);
+    if (rule == ExclusionRule::lost_share)
         return fmt::format("{:.1f} % of the samples were lost outside of blinks.",
                            100.0 * quality.lost_share());
-    if (rules.most_accuracy_deg && quality.accuracy_deg && *quality.accuracy_deg > *rules.most_accuracy_deg)
+    if (rule == ExclusionRule::accuracy)
         return fmt::format("The validation before it had a mean error of {:.2f} deg.", *quality.accuracy_deg);
-    if (rules.most_drift_deg && quality.drift_deg && *quality.drift_deg > *rules.most_drift_deg)
+    if (rule == ExclusionRule::drift)
         return fmt::format("The drift check found an error of {:.2f} deg.", *quality.drift_deg);
-    // A rule that cannot be looked at is not kept.
-    if (rules.most_missed_refreshes && !quality.missed_refreshes)
-        return "How many refreshes were missed is unproven.";
-    if (rules.most_missed_refreshes && *quality.missed_refreshes > *rules.most_missed_refreshes)
-        return fmt::format("{} refreshes were missed.", *quality.missed_refreshes);
+    if (rule == ExclusionRule::missed_refreshes)
+        return quality.missed_refreshes ? fmt::format("{} refreshes were missed.", *quality.missed_refreshes)
+                                        : "How many refreshes were missed is unproven.";
     return {};
 }
 
@@ -74,16 +89,16 @@ std::string exclusion_of(const StudyQuality& quality, const ExclusionRules& rule
 
 ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, const TrialKeys& keys,
                      std::span<const RecordedAccuracy> validations, const TrialSurface& surface,
-                     const StudyOptions& options, bool with_trace) {
+                     const StudyOptions& options) {
     const SessionHeader& header = record.header();
     const std::optional<TrialLedger> ledger = record.ledger(trial);
-    const TrialPresentation presentation = presentation_of(header, trial, validations);
+    const TrialPresentation presentation = presentation_of(header, trial, ledger.has_value(), validations);
     const SessionTime onset = presentation.onset;
     ReadTrial read;
     StudyTrial& of = read.trial;
     of.number = trial.trial.index + 1;
     of.label = fmt::format("observer {}, trial {}", header.schedule.observer.label, of.number);
-    of.presentation_s = presentation.duration_s;
+    of.presentation_s = presentation.duration_s.value_or(0.0);
 
     const double accuracy_deg = presentation.validation ? presentation.validation->mean_deg : 0.0;
     const PlacedSamples placed =
@@ -101,6 +116,10 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
     std::stable_sort(events.begin(), events.end(),
                      [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
 
+    const std::optional<ClockMap> clock_map = record.clock_map(trial);
+    if (!presentation.duration_s)
+        of.presentation_s = recorded_s(placed.samples, events, clock_map, onset);
+
     of.quality = gaze_quality(placed.samples, events, header.display.screen);
     if (presentation.validation) {
         of.quality.accuracy_deg = presentation.validation->mean_deg;
@@ -114,15 +133,17 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
         of.quality.missed_refreshes = trial.outcome.missed_refreshes;
     of.quality.refreshes = trial.outcome.shown_refreshes + trial.outcome.missed_refreshes;
     of.quality.off_plan = static_cast<double>(placed.counts.off_plan);
-    of.why_excluded = exclusion_of(of.quality, options.exclude);
+    const auto is_fixation = [](const GazeEvent& event) { return event.kind == GazeEvent::Kind::fixation; };
+    of.has_gaze = std::ranges::any_of(placed.samples, &PlacedSample::has_gaze) ||
+                  std::ranges::any_of(events, is_fixation);
+    // Means over trials would be too low with a trial in which nobody was measured.
+    of.why_excluded = of.has_gaze ? exclusion_of(of.quality, options.exclude) : "No gaze was recorded in it.";
     of.excluded = !of.why_excluded.empty();
 
     if (ledger)
         of.turns = turns_of(*ledger, onset, header.poses.angles);
-    const std::optional<ClockMap> clock_map = record.clock_map(trial);
-    if (with_trace)
-        read.trace = trace_of(placed.samples, events, clock_map, onset, of.presentation_s,
-                              of.quality.rate_hz.value_or(0.0));
+    read.trace = trace_of(placed.samples, events, clock_map, onset, of.presentation_s,
+                          of.quality.rate_hz.value_or(0.0));
 
     // The cone is as wide as the validation says; few directions do for a share of some per cent.
     constexpr int cone_directions = 64;
@@ -140,6 +161,7 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                                   header.poses.angles,
                                   surface.scale,
                                   surface.lookup != nullptr,
+                                  presentation.has_stimulus,
                                   surface.has_mesh,
                                   surface.ways,
                                   surface.lookup,
