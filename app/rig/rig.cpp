@@ -122,6 +122,7 @@ void Rig::open(SimulatedFaults faults, SessionTime start) {
                                      .clock = clock(),
                                      .observer = *observer_,
                                      .seed = request_.seed,
+                                     .file_name = request_.observer,
                                      .faults = std::move(faults.tracker)},
                                     request_.virtual_time);
     tracker_ = std::move(made.tracker);

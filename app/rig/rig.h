@@ -42,6 +42,7 @@ struct RigRequest {
     std::string monitor = {};                    ///< see WindowRequest
     std::vector<std::string> operator_keys = {}; ///< of a simulated operator, see read_operator_key()
     bool draws_stimuli = true; ///< without: see UndrawnFrames; for a display that only keeps time
+    std::string observer = "overt"; ///< whom files on a tracker's host are for
 };
 
 class Rig {

@@ -1,6 +1,8 @@
 #include "devices/eyelink/eyelink_driver.h"
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 
@@ -41,6 +43,14 @@ std::optional<RecordingState> state_of(std::int16_t code) noexcept {
 
 /// The library's report of a transfer is told nothing of whom it works for.
 const EyeTracker::FileProgress* active_progress = nullptr;
+
+/// Where a file of the host goes: a place at which there is none yet, so that nothing is ever replaced.
+std::filesystem::path free_place(const std::filesystem::path& folder, const std::string& name) {
+    std::filesystem::path file = folder / (name + ".edf");
+    for (int number = 2; std::filesystem::exists(std::filesystem::symlink_status(file)); ++number)
+        file = folder / fmt::format("{}-{}.edf", name, number);
+    return file;
+}
 
 extern "C" void overt_el_progress(unsigned size, unsigned received) {
     try {
@@ -129,7 +139,10 @@ void EyelinkDriver::configure(const TrackerWish& wish) {
 }
 
 TrackerDescription EyelinkDriver::connect(const TrackerWish& wish) {
-    std::string name = eyelink_file_name(wish.file_name, static_cast<int>(files_.size()));
+    auto opened_at = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+    std::string name = eyelink_file_name(wish.file_name, opened_at);
+    while (std::ranges::find(files_, name) != files_.end())
+        name = eyelink_file_name(wish.file_name, opened_at += std::chrono::seconds(1));
     close();
     is_recording_ = false;
     open_connection();
@@ -142,6 +155,7 @@ TrackerDescription EyelinkDriver::connect(const TrackerWish& wish) {
     library_->eyecmd_printf("%s", "add_file_preamble_text 'Recorded by overt'");
     configure(wish);
     description_.name = settings_.is_dummy ? "eyelink without a tracker" : "eyelink";
+    description_.model += fmt::format(", its file {}", file);
     description_.sample_rate_hz = grant_.rate_hz;
     description_.eye = wish.eye;
     description_.both_eyes = grant_.both_eyes;
@@ -170,6 +184,8 @@ SetupOutcome EyelinkDriver::set_up(SetupScreen& setup_screen) {
     const std::int16_t result = library_->eyelink_cal_result();
     outcome.message = sentence_of_calibration();
     outcome.validation = eyelink_validation(outcome.message);
+    if (const std::optional<int> targets = eyelink_targets(outcome.message))
+        outcome.method = fmt::format("tracker, {} points", *targets);
     if (setup_screen.is_cancelled() || result == aborted_by_escape) {
         outcome.kind = SetupOutcome::Kind::cancelled;
     } else if (result == 1) {
@@ -189,10 +205,11 @@ std::optional<DriftOutcome> EyelinkDriver::drift_check(ScreenPoint target) {
     clock_->wait_until(clock_->now() + to_idle);
     EyelinkSetup setup(library_, nullptr, {settings_.target_deg}, *clock_,
                        clock_->now() + settings_.drift_patience);
-    // The target is on the screen already, and set-up is the session's to begin.
+    // The target is on the screen already. Set-up is the session's to begin, which has screen and keys for
+    // it: with the last argument 1 the library would begin it here, where nobody sees it.
     const std::int16_t result =
         library_->do_drift_correct(static_cast<std::int16_t>(std::lround(target.x_px)),
-                                   static_cast<std::int16_t>(std::lround(target.y_px)), 0, 1);
+                                   static_cast<std::int16_t>(std::lround(target.y_px)), 0, 0);
     setup.check();
     if (setup.is_out_of_time())
         return DriftOutcome{};
@@ -364,8 +381,9 @@ std::optional<ClockPair> EyelinkDriver::exchange_times() const noexcept {
 void EyelinkDriver::fetch(const std::string& name, const std::string& folder,
                           const EyeTracker::FileProgress& progress, std::vector<std::string>& said) {
     std::string from = name + ".EDF";
-    const std::filesystem::path file = std::filesystem::path(folder) / (name + ".edf");
-    std::string to = file.string();
+    const std::filesystem::path file = free_place(folder, name),
+                                part = std::filesystem::path(file) += ".part";
+    std::string to = part.string();
     active_progress = &progress;
     const std::int32_t result =
         library_->receive_data_file_feedback
@@ -374,17 +392,22 @@ void EyelinkDriver::fetch(const std::string& name, const std::string& folder,
     active_progress = nullptr;
     std::optional<std::string> problem = eyelink_transfer_problem(result);
     std::error_code none;
-    const auto size = std::filesystem::file_size(file, none);
+    const auto size = std::filesystem::file_size(part, none);
     if (!problem && (none || size != static_cast<std::uintmax_t>(result)))
         problem = none ? "it is not there afterwards"
                        : fmt::format("{} bytes are there and {} were sent", size, result);
+    if (!problem) {
+        std::filesystem::rename(part, file, none);
+        if (none)
+            problem = none.message();
+    }
     if (problem)
         said.push_back(
             fmt::format("The EyeLink's file {} could not be fetched: {}. It is on the host, where it can be "
                         "copied from; what arrived is in {}.",
                         from, *problem, to));
     else
-        said.push_back(fmt::format("The EyeLink's file {}, {} bytes", to, size));
+        said.push_back(fmt::format("The EyeLink's file {}, {} bytes", file.string(), size));
 }
 
 std::vector<std::string> EyelinkDriver::finish(const std::string& folder,

@@ -29,7 +29,7 @@ struct EyelinkHooks {
     void (*drift_beep)(std::int16_t error);
     void (*drift_target_beep)();
     std::int16_t (*input_key)(void* event);
-    void (*alert)(const char* format, ...);
+    void (*alert)(const char* text);
 };
 static_assert(sizeof(EyelinkHooks) == 17 * sizeof(void*));
 

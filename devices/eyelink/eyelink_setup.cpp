@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdarg>
-#include <cstdio>
 #include <cstring>
 #include <utility>
 
@@ -20,10 +18,9 @@ constexpr int largest_image_px = 4096;
 /// Codes of keys that are no characters.
 constexpr std::uint16_t escape_key = 0x1B, terminate_key = 0x7FFF;
 
-/// Hooks of the first form are told nothing of whom they work for.
+/// Whom the hooks of both forms work for; null: nobody. What the library keeps of the hooks outlives each
+/// set-up, so it never gets the address of one.
 EyelinkSetup* active_setup = nullptr;
-
-EyelinkSetup& setup_of(void* user) { return *static_cast<EyelinkSetup*>(user); }
 
 std::string utf8_of(const char* text) {
     const std::string_view bytes = text ? text : "";
@@ -76,30 +73,66 @@ void overt_el1_drift_target_beep() {
 std::int16_t overt_el1_input_key(void* event) {
     return active_setup ? active_setup->input_key(event) : std::int16_t{0};
 }
-void overt_el1_alert(const char* format, ...) {
-    char text[1024];
-    va_list values;
-    va_start(values, format);
-    std::vsnprintf(text, sizeof text, format, values);
-    va_end(values);
+void overt_el1_alert(const char* text) {
     if (active_setup)
         active_setup->alert(utf8_of(text));
 }
 
-std::int16_t overt_el2_set_up(void* user) { return setup_of(user).set_up(); }
-std::int16_t overt_el2_clear(void* user) { return setup_of(user).clear(); }
+std::int16_t overt_el2_set_up(void*) { return overt_el1_set_up(); }
+std::int16_t overt_el2_clear(void*) { return active_setup ? active_setup->clear() : std::int16_t{0}; }
 std::int16_t overt_el2_set_up_image(void*, std::int16_t, std::int16_t) { return 0; }
-std::int16_t overt_el2_image_title(void* user, char* title) {
-    return setup_of(user).image_title(utf8_of(title));
+std::int16_t overt_el2_image_title(void*, char* title) {
+    return active_setup ? active_setup->image_title(utf8_of(title)) : std::int16_t{0};
 }
-std::int16_t overt_el2_image(void* user, std::int16_t width, std::int16_t height, std::uint8_t* rgba) {
-    return setup_of(user).image(width, height, rgba);
+std::int16_t overt_el2_image(void*, std::int16_t width, std::int16_t height, std::uint8_t* rgba) {
+    return active_setup ? active_setup->image(width, height, rgba) : std::int16_t{0};
 }
-std::int16_t overt_el2_draw_target(void* user, float x, float y) { return setup_of(user).draw_target(x, y); }
-std::int16_t overt_el2_beep(void* user, std::int32_t which) { return setup_of(user).beep(which); }
-std::int16_t overt_el2_input_key(void* user, void* event) { return setup_of(user).input_key(event); }
-std::int16_t overt_el2_alert(void* user, const char* text) { return setup_of(user).alert(utf8_of(text)); }
+std::int16_t overt_el2_draw_target(void*, float x, float y) {
+    return active_setup ? active_setup->draw_target(x, y) : std::int16_t{0};
 }
+std::int16_t overt_el2_beep(void*, std::int32_t which) {
+    return active_setup ? active_setup->beep(which) : std::int16_t{0};
+}
+std::int16_t overt_el2_input_key(void*, void* event) { return overt_el1_input_key(event); }
+std::int16_t overt_el2_alert(void*, const char* text) {
+    return active_setup ? active_setup->alert(utf8_of(text)) : std::int16_t{0};
+}
+}
+
+EyelinkHooks hooks_of_first_form{.set_up = overt_el1_set_up,
+                                 .leave = overt_el1_clear,
+                                 .recording_broken_off = overt_el1_nothing,
+                                 .set_up_image = overt_el1_set_up_image,
+                                 .image_title = overt_el1_image_title,
+                                 .image_line = overt_el1_image_line,
+                                 .image_palette = overt_el1_palette,
+                                 .leave_image = overt_el1_clear,
+                                 .clear = overt_el1_clear,
+                                 .erase_target = overt_el1_clear,
+                                 .draw_target = overt_el1_draw_target,
+                                 .target_beep = overt_el1_target_beep,
+                                 .calibration_beep = overt_el1_calibration_beep,
+                                 .drift_beep = overt_el1_drift_beep,
+                                 .drift_target_beep = overt_el1_drift_target_beep,
+                                 .input_key = overt_el1_input_key,
+                                 .alert = overt_el1_alert};
+
+EyelinkHooks2 hooks_of_second_form{.major = 1,
+                                   .minor = 0,
+                                   .user = nullptr,
+                                   .set_up = overt_el2_set_up,
+                                   .leave = overt_el2_clear,
+                                   .set_up_image = overt_el2_set_up_image,
+                                   .image_title = overt_el2_image_title,
+                                   .image = overt_el2_image,
+                                   .leave_image = overt_el2_clear,
+                                   .clear = overt_el2_clear,
+                                   .erase_target = overt_el2_clear,
+                                   .draw_target = overt_el2_draw_target,
+                                   .beep = overt_el2_beep,
+                                   .input_key = overt_el2_input_key,
+                                   .alert = overt_el2_alert,
+                                   .reserved = {}};
 
 } // namespace
 
@@ -124,42 +157,9 @@ EyelinkSetup::EyelinkSetup(const EyelinkLibrary& library, SetupScreen* setup_scr
     : library_(&library), setup_screen_(setup_screen), target_(target), clock_(&clock), until_(until) {
     OVERT_EXPECTS(!active_setup);
     active_setup = this;
-    hooks2_ = {.major = 1,
-               .minor = 0,
-               .user = this,
-               .set_up = overt_el2_set_up,
-               .leave = overt_el2_clear,
-               .set_up_image = overt_el2_set_up_image,
-               .image_title = overt_el2_image_title,
-               .image = overt_el2_image,
-               .leave_image = overt_el2_clear,
-               .clear = overt_el2_clear,
-               .erase_target = overt_el2_clear,
-               .draw_target = overt_el2_draw_target,
-               .beep = overt_el2_beep,
-               .input_key = overt_el2_input_key,
-               .alert = overt_el2_alert,
-               .reserved = {}};
-    hooks_ = {.set_up = overt_el1_set_up,
-              .leave = overt_el1_clear,
-              .recording_broken_off = overt_el1_nothing,
-              .set_up_image = overt_el1_set_up_image,
-              .image_title = overt_el1_image_title,
-              .image_line = overt_el1_image_line,
-              .image_palette = overt_el1_palette,
-              .leave_image = overt_el1_clear,
-              .clear = overt_el1_clear,
-              .erase_target = overt_el1_clear,
-              .draw_target = overt_el1_draw_target,
-              .target_beep = overt_el1_target_beep,
-              .calibration_beep = overt_el1_calibration_beep,
-              .drift_beep = overt_el1_drift_beep,
-              .drift_target_beep = overt_el1_drift_target_beep,
-              .input_key = overt_el1_input_key,
-              .alert = overt_el1_alert};
     const EyelinkFunctions& of = *library;
-    if (!of.setup_graphic_hook_functions_V2 || of.setup_graphic_hook_functions_V2(&hooks2_) != 0)
-        of.setup_graphic_hook_functions(&hooks_);
+    if (!of.setup_graphic_hook_functions_V2 || of.setup_graphic_hook_functions_V2(&hooks_of_second_form) != 0)
+        of.setup_graphic_hook_functions(&hooks_of_first_form);
 }
 
 EyelinkSetup::~EyelinkSetup() { active_setup = nullptr; }
@@ -290,8 +290,8 @@ std::int16_t EyelinkSetup::input_key(void* event) noexcept {
         end_dialogue();
     if (code == 0 || !event)
         return 0;
-    // The key form of the library's event: type 1, then state (10: pressed), code, modifiers, character.
-    std::array<std::byte, 12> bytes{std::byte{1}, std::byte{10}};
+    // The key form of the library's event: type 1, then state (1: down), code, modifiers, character.
+    std::array<std::byte, 12> bytes{std::byte{1}, std::byte{1}};
     std::uint16_t modifiers = 0;
     if (key)
         modifiers = static_cast<std::uint16_t>((key->shift ? 0x1 : 0) | (key->control ? 0x40 : 0) |

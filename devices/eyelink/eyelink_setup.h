@@ -19,7 +19,8 @@ std::uint16_t eyelink_key(const SetupKey& key) noexcept;
 
 /// Lends a set-up screen to the library while it lives: one at a time, on the thread that calls the library.
 /// What the set-up screen throws never passes through the library: the dialogue is ended and check() throws
-/// it again.
+/// it again. The hooks stay registered afterwards, since the library also asks for keys at other times, such
+/// as while it fetches a file: they then do nothing and give no key.
 class EyelinkSetup {
   public:
     /// Without a set-up screen (nullptr) nothing is drawn and no key comes: a check of drift, whose target is
@@ -63,8 +64,6 @@ class EyelinkSetup {
     std::exception_ptr thrown_;
     CameraImage camera_;
     std::vector<std::byte> palette_; ///< four bytes a colour
-    EyelinkHooks hooks_{};
-    EyelinkHooks2 hooks2_{};
 };
 
 } // namespace overt

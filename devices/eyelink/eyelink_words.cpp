@@ -13,8 +13,9 @@
 namespace overt {
 namespace {
 
-constexpr std::size_t longest_file_name = 8;
-constexpr std::string_view names_of_parts = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ";
+// The host's names have eight letters and digits.
+constexpr std::size_t letters_of_whom = 2, digits_of_time = 6;
+constexpr std::string_view base_36 = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
 /// The number that follows a word, wherever the word stands.
 std::optional<double> number_after(std::string_view text, std::string_view word) {
@@ -117,28 +118,22 @@ std::string eyelink_display_coords(const ScreenGeometry& screen) {
     return fmt::format("DISPLAY_COORDS 0 0 {} {}", screen.screen_px.x - 1, screen.screen_px.y - 1);
 }
 
-std::string eyelink_file_name(std::string_view wished, int part) {
-    const auto may_stand = [](char c) {
-        return c == '_' || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+std::string eyelink_file_name(std::string_view whom, std::chrono::sys_seconds at) {
+    using namespace std::chrono;
+    const auto in_capitals = [](char c) {
+        return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
     };
-    if (wished.empty() || wished.size() > longest_file_name || !std::ranges::all_of(wished, may_stand))
-        throw InputError(
-            fmt::format("\"{}\" cannot be the name of an EyeLink's data file: it takes 1 to {} letters, "
-                        "digits and underscores. Choose a shorter or plainer observer.",
-                        wished, longest_file_name));
-    if (part < 0 || static_cast<std::size_t>(part) >= names_of_parts.size())
-        throw DeviceError(fmt::format(
-            "The connection to the EyeLink was lost {} times; its files have no more names.", part));
-    std::string name(wished);
-    for (char& c : name)
-        if (c >= 'a' && c <= 'z')
-            c = static_cast<char>(c - 'a' + 'A');
-    if (part > 0) {
-        name.resize(std::min(name.size(), longest_file_name - 2));
-        name += '_';
-        name += names_of_parts[static_cast<std::size_t>(part)];
-    }
-    return name;
+    const auto may_stand = [](char c) { return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z'); };
+    std::string name(letters_of_whom, '0');
+    std::size_t place = letters_of_whom;
+    for (std::size_t i = whom.size(); i > 0 && place > 0; --i)
+        if (const char c = in_capitals(whom[i - 1]); may_stand(c))
+            name[--place] = c;
+    std::string digits(digits_of_time, '0');
+    std::int64_t seconds = (at - sys_days(year(2020) / January / 1)).count();
+    for (std::size_t i = digits.size(); i > 0; --i, seconds /= 36)
+        digits[i - 1] = base_36[static_cast<std::size_t>(seconds % 36)];
+    return name + digits;
 }
 
 std::string_view eyelink_message(std::string_view text, SessionDuration age, std::span<char> into) noexcept {
@@ -167,6 +162,11 @@ std::optional<ValidationResult> eyelink_validation(std::string_view sentence) {
     if (!mean || !max || *mean < 0.0 || *max < *mean)
         return std::nullopt;
     return ValidationResult{{*mean}, {*max}};
+}
+
+std::optional<int> eyelink_targets(std::string_view sentence) {
+    const auto targets = number_after(sentence, " HV");
+    return targets && *targets >= 1.0 ? std::optional(static_cast<int>(*targets)) : std::nullopt;
 }
 
 std::optional<Degrees> eyelink_drift(std::string_view sentence) {

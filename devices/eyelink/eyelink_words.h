@@ -2,6 +2,7 @@
 /// functions.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -54,10 +55,12 @@ std::vector<EyelinkCommand> eyelink_commands(const TrackerWish& wish, const Eyel
 /// "DISPLAY_COORDS 0 0 1919 1079", for those who read the file.
 std::string eyelink_display_coords(const ScreenGeometry& screen);
 
-/// The name of a session's data file on the host, without ".edf": `wished` in capitals, and from the second
-/// part on (after a connection was lost) with its number in the last place, so that no part replaces another.
-/// Throws InputError unless `wished` is 1 to 8 letters, digits and underscores.
-std::string eyelink_file_name(std::string_view wished, int part = 0);
+/// The name of a data file on the host, without ".edf", for one that is opened at `at`: the last two letters or
+/// digits of whom it is for, in capitals (or 0 where there are fewer), and the seconds since the beginning of
+/// 2020 (UTC) in six digits of base 36, which last until 2088. The host replaces a file of the same name
+/// without a word, so that no two may have the same: not of two observers, sessions or sittings, nor of two
+/// experiments that share a host, nor before and after a connection was lost.
+std::string eyelink_file_name(std::string_view whom, std::chrono::sys_seconds at);
 
 /// A message as it goes into the data file: a leading number says how many milliseconds ago it happened. Not
 /// before the messages that viewers look for at the beginning (TRIALID, TRIAL_RESULT, !V …), whose time has
@@ -66,6 +69,9 @@ std::string_view eyelink_message(std::string_view text, SessionDuration age, std
 
 /// From the tracker's sentence on a validation, such as "… ERROR 0.45 avg. 0.76 max OFFSET 0.02 deg. …".
 std::optional<ValidationResult> eyelink_validation(std::string_view sentence);
+
+/// How many targets its calibration had, from the same: 9 of "VALIDATION HV9 …".
+std::optional<int> eyelink_targets(std::string_view sentence);
 
 /// Degrees from the tracker's sentence on a check of drift, "… OFFSET 0.35 deg. 11.4,-4.5 pix.".
 std::optional<Degrees> eyelink_drift(std::string_view sentence);

@@ -16,7 +16,7 @@ struct TrackerWish {
     Eye eye = Eye::right; ///< of one eye; of both, the one that the analysis takes
     bool both_eyes = false;
     ScreenGeometry screen;
-    /// For a file on the tracker's host: 1 to 8 letters, digits and underscores.
+    /// Whom a file on the tracker's host is for: the observer, or the id of a further tracker.
     std::string file_name = "overt";
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -110,6 +111,19 @@ ScreenPoint GazeFit::operator()(ScreenPoint measured) const noexcept {
     return {centre_.x_px + half_width_px_ * x / below, centre_.y_px + half_width_px_ * y / below};
 }
 
+namespace {
+
+std::optional<GazeFit> fit_if_possible(std::span<const CalibrationPair> pairs, CalibrationModel model,
+                                       const ScreenGeometry& screen) {
+    try {
+        return GazeFit(pairs, model, screen);
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+} // namespace
+
 std::vector<Degrees> misses_left_out(std::span<const CalibrationPair> pairs, CalibrationModel model,
                                      const ScreenGeometry& screen) {
     const std::size_t least = model == CalibrationModel::homography ? 4 : 3;
@@ -119,8 +133,8 @@ std::vector<Degrees> misses_left_out(std::span<const CalibrationPair> pairs, Cal
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         std::vector<CalibrationPair> others(pairs.begin(), pairs.end());
         others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-        misses.push_back(
-            screen.angle_between(GazeFit(others, model, screen)(pairs[i].measured), pairs[i].target));
+        const std::optional<GazeFit> fit = fit_if_possible(others, model, screen);
+        misses.push_back(fit ? screen.angle_between((*fit)(pairs[i].measured), pairs[i].target) : Degrees{});
     }
     return misses;
 }

@@ -28,8 +28,8 @@ class GazeFit {
   public:
     GazeFit() = default;
 
-    /// At least three pairs (four for a homography). Throws InputError for targets in a line or at one place,
-    /// which no function can be fitted to.
+    /// At least three pairs (four for a homography). Throws InputError for gaze in a line or at one place, to
+    /// which no function can be fitted.
     GazeFit(std::span<const CalibrationPair> pairs, CalibrationModel model, const ScreenGeometry& screen);
 
     ScreenPoint operator()(ScreenPoint measured) const noexcept;
@@ -49,7 +49,8 @@ class GazeFit {
 };
 
 /// For each pair, by how much the fit to all others misses its target; what is far above the others' was not
-/// looked at. Of pairs that are too few to leave one out, nothing.
+/// looked at. 0 for a pair without which the others' gaze lies in a line or at one place: nothing can be said
+/// of it. Of pairs that are too few to leave one out, nothing. Throws nothing for any gaze.
 std::vector<Degrees> misses_left_out(std::span<const CalibrationPair> pairs, CalibrationModel model,
                                      const ScreenGeometry& screen);
 

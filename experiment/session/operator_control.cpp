@@ -251,7 +251,7 @@ void OperatorControl::calibrate() {
             try {
                 used.tracker.reconnect();
                 used.is_left_out = false;
-                state_.note_of(used, tracker_regained_event);
+                state_.note_of(used, tracker_regained_event, used.tracker.description().model);
             } catch (const DeviceError& error) {
                 state_.note_of(used, tracker_lost_event, error.what());
                 continue;
@@ -369,7 +369,7 @@ bool OperatorControl::connect_again(UsedTracker& used, const std::string& why) {
         }
         try {
             used.tracker.reconnect();
-            state_.note_of(used, tracker_regained_event);
+            state_.note_of(used, tracker_regained_event, used.tracker.description().model);
             return true;
         } catch (const DeviceError& error) {
             state_.note_of(used, tracker_lost_event, error.what());

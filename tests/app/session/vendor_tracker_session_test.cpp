@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <set>
 
 #include "experiment/record/read/session_record.h"
 #include "tests/app/small_experiment.h"
@@ -19,8 +20,8 @@ const std::vector<std::string> tobii = {fmt::format("OVERT_TOBII_LIBRARY={}", OV
                                         "STAND_IN_TOBII_width_mm=272", "STAND_IN_TOBII_height_mm=96",
                                         "STAND_IN_TOBII_fault_at=3"};
 
-ProgramRun run_with_tobii(const SmallExperiment& experiment, const std::vector<std::string>& arguments,
-                          std::vector<std::string> environment = tobii) {
+ProgramRun run_with(const std::string& tracker, const SmallExperiment& experiment,
+                    const std::vector<std::string>& arguments, std::vector<std::string> environment) {
     std::vector<std::string> all{"run",
                                  experiment.protocol().string(),
                                  "--observer",
@@ -32,7 +33,7 @@ ProgramRun run_with_tobii(const SmallExperiment& experiment, const std::vector<s
                                  "--context",
                                  "osmesa",
                                  "--tracker",
-                                 "tobii",
+                                 tracker,
                                  "--trials",
                                  "2",
                                  "--simulate-observer",
@@ -41,7 +42,42 @@ ProgramRun run_with_tobii(const SmallExperiment& experiment, const std::vector<s
     return experiment.overt(all, std::move(environment));
 }
 
+ProgramRun run_with_tobii(const SmallExperiment& experiment, const std::vector<std::string>& arguments,
+                          std::vector<std::string> environment = tobii) {
+    return run_with("tobii", experiment, arguments, std::move(environment));
+}
+
+/// Of a host at which somebody calibrates.
+const std::vector<std::string> eyelink = {fmt::format("OVERT_EYELINK_LIBRARY={}", OVERT_STAND_IN_EYELINK),
+                                          "STAND_IN_EYELINK_operated=1"};
+
 } // namespace
+
+TEST_CASE(
+    "each sitting of a session with an EyeLink leaves a file of its own, in the session and on the host",
+    "[session][waits]") {
+    const SmallExperiment experiment;
+    const ProgramRun first =
+        run_with("eyelink", experiment, {"--simulate-operator", "task screen@2+0=abort,yes"}, eyelink);
+    INFO(first.out << first.err);
+    REQUIRE(first.exit_code == 1);
+    const ProgramRun second = run_with("eyelink", experiment, {"--resume"}, eyelink);
+    INFO(second.out << second.err);
+    REQUIRE(second.exit_code == 0);
+
+    std::set<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(experiment.session()))
+        if (entry.path().extension() == ".edf")
+            files.insert(entry.path().stem().string());
+    REQUIRE(files.size() == 2);
+    for (const std::string& name : files) {
+        CHECK(name.size() == 8);
+        CHECK(name.substr(0, 2) == "01");
+        // The operator is told the name on the host when the sitting begins.
+        CHECK_THAT(first.out + second.out, Contains("its file " + name + ".EDF"));
+    }
+    CHECK(experiment.overt({"verify", experiment.session().string()}).exit_code == 0);
+}
 
 TEST_CASE("a session with a Tobii is calibrated, recorded, verified and exported", "[session][waits]") {
     const SmallExperiment experiment(

@@ -2,6 +2,7 @@
 #include "devices/eyelink/eyelink_driver.h"
 
 #include <cstdlib>
+#include <set>
 
 #include <catch2/catch.hpp>
 
@@ -27,7 +28,7 @@ struct DriverBench {
     explicit DriverBench(std::string file = OVERT_STAND_IN_EYELINK) : library(std::move(file)) {
         settings.library = library.path;
         library.tell("read_mode_list", "250RB 500RB 1000B 2000");
-        wish.file_name = "obs1";
+        wish.file_name = "ob_b1";
     }
 
     /// Reads for so long; gives the last state.
@@ -39,6 +40,23 @@ struct DriverBench {
         return state;
     }
 };
+
+/// The files that were opened on the host, without their ending.
+std::set<std::string> opened_files(const StandIn& library) {
+    std::set<std::string> names;
+    for (const std::string& text : library.said())
+        if (text.starts_with("file ") && text.ends_with(".EDF"))
+            names.insert(text.substr(5, text.size() - 9));
+    return names;
+}
+
+/// What lies in a folder, without the endings.
+std::set<std::string> files_in(const std::filesystem::path& folder) {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        names.insert(entry.path().stem().string());
+    return names;
+}
 
 /// Whether each sample is one interval after the one before it, by its time and by its number in x.
 void check_unbroken(const std::vector<GazeSample>& samples, std::int64_t interval_us) {
@@ -78,13 +96,13 @@ TEST_CASE("an EyeLink is connected, told the screen and opens its file", "[unit]
     const TrackerDescription granted = driver.connect(bench.wish);
     CHECK(granted.sample_rate_hz == 1000.0);
     CHECK(granted.both_eyes);
-    CHECK(granted.model == "EYELINK CL 5.12");
+    CHECK_THAT(granted.model, Catch::StartsWith("EYELINK CL 5.12, its file B1") && Catch::EndsWith(".EDF"));
     CHECK(driver.tells_events());
     CHECK(driver.calibrates_itself());
     const auto said = bench.library.said();
     REQUIRE(said.size() > 5);
     CHECK(said[0] == "address 100.1.1.1");
-    CHECK(said[1] == "file OBS1.EDF");
+    CHECK(said[1] == "file " + granted.model.substr(granted.model.size() - 12));
     CHECK(bench.library.heard("command sample_rate = 1000"));
     CHECK(said.back() == "message DISPLAY_COORDS 0 0 1919 1079");
 }
@@ -99,17 +117,14 @@ TEST_CASE("what keeps an EyeLink from being set up is told at once", "[unit]") {
     CHECK_THROWS_WITH(driver.connect(bench.wish), Catch::Contains("EyeLink 1000 and later"));
     bench.library.set("version", 3);
     bench.library.set("open_file", -1);
-    CHECK_THROWS_WITH(driver.connect(bench.wish), Catch::Contains("OBS1.EDF"));
+    CHECK_THROWS_WITH(driver.connect(bench.wish), Catch::Contains("data file B1"));
     bench.library.set("open_file", 0);
     bench.library.tell("refused", "screen_distance");
     CHECK_THROWS_WITH(driver.connect(bench.wish),
                       Catch::Contains("screen_distance = 1750") && Catch::Contains("VALUE OUT OF RANGE"));
     bench.library.tell("refused", "button_function"); // not needed
     CHECK_NOTHROW(driver.connect(bench.wish));
-    bench.wish.file_name = "observer-1";
-    CHECK_THROWS_AS(driver.connect(bench.wish), InputError);
     bench.settings.address = "host";
-    bench.wish.file_name = "a";
     EyelinkDriver elsewhere(bench.settings, bench.clock);
     CHECK_THROWS_AS(elsewhere.connect(bench.wish), InputError);
 }
@@ -223,14 +238,14 @@ TEST_CASE("an EyeLink that falls silent or whose link breaks is lost, and can be
     driver.stop();
     bench.library.set(fault, 0);
     driver.connect(bench.wish);
-    CHECK(bench.library.heard("file OBS1_1.EDF")); // the first part is still to be fetched
     driver.start();
     CHECK(bench.read(driver, 20ms) == RecordingState::running);
     driver.stop();
     const TemporaryFolder folder;
+    // What was recorded before the loss lies in a file of its own.
     CHECK(driver.finish(folder.path().string(), {}).size() == 2);
-    CHECK(std::filesystem::exists(folder.path() / "OBS1.edf"));
-    CHECK(std::filesystem::exists(folder.path() / "OBS1_1.edf"));
+    CHECK(files_in(folder.path()).size() == 2);
+    CHECK(opened_files(bench.library) == files_in(folder.path()));
 }
 
 TEST_CASE("an EyeLink that records otherwise than agreed is refused", "[unit]") {
@@ -301,14 +316,30 @@ TEST_CASE("an EyeLink's file is fetched with progress, and its size is checked",
     driver.start(); // an abort: nobody has stopped it
     const auto said = driver.finish(folder.path().string(), progress);
     REQUIRE(said.size() == 1);
-    CHECK_THAT(said[0], Catch::Contains("OBS1.edf") && Catch::Contains("100000 bytes"));
+    REQUIRE(opened_files(bench.library).size() == 1);
+    const std::string name = *opened_files(bench.library).begin();
+    CHECK_THAT(said[0], Catch::Contains(name + ".edf") && Catch::Contains("100000 bytes"));
     CHECK(done.size() == 10);
     CHECK(done.back() == 100'000);
-    CHECK(read_whole_file(folder.path() / "OBS1.edf").size() == 100'000);
+    CHECK(read_whole_file(folder.path() / (name + ".edf")).size() == 100'000);
     CHECK(bench.library.heard("stop"));
     CHECK(bench.library.heard("file closed"));
     CHECK(bench.library.said().back() == "closed");
     CHECK(driver.finish(folder.path().string(), progress).empty()); // only once
+}
+
+TEST_CASE("an EyeLink's file replaces none that is there", "[unit]") {
+    DriverBench bench;
+    const TemporaryFolder folder;
+    EyelinkDriver driver(bench.settings, bench.clock);
+    driver.connect(bench.wish);
+    const std::string name = *opened_files(bench.library).begin();
+    folder.file(name + ".edf", "of another sitting");
+    const auto said = driver.finish(folder.path().string(), {});
+    CHECK_THAT(said.at(0), Catch::Contains(name + "-2.edf, 100000 bytes"));
+    CHECK(read_whole_file(folder.path() / (name + ".edf")) == "of another sitting");
+    CHECK(read_whole_file(folder.path() / (name + "-2.edf")).size() == 100'000);
+    CHECK(files_in(folder.path()).size() == 2);
 }
 
 TEST_CASE("an EyeLink's file that does not arrive whole stays on the host, and it is said", "[unit]") {
@@ -319,7 +350,8 @@ TEST_CASE("an EyeLink's file that does not arrive whole stays on the host, and i
     SECTION("broken off") {
         bench.library.set("transfer", -110);
         CHECK_THAT(driver.finish(folder.path().string(), {}).at(0),
-                   Catch::Contains("OBS1.EDF could not be fetched: it was broken off"));
+                   Catch::Contains(".EDF could not be fetched: it was broken off") &&
+                       Catch::Contains(".edf.part"));
     }
     SECTION("too short") {
         bench.library.set("sent_bytes", 99'999);
@@ -333,7 +365,7 @@ TEST_CASE("an EyeLink's file that does not arrive whole stays on the host, and i
     SECTION("the host does not come back") {
         bench.library.set("broken", 1);
         CHECK_THAT(driver.finish(folder.path().string(), {}).at(0),
-                   Catch::Contains("stays on its host, as OBS1.EDF"));
+                   Catch::Contains("stays on its host, as B1"));
     }
 }
 

@@ -6,6 +6,7 @@
 #include "devices/eyelink/eyelink_driver.h"
 #include "experiment/base/error.h"
 #include "tests/devices/eyelink/eyelink_bench.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -40,22 +41,22 @@ TEST_CASE("an EyeLink is set up on the set-up screen: targets, camera, sounds, w
                                key_of(SetupKey::Kind::escape)};
     const SetupOutcome outcome = bench.driver.set_up(bench.setup_screen);
     CHECK(outcome.kind == SetupOutcome::Kind::done);
-    CHECK(outcome.method == "tracker");
+    CHECK(outcome.method == "tracker, 9 points");
     REQUIRE(outcome.validation);
     CHECK(outcome.validation->mean_error.value == 0.45);
     CHECK(bench.setup_screen.showed("target 960 540 of 0.6"));
     CHECK(bench.setup_screen.showed(is_old ? "target 100 50 of 0.6" : "target 100 50.5 of 0.6"));
     CHECK(bench.setup_screen.showed(fmt::format("beep {}", static_cast<int>(SetupBeep::target_appears))));
     CHECK(bench.setup_screen.showed(fmt::format("beep {}", static_cast<int>(SetupBeep::calibration_good))));
-    CHECK(bench.setup_screen.showed("text no pupil"));
+    CHECK(bench.setup_screen.showed("text no pupil in 50%s"));
     CHECK(bench.setup_screen.showed("camera 32x24 Left, threshold 80"));
     REQUIRE(bench.setup_screen.camera.rgba.size() == 4 * 32 * 24);
     const std::byte* pixel = bench.setup_screen.camera.rgba.data() + 4 * (32 * 5 + 3); // row 5, column 3
     CHECK(std::to_integer<int>(pixel[0]) == 3);
     CHECK(std::to_integer<int>(pixel[1]) == (is_old ? 6 : 5));
     CHECK(std::to_integer<int>(pixel[2]) == (is_old ? 7 : 0));
-    CHECK(bench.library.heard("key 13 type 1 state 10 with 0"));
-    CHECK(bench.library.heard("key 99 type 1 state 10 with 0"));
+    CHECK(bench.library.heard("key 13 type 1 state 1 with 0"));
+    CHECK(bench.library.heard("key 99 type 1 state 1 with 0"));
 }
 
 TEST_CASE("a set-up of an EyeLink that ends without a good calibration says so", "[unit][waits]") {
@@ -101,6 +102,18 @@ TEST_CASE("what goes wrong on the set-up screen ends the EyeLink's dialogue and 
     CHECK(bench.driver.set_up(bench.setup_screen).kind == SetupOutcome::Kind::done);
 }
 
+TEST_CASE("an EyeLink's library that asks for keys while it fetches the file gets none", "[unit]") {
+    SetupBench bench(GENERATE(std::string(OVERT_STAND_IN_EYELINK), std::string(OVERT_STAND_IN_EYELINK_OLD)));
+    const TemporaryFolder folder;
+    bench.setup_screen.keys = {letter('c'), key_of(SetupKey::Kind::escape)};
+    bench.driver.set_up(bench.setup_screen);
+    bench.setup_screen.keys = {key_of(SetupKey::Kind::escape)}; // nobody may take it now
+    const auto said = bench.driver.finish(folder.path().string(), {});
+    REQUIRE(said.size() == 1);
+    CHECK_THAT(said[0], Catch::Contains("100000 bytes"));
+    CHECK(bench.setup_screen.keys.size() == 1);
+}
+
 TEST_CASE("an EyeLink whose link breaks in its set-up is lost, and nothing hangs", "[unit]") {
     SetupBench bench;
     bench.setup_screen.on_target = [&] { bench.library.set("broken", 1); };
@@ -115,11 +128,13 @@ TEST_CASE("an EyeLink's check of drift is measured, or asks for set-up, or finds
     REQUIRE(measured);
     CHECK(measured->kind == DriftOutcome::Kind::measured);
     CHECK(measured->error.value == 0.35);
-    CHECK(bench.library.heard("drift 512 384 0 1"));
+    CHECK(bench.library.heard("drift 512 384 0 0"));
     bench.library.tell("calibration", "done");
     CHECK_FALSE(bench.driver.drift_check({512, 384})); // no number: samples are to tell
     bench.library.set("drift", 27);
+    // Not by a set-up that nobody sees, which would end with the patience.
     CHECK(bench.driver.drift_check({512, 384})->kind == DriftOutcome::Kind::set_up_wanted);
+    bench.library.set("drift", 0);
     bench.library.set("drift_waits", 1); // nobody accepts
     CHECK(bench.driver.drift_check({512, 384})->kind == DriftOutcome::Kind::no_eye);
 }

@@ -65,16 +65,24 @@ TEST_CASE("an EyeLink is told the screen in pixels and millimetres", "[unit]") {
         CHECK_FALSE(command.text.starts_with("active_eye"));
 }
 
-TEST_CASE("an EyeLink's data files have names of eight characters, and no part replaces another", "[unit]") {
-    CHECK(eyelink_file_name("ob01_2") == "OB01_2");
-    CHECK(eyelink_file_name("observer") == "OBSERVER");
-    CHECK(eyelink_file_name("observer", 1) == "OBSERV_1");
-    CHECK(eyelink_file_name("ab", 10) == "AB_A");
-    CHECK_THROWS_AS(eyelink_file_name(""), InputError);
-    CHECK_THROWS_AS(eyelink_file_name("observer1"), InputError);
-    CHECK_THROWS_WITH(eyelink_file_name("m-k"), Catch::Contains("\"m-k\"") && Catch::Contains("1 to 8"));
-    CHECK_THROWS_AS(eyelink_file_name("ob.1"), InputError);
-    CHECK_THROWS_AS(eyelink_file_name("observer", 36), DeviceError);
+TEST_CASE("an EyeLink's data files have names of eight letters and digits that never come again", "[unit]") {
+    using namespace std::chrono;
+    const sys_seconds first = sys_days(2020y / January / 1);
+    CHECK(eyelink_file_name("P07", first) == "07000000");
+    CHECK(eyelink_file_name("P07", first + seconds(1)) == "07000001");
+    CHECK(eyelink_file_name("lab-2_b", first + seconds(35)) == "2B00000Z");
+    CHECK(eyelink_file_name("x", first + seconds(36)) == "0X000010");
+    CHECK(eyelink_file_name("\u00e9", first + seconds(36 * 36)) == "00000100");
+    // Every second has a name of its own, and a later one stands behind in the order of names.
+    const sys_seconds now = sys_days(2026y / November / 25) + 16h;
+    std::string before = eyelink_file_name("01", now - seconds(1));
+    for (int second = 0; second < 5000; ++second) {
+        const std::string name = eyelink_file_name("01", now + seconds(second));
+        REQUIRE(name.size() == 8);
+        REQUIRE(name > before);
+        before = name;
+    }
+    CHECK(eyelink_file_name("01", sys_days(2088y / December / 31)).size() == 8);
 }
 
 TEST_CASE("messages for an EyeLink's file lead with how long ago it was", "[unit]") {

@@ -8,3 +8,6 @@ foreach(variant "" _old _lacking)
     add_dependencies(devices_tests stand_in_eyelink${variant})
     target_compile_definitions(devices_tests PRIVATE OVERT_STAND_IN_EYELINK${suffix}="$<TARGET_FILE:stand_in_eyelink${variant}>")
 endforeach()
+# The program measures with it, too.
+add_dependencies(app_tests stand_in_eyelink)
+target_compile_definitions(app_tests PRIVATE OVERT_STAND_IN_EYELINK="$<TARGET_FILE:stand_in_eyelink>")

@@ -2,12 +2,14 @@
 // description of its functions, with a tracker in memory whose gaze is known. Variants are compiled with
 //   STAND_IN_OLD       without the functions that came later
 //   STAND_IN_LACKING   without two functions that are needed
-// Tests steer it through the functions stand_in_….
+// Tests steer it through the functions stand_in_…, or, where it is loaded by the program, by the environment:
+// STAND_IN_EYELINK_rate=500.
 #include <chrono>
 #include <cmath>
 #include <cstdarg>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <string>
@@ -33,7 +35,10 @@ int times_asked = 0;
 
 double number(const char* name, double otherwise) {
     const auto found = numbers.find(name);
-    return found == numbers.end() ? otherwise : found->second;
+    if (found != numbers.end())
+        return found->second;
+    const char* const told = std::getenv((std::string("STAND_IN_EYELINK_") + name).c_str());
+    return told ? std::atof(told) : otherwise;
 }
 double local_us() {
     return std::chrono::duration<double, std::micro>(Clock::now().time_since_epoch()).count();
@@ -77,7 +82,7 @@ struct Hooks {
     void (*drift_beep)(i16);
     void (*drift_target_beep)();
     i16 (*key)(void*);
-    void (*alert)(const char*, ...);
+    void (*alert)(const char*);
 };
 struct Hooks2 {
     int major, minor;
@@ -256,6 +261,11 @@ i16 do_tracker_setup() {
     else
         hooks.set_up();
     numbers["calibrated"] = no_reply;
+    if (number("operated", 0) != 0) { // somebody sits at the host
+        show_target(960, 540);
+        numbers["calibrated"] = 0;
+        has_left_dialogue = true;
+    }
     for (int i = 0; i < 100'000 && !has_left_dialogue; ++i) {
         const int key = next_key();
         if (key == 0x1B || key == 0x7FFF)
@@ -264,9 +274,9 @@ i16 do_tracker_setup() {
             show_camera();
         if (key == 'a') {
             if (uses_hooks2)
-                hooks2.alert(hooks2.user, "no pupil");
+                hooks2.alert(hooks2.user, "no pupil in 50%s");
             else
-                hooks.alert("no %s", "pupil");
+                hooks.alert("no pupil in 50%s");
         }
         if (key == 'c') {
             show_target(960, 540);
@@ -288,9 +298,16 @@ i16 do_drift_correct(i16 x, i16 y, i16 draw, i16 allow_setup) {
     has_left_dialogue = false;
     said.push_back("drift " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(draw) + " " +
                    std::to_string(allow_setup));
+    const auto escaped = [&] {
+        if (allow_setup)
+            do_tracker_setup(); // until a key leaves it
+        return i16{27};
+    };
+    if (number("drift", 0) == 27)
+        return escaped();
     for (int i = 0; number("drift_waits", 0) != 0 && !has_left_dialogue; ++i)
         if (next_key() == 0x1B)
-            return 27;
+            return escaped();
     return static_cast<i16>(number("drift", 0));
 }
 void exit_calibration() { has_left_dialogue = true; }
@@ -367,8 +384,13 @@ static std::int32_t receive(char* source, char* destination, void (*progress)(un
     const unsigned sent = result < 0 ? size / 2 : static_cast<unsigned>(number("sent_bytes", size));
     for (unsigned i = 0; i < sent; ++i) {
         std::fputc(static_cast<int>(i % 251), file);
-        if (progress && i % 10'000 == 9'999)
-            progress(size, i + 1);
+        if (i % 10'000 == 9'999) {
+            // The library looks whether an operator breaks the transfer off, by whatever hooks it has.
+            if (hooks.key || hooks2.key)
+                next_key();
+            if (progress)
+                progress(size, i + 1);
+        }
     }
     std::fclose(file);
     return result;

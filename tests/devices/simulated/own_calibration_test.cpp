@@ -120,7 +120,8 @@ TEST_CASE("gaze that is far off before a calibration is right after it", "[unit]
         CHECK(outcome.validation->targets.size() == 5);
         CHECK(outcome.validation->mean_error.value < 0.3);
         CHECK(outcome.validation->max_error.value < 0.6);
-        CHECK(outcome.method == "polynomial of second order, " + std::to_string(points) + " targets");
+        CHECK(outcome.method == "polynomial of second order, " + std::to_string(points) + " targets of " +
+                                    std::to_string(points) + " points");
         CHECK(error_at(sitting, *tracker, place) < 0.5);
         CHECK(error_at(sitting, *tracker, {700.0, 600.0}) < 0.4);
         CHECK(setup_screen.beeps.back() == SetupBeep::calibration_good);
@@ -192,6 +193,23 @@ TEST_CASE("an eye that is never seen, or never follows, calibrates nothing and h
     CHECK(outcome.kind != SetupOutcome::Kind::cancelled);
     if (outcome.validation)
         CHECK(outcome.validation->max_error.value > 2.0);
+}
+
+TEST_CASE(
+    "gaze that rests at one place for all targets is a failed calibration, after which the next can be good",
+    "[unit]") {
+    Sitting sitting(34, test::without_wandering());
+    SimulatedTrackerSettings settings = uncalibrated();
+    settings.noise_deg = 0.0;
+    const auto tracker = tracker_of(sitting, settings);
+    WatchedSetupScreen setup_screen(sitting);
+    setup_screen.is_ignored = [](ScreenPoint) { return true; };
+    const SetupOutcome outcome = tracker->set_up(setup_screen);
+    CHECK(outcome.kind == SetupOutcome::Kind::failed);
+    CHECK_THAT(outcome.message, Catch::Contains("in a line or at one place"));
+    CHECK(setup_screen.beeps.back() == SetupBeep::calibration_bad);
+    setup_screen.is_ignored = {};
+    CHECK(tracker->set_up(setup_screen).kind == SetupOutcome::Kind::done);
 }
 
 TEST_CASE("escape ends a calibration, backspace shows the target before again, space accepts", "[unit]") {

@@ -96,6 +96,18 @@ TEST_CASE("targets that gaze did not follow are refused", "[unit]") {
     CHECK_THROWS_AS(GazeFit(std::span(pairs).first(2), CalibrationModel::polynomial, screen), InputError);
 }
 
+TEST_CASE("of gaze that rests at one place or moves along a line no target is told apart", "[unit]") {
+    for (const CalibrationModel model : {CalibrationModel::polynomial, CalibrationModel::homography}) {
+        std::vector<CalibrationPair> pairs = pairs_of(9, shifted);
+        for (CalibrationPair& pair : pairs)
+            pair.measured = {500.0, 500.0};
+        CHECK(misses_left_out(pairs, model, screen) == std::vector<Degrees>(9));
+        for (CalibrationPair& pair : pairs)
+            pair.measured = {pair.target.x_px, 2.0 * pair.target.x_px};
+        CHECK(misses_left_out(pairs, model, screen) == std::vector<Degrees>(9));
+    }
+}
+
 TEST_CASE("targets stand on even pixels, within the area, at different places", "[unit]") {
     for (const int points : {3, 5, 9, 13}) {
         const std::vector<ScreenPoint> targets = calibration_targets(points, 0.8, screen);
