@@ -98,7 +98,7 @@ std::string gaze_quality_text(const StudyResults& results) {
     if (!sd.empty())
         add_sentence(text,
                      fmt::format("as standard deviation within fixations (SD), around the eye's own motion "
-                                 "(a line through each 0.2 s), it was {}",
+                                 "(a line through each fifth of a second), it was {}",
                                  sd));
     if (!rate.empty())
         add_sentence(text, fmt::format("the sampling rate by the time stamps was {}", rate));

@@ -126,7 +126,7 @@ TEST_CASE("methods of measured gaze are told with every value", "[unit]") {
         "to 0.700 deg). Precision within fixations was 0.0213 deg (the same in 4 trials) "
         "from sample to sample (RMS-S2S). As standard deviation within fixations (SD), around the eye's own "
         "motion (a line through "
-        "each 0.2 s), it was below 0.0001 deg (the same in 4 "
+        "each fifth of a second), it was below 0.0001 deg (the same in 4 "
         "trials). The sampling rate by the time stamps was 1000 Hz (the same in 4 trials). Of the samples of "
         "a "
         "trial, 1.50 % (the same in 4 trials) had no gaze outside of blinks, and 0 % (the same in 4 trials) "
