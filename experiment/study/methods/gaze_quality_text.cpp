@@ -25,13 +25,12 @@ std::string calibrator_of(const std::string& method, bool is_simulated) {
 }
 
 void add_calibrations(std::string& text, const StudyResults& results) {
-    const ObserverCounts observers = observer_counts(results);
     int times = 0, beyond = 0;
     std::vector<std::string> methods;
     for (const SessionSetup::Calibrations& one : calibrations_of(results)) {
         times += one.times;
         beyond += one.beyond_limits;
-        const std::string by = calibrator_of(one.method, observers.simulated == observers.all);
+        const std::string by = calibrator_of(one.method, one.is_simulated);
         methods.push_back(fmt::format("{}{}{}", as_counted(one.times, "time"), by.empty() ? "" : " ", by));
     }
     if (times == 0) {
