@@ -243,7 +243,7 @@ TEST_CASE("56 curves are unlike each other", "[unit]") {
     const auto without_colour = [](std::size_t i) {
         MeasuringPen pen;
         CurveStyle(i).draw_marker(pen, {1.0, 1.0});
-        return pen.marks.size() * 1000 + pen.marks.front().low.x;
+        return std::pair(pen.marks.size(), pen.marks.front().low.x);
     };
     for (std::size_t i = 1; i < 7; ++i)
         CHECK(without_colour(i) != without_colour(i - 1));
