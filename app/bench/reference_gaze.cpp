@@ -202,7 +202,7 @@ ReferenceGaze read_asc_reference(const std::filesystem::path& file) {
                         file.string()));
     ReferenceGaze gaze{file.filename().string(), {}};
     ReferenceListener listener(gaze, *angles);
-    AscParser parser(listener);
+    AscParser parser(listener, survey.conventions);
     AscFiles(file).parse(parser);
     listener.end_recording();
     std::size_t events = 0;

@@ -27,8 +27,8 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
     option(command, "--out", options.out, "DIR",
            "The new session's folder (default: by task and observer in --sessions; with --into the session's "
            "name in a folder FOLDER_imports beside the FOLDER that holds it)");
-    option(command, "--sessions", options.sessions, "DIR", "Folder of all sessions", shown_default);
-    option(command, "--observer", options.observer, "LABEL",
+    add_sessions_option(command, options.sessions);
+    option(command, "--observer", options.observer, "ID",
            "Label of the observer (default: letters and digits of the file's name)");
     option(command, "--session", options.session_number, "N",
            "Number of the session (default: the next free one)", above_zero());
@@ -38,9 +38,18 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
         ->expected(2);
     option(command, "--distance-mm", options.distance_mm, "MM",
            "From the eyes to the screen, where the file does not say it", above_zero());
+    option(command, "--missing", options.missing, "VALUE",
+           "What the file has in place of lost values (edf2asc -miss)")
+        ->default_str("found by its lost samples");
+    option(
+        command, "--least-read", options.least_read, "SHARE",
+        "Refuse a file if a smaller share of its samples or events can be read, in all or of one recording",
+        CLI::Range(0.0, 1.0), shown_default);
+    command.add_flag("--as-gaze", options.as_gaze,
+                     "Samples that mostly lie off the screen are gaze, though the file does not say so");
     option(command, "--print-session-to", options.print_session_to, "FILE",
-           "Write the new session's path into a file");
-    command.add_flag("--json", options.json, "Print JSON");
+           "Write the session's path to this file, for scripts");
+    add_json_flag(command, options.json);
 }
 
 void add_verify(CLI::App& app, ChosenCommand& chosen) {
@@ -53,7 +62,7 @@ void add_verify(CLI::App& app, ChosenCommand& chosen) {
                     "session, or of a "
                     "newer overt.");
     command.add_option("SESSION", options.sessions, "Folders of sessions")->required();
-    command.add_flag("--json", options.json, "Print JSON");
+    add_json_flag(command, options.json);
 }
 
 void add_show(CLI::App& app, ChosenCommand& chosen) {
@@ -61,8 +70,8 @@ void add_show(CLI::App& app, ChosenCommand& chosen) {
         add_command(app, chosen, run_show, "show", "What a session holds, and one trial as a picture",
                     "overt show sessions/overt_2019/sub-07_ses-01 --trial 3 --picture trial.png");
     command.add_option("SESSION", options.session, "Folder of a session")->required();
-    option(command, "--trial", options.trial, "N", "Trial for --picture, counted from 1 (default: the first)",
-           above_zero());
+    option(command, "--trial", options.trial, "TRIAL",
+           "Trial for --picture, counted from 1 (default: the first)", above_zero());
     option(command, "--picture", options.picture, "FILE",
            "Write a PNG: a frame, its map, and the gaze on the surface");
     option(command, "--plot", options.plot, "FILE",
@@ -71,7 +80,7 @@ void add_show(CLI::App& app, ChosenCommand& chosen) {
         "--order", options.order,
         "The planned order of trials, made again from the recorded protocol and seed; exit code 1 "
         "if that gives another");
-    command.add_flag("--json", options.json, "Print JSON");
+    add_json_flag(command, options.json);
 }
 
 } // namespace

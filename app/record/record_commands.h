@@ -25,6 +25,9 @@ struct ImportOptions {
     std::string task = "imported";
     std::vector<double> screen_mm; ///< width and height, or empty
     std::optional<double> distance_mm;
+    std::optional<std::string> missing; ///< in place of lost values; nothing: found in the file
+    double least_read = 0.9;            ///< share of a recording's lines that must be read
+    bool as_gaze = false;               ///< what the file does not say
     std::filesystem::path print_session_to;
     bool json = false;
 };

@@ -155,6 +155,8 @@ void add_fixations_to_exposures(StudyResults& results) {
 
 /// What a reader must know of the maps of differences.
 void remark_on_differences(StudyResults& results, const StudyOptions& options) {
+    if (results.glance.counted == 0)
+        return; // nothing is compared, and that was said
     int most = 0;
     double least_p = 1.0;
     for (const DifferenceMap& map : results.differences) {

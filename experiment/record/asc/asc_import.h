@@ -24,9 +24,7 @@ struct AscImportOptions {
     std::optional<double> viewing_distance_mm; ///< the same
     ProgramBuild program;                      ///< that imports
     std::string now_utc;                       ///< for files without a date
-    AscReport report;                          ///< told each line that is skipped; may be empty
-    std::function<void(std::int64_t done, std::int64_t all)>
-        progress; ///< in bytes that are read; may be empty
+    AscSurveyOptions reading;                  ///< how the file is read; its report and progress, too
 };
 
 struct AscImportSummary {

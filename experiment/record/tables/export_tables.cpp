@@ -25,12 +25,13 @@ std::string_view description_of(TableFormat format) {
 
 ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& shared,
                            std::optional<Degrees> cone_accuracy, const std::string& event_origins,
-                           const std::vector<ParticipantRow>& participant)
+                           const std::vector<ParticipantRow>& participant, const std::string& pupil)
     : trials(trials_layout(shared, header)), flips(ledger_layout(shared, header)),
-      samples(samples_layout(shared, header, cone_accuracy)), gaze_events(gaze_events_layout(event_origins)),
-      events(events_layout()), responses(responses_layout(shared, header)),
-      stimuli(stimuli_layout(shared, header)), display_box(display_box_layout()), buttons(buttons_layout()),
-      markers(markers_layout()), participants(participants_layout(participant)) {
+      samples(samples_layout(shared, header, cone_accuracy, pupil)),
+      gaze_events(gaze_events_layout(header, event_origins, pupil)), events(events_layout()),
+      responses(responses_layout(shared, header)), stimuli(stimuli_layout(shared, header)),
+      display_box(display_box_layout()), buttons(buttons_layout()), markers(markers_layout()),
+      participants(participants_layout(participant)) {
     const std::vector<LeadingColumn> leading{
         {{"observer", "Label of the observer"}, header.schedule.observer.label},
         {{"session", "Which session of this observer, from 1"}, std::to_string(header.session_number), true}};

@@ -22,12 +22,14 @@ namespace overt {
 class ExportTables {
   public:
     /// With the columns of a gaze cone if its accuracy is given. `event_origins`: see gaze_events_layout().
-    /// `participant` is the session's. All tables begin with the observer and the number of the session, so
-    /// that those of several sessions can be put one below the other. `header` must outlive it.
+    /// `participant` is the session's; `pupil`: see pupil_words(). All tables begin with the observer and the
+    /// number of the session, so that those of several sessions can be put one below the other. `header` must
+    /// outlive it.
     explicit ExportTables(const SessionHeader& header, std::optional<Degrees> cone_accuracy = {},
                           const std::string& event_origins = {},
-                          const std::vector<ParticipantRow>& participant = {})
-        : ExportTables(header, SharedColumns(header), cone_accuracy, event_origins, participant) {}
+                          const std::vector<ParticipantRow>& participant = {},
+                          const std::string& pupil = "Pupil area")
+        : ExportTables(header, SharedColumns(header), cone_accuracy, event_origins, participant, pupil) {}
 
     RowLayout<TrialRow> trials;
     RowLayout<LedgerRow> flips;
@@ -46,7 +48,7 @@ class ExportTables {
   private:
     ExportTables(const SessionHeader& header, const SharedColumns& shared,
                  std::optional<Degrees> cone_accuracy, const std::string& event_origins,
-                 const std::vector<ParticipantRow>& participant);
+                 const std::vector<ParticipantRow>& participant, const std::string& pupil);
 };
 
 /// Of each column Description, Units and Levels, as in BIDS side cars.

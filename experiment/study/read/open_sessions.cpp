@@ -38,10 +38,7 @@ std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> se
             one.readers.back()->detect_events_of_imports();
             one.keys.push_back(std::make_unique<TrialKeys>(*one.readers.back()));
         }
-        one.record().read_events([&](const RecordedEvent& event) {
-            if (const std::optional<ValidationResult> result = validation_of(event))
-                one.validations.push_back({event.at, result->mean_error.value, result->max_error.value});
-        });
+        one.validations = validations_of(one.record());
     }
     return open;
 }
@@ -95,10 +92,7 @@ StudySculpture describe_sculpture(const SessionHeader& header, int index) {
     sculpture.id = recorded.id;
     sculpture.title = recorded.title;
     sculpture.part_names = recorded.part_names;
-    for (std::size_t part = 0; part < recorded.part_names.size(); ++part) {
-        if (recorded.part_names[part] == "head")
-            sculpture.head = static_cast<PartIndex>(part);
-    }
+    sculpture.head = HeadParts(recorded.part_names);
     sculpture.camera = recorded.camera;
     sculpture.axis_point = recorded.axis_point;
     sculpture.unit = recorded.unit;

@@ -103,7 +103,7 @@ template <class T> constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_
 
 /// Of the words that a shard has as numbers: another number is no word.
 template <class T> constexpr T last_of() = delete;
-template <> constexpr NotCounted last_of() { return NotCounted::trial_excluded; }
+template <> constexpr NotCounted last_of() { return NotCounted::no_stimulus; }
 template <> constexpr GazeEvent::Kind last_of() { return GazeEvent::Kind::blink; }
 
 class ShardWriter {

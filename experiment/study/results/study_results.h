@@ -18,7 +18,7 @@
 
 #include "experiment/animation.h"
 #include "experiment/gaze_event.h"
-#include "experiment/scene/mesh.h"
+#include "experiment/scene/mesh_parts.h"
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/statistics/estimate.h"
@@ -72,7 +72,7 @@ struct StudySculpture {
     /// Null where the sessions have no mesh, such as imported ones: no maps then, and `remark` says why.
     std::shared_ptr<const Mesh> mesh;
     std::vector<std::string> part_names;
-    std::optional<PartIndex> head; ///< the part "head"; nothing if there is none
+    HeadParts head; ///< false if there is none
     Camera camera;
     glm::dvec3 axis_point{0.0}; ///< in the mesh's unit; the sculpture turns about the vertical through it
     ScreenGeometry screen;
@@ -96,6 +96,7 @@ enum class NotCounted : std::uint8_t {
     not_on_surface,     ///< too small a share of its samples met the sculpture
     no_surface,         ///< the session has no maps of this sculpture
     trial_excluded,     ///< its trial is
+    no_stimulus,        ///< the session knows of no stimulus: an imported recording
 };
 
 /// What a trial is excluded for, in the order in which it is asked (ExclusionRules).
