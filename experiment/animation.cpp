@@ -72,6 +72,7 @@ PoseTable distinct_poses(const Animation& animation) {
 }
 
 std::vector<double> seconds_of_poses(const Animation& animation, const PoseTable& poses) {
+    OVERT_EXPECTS(poses.of_frame.size() >= static_cast<std::size_t>(animation.frame_count));
     std::vector<double> seconds(poses.angles.size(), 0.0);
     for (int step = 0; step < animation.shown_frame_count(); ++step)
         seconds[static_cast<std::size_t>(poses.pose_of(animation.frame_at_step(step)).value)] +=

@@ -9,6 +9,7 @@
 #include "devices/simulated/gaze_targets.h"
 #include "experiment/base/parallel.h"
 #include "experiment/base/random.h"
+#include "experiment/scene/mesh_parts.h"
 #include "experiment/statistics/point_spread.h"
 
 namespace overt {
@@ -35,9 +36,8 @@ class Plans {
                 continue;
             targets_.back() = std::make_unique<GazeTargets>(sculpture, scene_);
             for (std::size_t effect = 0; effect < scene_.effects.size(); ++effect)
-                spot_on_head_.back()[effect] =
-                    sculpture.mesh->part_names[targets_.back()->part_of_spot(static_cast<int>(effect))] ==
-                    "head";
+                spot_on_head_.back()[effect] = is_of_head(
+                    sculpture.mesh->part_names[targets_.back()->part_of_spot(static_cast<int>(effect))]);
         }
     }
 

@@ -98,7 +98,7 @@ class FilesOnDisk final : public FrameSource {
         return image;
     }
     const LinearImage& read_page(const Condition&, int page, LinearImage& room) const override {
-        read_linear_image(file_of(folder_, kind_, page), kind_.encoding, room);
+        read_linear_image(file_of(folder_, kind_, page), kind_.encoding, FileColours::as_they_stand, room);
         return room;
     }
 

@@ -24,8 +24,10 @@ namespace overt {
 
 namespace {
 
-SurfaceFacts surface_of(const Sculpture& sculpture) {
-    SurfaceFacts facts{sculpture.id, sculpture.mesh.triangles.size(), {}};
+SurfaceFacts surface_of(const Sculpture& sculpture, const SculptureSettings& settings,
+                        const Protocol& protocol) {
+    SurfaceFacts facts{
+        sculpture.id, sculpture.mesh.triangles.size(), size_of(sculpture, settings, protocol), {}};
     const std::vector<double> areas = sculpture.mesh.part_areas();
     const double area = sculpture.mesh.area();
     for (std::size_t part = 0; part < areas.size(); ++part)
@@ -63,9 +65,10 @@ DesignReport report_on(const Experiment& experiment, const CheckOptions& options
     assumptions.answer_s = options.answer_time_s;
     DesignReport report = make_design_report(experiment.protocol, observers, options.seed.value_or(1),
                                              assumptions, options.seed.has_value());
-    for (const Sculpture& sculpture : experiment.sculptures) {
-        if (sculpture.has_mesh())
-            report.surfaces.push_back(surface_of(sculpture));
+    for (std::size_t i = 0; i < experiment.sculptures.size(); ++i) {
+        if (experiment.sculptures[i].has_mesh())
+            report.surfaces.push_back(
+                surface_of(experiment.sculptures[i], experiment.protocol.sculptures[i], experiment.protocol));
     }
     report.recording = recording_size(experiment.protocol, experiment.sculptures, report.trials_per_observer,
                                       assumptions.answer_s);
@@ -100,7 +103,8 @@ int run_check(const CheckOptions& options) {
     } else {
         print_findings(diagnostics);
         if (experiment)
-            text = to_text(report_on(*experiment, options)) + to_text(stimuli->silhouettes) +
+            text = needs_of_person(stimuli->rendering, experiment->protocol) +
+                   to_text(report_on(*experiment, options)) + to_text(stimuli->silhouettes) +
                    to_text(stimuli->rendering) + to_text(stimuli->on_this_machine) + sound + "\n";
         if (experiment && options.frames)
             text += to_text(measure_light(*experiment));

@@ -7,7 +7,9 @@
 #include "experiment/base/error.h"
 #include "experiment/checks/checked_protocol.h"
 #include "experiment/scene/metal_table.h"
+#include "experiment/stimulus/sculpture_size.h"
 #include "render/image/light_probe.h"
+#include "render/image/linear_image.h"
 #include "render/stimulus/given_maps.h"
 #include "render/stimulus/ready_made_frames.h"
 
@@ -58,8 +60,16 @@ std::vector<Sculpture> examine_sculptures(const Protocol& protocol, const std::f
             const Sculpture& sculpture = sculptures.emplace_back(load_sculpture(settings, protocol, cache));
             for (const std::string& remark : sculpture.remarks)
                 diagnostics.warning(protocol.file.string(), place, as_finding(remark));
-            if (sculpture.has_mesh())
-                examine_camera(protocol, sculpture, diagnostics);
+            if (!sculpture.has_mesh())
+                return;
+            examine_camera(protocol, sculpture, diagnostics);
+            const std::string unit = fmt::format("sculpture[{}].unit", i);
+            if (const auto doubt =
+                    doubt_of_size(size_of(sculpture, settings, protocol),
+                                  protocol.places.is_written(unit) || !settings.shipped.empty()))
+                diagnostics.warning(protocol.file.string(), place,
+                                    fmt::format("sculpture \"{}\": {}", settings.id, doubt->message),
+                                    doubt->hint);
         });
     }
     return sculptures;
@@ -106,6 +116,13 @@ void examine_frames(const Protocol& protocol, Diagnostics& diagnostics) {
         examine(protocol, protocol.places.of(fmt::format("frames[{}].files", i)), diagnostics, [&] {
             check_frame_pixels(sequence, protocol.animation.frame_count,
                                {protocol.view.width_px, protocol.view.height_px});
+            if (sequence.colour_space == FrameColours::display &&
+                has_other_primaries(frame_file(sequence, {0})))
+                diagnostics.warning(
+                    protocol.file.string(), protocol.places.of(fmt::format("frames[{}].files", i)),
+                    "the frames say that their colours are of another space, but their numbers are "
+                    "shown as the display's own light",
+                    "colour_space = \"rec709\" converts what they say to the display");
         });
     }
 }

@@ -80,10 +80,7 @@ GazeStudies::GazeStudies(const Experiment& experiment, std::vector<PowerEffect> 
         StudySculpture sculpture;
         sculpture.id = shown.id;
         sculpture.part_names = shown.mesh.part_names;
-        for (std::size_t part = 0; part < shown.mesh.part_names.size(); ++part) {
-            if (shown.mesh.part_names[part] == "head")
-                sculpture.head = static_cast<PartIndex>(part);
-        }
+        sculpture.head = HeadParts(shown.mesh.part_names);
         sculpture.camera = shown.scene.view.camera;
         sculpture.axis_point = shown.scene.bounds.centre();
         sculpture.screen = scene_.screen;

@@ -59,7 +59,7 @@ LinearImage contact_sheet(const Protocol& protocol, const StimulusLibrary& libra
     parallel_for(columns * rows, [&](int i) {
         const Condition condition{i / columns, i % columns};
         const int page = library.page_of_frame(condition)[static_cast<std::size_t>(frame)];
-        cells[static_cast<std::size_t>(i)] = reduced_to(library.page(condition, page), cell_px);
+        cells[static_cast<std::size_t>(i)] = reduced_to(library.page_on_screen(condition, page), cell_px);
     });
     const glm::ivec2 cell = cells.front().size_px;
     const int line_px = std::clamp(cell.x / 12, 9, 28), label_px = 2 * line_px + gap_px;
@@ -87,7 +87,7 @@ LinearImage film_strip(const StimulusLibrary& library, const Condition& conditio
     std::vector<LinearImage> cells(numbers.size());
     parallel_for(count, [&](int i) {
         const int page = pages[static_cast<std::size_t>(numbers[static_cast<std::size_t>(i)])];
-        cells[static_cast<std::size_t>(i)] = reduced_to(library.page(condition, page), cell_px);
+        cells[static_cast<std::size_t>(i)] = reduced_to(library.page_on_screen(condition, page), cell_px);
     });
     const glm::ivec2 cell = cells.front().size_px;
     const int line_px = std::clamp(cell.x / 12, 9, 28), label_px = line_px + gap_px;

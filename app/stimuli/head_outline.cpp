@@ -1,5 +1,6 @@
 #include "app/stimuli/head_outline.h"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace overt {
@@ -38,18 +39,24 @@ std::optional<PartRegion> HeadOutline::region() const {
     return head;
 }
 
-PartRegion transformed(const PartRegion& region, const glm::dmat3& turn, double scale) {
+PartRegion transformed(const PartRegion& region, const glm::dmat3& turn, double scale, glm::dvec3 move) {
     PartRegion result{region.name, {}, {}};
     for (const glm::dvec4& sphere : region.spheres)
-        result.spheres.emplace_back(scale * (turn * glm::dvec3(sphere)), scale * sphere.w);
+        result.spheres.emplace_back(scale * (turn * glm::dvec3(sphere)) + move, scale * sphere.w);
     for (const HalfSpace& space : region.half_spaces)
-        result.half_spaces.push_back({scale * (turn * space.point), turn * space.normal});
+        result.half_spaces.push_back({scale * (turn * space.point) + move, turn * space.normal});
     return result;
 }
 
 std::string head_key(const PartRegion& region) {
-    const auto number = [](double value) {
-        const std::string text = fmt::format("{:.6g}", value);
+    int digits = 6;
+    if (!region.spheres.empty()) {
+        const glm::dvec4 sphere = region.spheres.front();
+        const double far = glm::length(glm::dvec3(sphere)) / sphere.w;
+        digits += far > 10.0 ? static_cast<int>(std::log10(far)) : 0;
+    }
+    const auto number = [&](double value) {
+        const std::string text = fmt::format("{:.{}g}", value, digits);
         return text == "-0" ? std::string("0") : text;
     };
     const auto list = [&](const glm::dvec3& v) {

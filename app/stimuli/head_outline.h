@@ -38,11 +38,12 @@ class HeadOutline {
     double factor_ = 1.0;
 };
 
-/// The same part after its mesh was turned and scaled alike in all directions.
-PartRegion transformed(const PartRegion& region, const glm::dmat3& turn, double scale);
+/// The same part after its mesh was turned, scaled alike in all directions and then moved.
+PartRegion transformed(const PartRegion& region, const glm::dmat3& turn, double scale,
+                       glm::dvec3 move = glm::dvec3(0.0));
 
 /// As [[sculpture]] of a protocol has it: "head = { spheres = [[…]], planes = [[[…], […]]] }", numbers to six
-/// digits.
+/// digits, and to as many more as the first sphere lies away from the origin.
 std::string head_key(const PartRegion& region);
 
 } // namespace overt

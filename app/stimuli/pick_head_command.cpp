@@ -225,8 +225,9 @@ int run_pick_head(const PickHeadOptions& options) {
     const double scale = mm_of_unit(settings.unit);
     const bool is_given = !given.spheres.empty() || !given.half_spaces.empty();
     const double height = sculpture.scene.bounds.max.z - sculpture.scene.bounds.min.z;
-    HeadOutline outline(0.1 * height,
-                        is_given ? std::optional(transformed(given, object_from_file, scale)) : std::nullopt);
+    HeadOutline outline(
+        0.1 * height, is_given ? std::optional(transformed(given, object_from_file, scale, -sculpture.origin))
+                               : std::nullopt);
     double share = 0.0;
     if (in_window) {
         OpenDisplay window({.context = ContextKind::window,
@@ -258,7 +259,8 @@ int run_pick_head(const PickHeadOptions& options) {
                         "mesh file",
                         options.mesh.string()));
     fmt::print("# {:.1f} % of the surface\n{}\n", 100.0 * share,
-               head_key(transformed(*outline.region(), glm::transpose(object_from_file), 1.0 / scale)));
+               head_key(transformed(transformed(*outline.region(), glm::dmat3(1.0), 1.0, sculpture.origin),
+                                    glm::transpose(object_from_file), 1.0 / scale)));
     return 0;
 }
 

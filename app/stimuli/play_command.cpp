@@ -21,7 +21,7 @@ namespace {
 void write_frame(const StimulusLibrary& library, const Condition& stimulus, const PlayOptions& options) {
     const auto frame = static_cast<std::size_t>(options.frame.value_or(0));
     const int page = library.page_of_frame(stimulus)[frame];
-    LinearImage picture = library.page(stimulus, page);
+    LinearImage picture = library.page_on_screen(stimulus, page);
     // What is only a preview must not be taken for the stimulus.
     const bool is_preview = !library.cache().is_ready_made(stimulus) &&
                             library.quality_of_frames(stimulus).level <= BakeQuality::preview;

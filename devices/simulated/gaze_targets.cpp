@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "experiment/scene/mesh_parts.h"
+
 namespace overt {
 
 namespace {
@@ -35,7 +37,7 @@ GazeTargets::GazeTargets(const ObservedSculpture& sculpture, const ObservedScene
         const std::string_view part = mesh_->part_names[mesh_->triangle_parts[i]];
         const double area = glm::length(corners_of(*mesh_, i).normal_times_area());
         const double weight = part == "plinth" ? plinth_weight * area : area;
-        WeightedTriangles& region = part == "head" ? head_ : elsewhere_;
+        WeightedTriangles& region = is_of_head(part) ? head_ : elsewhere_;
         region.add(i, weight);
     }
     find_middle();

@@ -35,6 +35,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         require_lists(examination);
         take_characterisation(examination, look_at_files);
         check_image_fits(examination);
+        check_sizes(examination);
         check_output(examination);
         check_animation(examination);
         check_screens(examination);

@@ -12,6 +12,7 @@
 #include "experiment/checks/recording_size.h"
 #include "experiment/checks/rotation_balance.h"
 #include "experiment/protocol/protocol.h"
+#include "experiment/stimulus/sculpture_size.h"
 #include "experiment/trial.h"
 
 namespace overt {
@@ -89,6 +90,7 @@ struct GroupFacts {
 struct SurfaceFacts {
     std::string sculpture; ///< id
     std::size_t triangles = 0;
+    SculptureSize size;
     std::vector<std::pair<std::string, double>> part_shares; ///< of the area, by name; sum 1
 };
 

@@ -138,9 +138,14 @@ Json to_json(const DesignReport& report) {
         Json parts = Json::object();
         for (const auto& [name, share] : surface.part_shares)
             parts[name] = share;
-        json["surfaces"].push_back({{"sculpture", surface.sculpture},
-                                    {"triangles", surface.triangles},
-                                    {"part_shares", std::move(parts)}});
+        json["surfaces"].push_back(
+            {{"sculpture", surface.sculpture},
+             {"triangles", surface.triangles},
+             {"size", {surface.size.object.x, surface.size.object.y, surface.size.object.z}},
+             {"unit", surface.size.unit},
+             {"shown_mm", {surface.size.shown_mm.x, surface.size.shown_mm.y}},
+             {"shown_deg", {surface.size.shown_deg.x, surface.size.shown_deg.y}},
+             {"part_shares", std::move(parts)}});
     }
     json["incidence"] = Json::array();
     for (const IncidenceCell& cell : report.incidence) {

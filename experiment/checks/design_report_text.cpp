@@ -157,6 +157,13 @@ void add_surfaces(std::string& text, const DesignReport& report) {
         for (const auto& [name, share] : surface.part_shares)
             parts += fmt::format("{} {:.1f} % {}", parts.empty() ? ":" : ",", 100.0 * share, name);
         lines.push_back(fmt::format("{}, {} triangles{}", surface.sculpture, surface.triangles, parts));
+        const SculptureSize& size = surface.size;
+        const std::string_view unit = size.unit == "own" ? "of its own unit" : "mm";
+        lines.push_back(
+            fmt::format("  {:.4g} {} high and {:.4g} wide; shown {:.4g} mm ({:.3g} deg) high and {:.4g} mm "
+                        "({:.3g} deg) wide",
+                        size.object.z, unit, size.object.x, size.shown_mm.y, size.shown_deg.y,
+                        size.shown_mm.x, size.shown_deg.x));
     }
     add_facts(text, "Surface", lines);
 }

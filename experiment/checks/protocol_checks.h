@@ -10,6 +10,8 @@ namespace overt {
 
 // The rig: screen, image, animation, texts, schedule.
 void check_image_fits(ProtocolExamination& examination);
+/// Lengths that nobody means in millimetres.
+void check_sizes(ProtocolExamination& examination);
 /// What the video signal can carry, and where on the screen.
 void check_output(ProtocolExamination& examination);
 void check_animation(ProtocolExamination& examination);

@@ -139,16 +139,11 @@ void check_sculptures(ProtocolExamination& examination,
             check_shapeless(examination, i);
         }
         if (!has_mesh)
-            check_idle_keys(examination, i, {"up", "scale", "unit", "labels"}, "\"mesh\"",
+            check_idle_keys(examination, i, {"up", "scale", "unit", "labels", "weld_tolerance"}, "\"mesh\"",
                             "it describes the coordinates of a mesh file");
         if (!has_lut)
             check_idle_keys(examination, i, {"lut_first_number", "lut_scale", "lut_min", "lut_max"},
                             "\"lut\"", "it describes ready-made maps");
-        else if (!sculpture.labels.empty() &&
-                 !(sculpture.head_spheres.empty() && sculpture.head_planes.empty()))
-            examination.error({entry_path("sculpture", i, "labels"), entry_path("sculpture", i, "head")},
-                              "\"labels\" and \"head\" both say which part is which",
-                              "take one of the two out");
         if (!has_mesh && !has_lut)
             check_idle_keys(examination, i, {"head"}, "\"mesh\"",
                             "it describes the coordinates of a mesh file");

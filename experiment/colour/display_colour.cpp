@@ -4,6 +4,7 @@
 #include <glm/matrix.hpp>
 
 #include "experiment/base/error.h"
+#include "experiment/colour/rgb_primaries.h"
 
 namespace overt {
 
@@ -30,10 +31,12 @@ DisplayColour::DisplayColour(const DisplayCharacterisation& display, ColourSpace
 }
 
 glm::dmat3 display_from_rec709(const DisplayCharacterisation& display) {
-    const auto of_chromaticity = [](double x, double y) { return glm::dvec3(x / y, 1.0, (1.0 - x - y) / y); };
-    const glm::dmat3 primaries(of_chromaticity(0.640, 0.330), of_chromaticity(0.300, 0.600),
-                               of_chromaticity(0.150, 0.060));
-    const glm::dvec3 luminances = glm::inverse(primaries) * of_chromaticity(0.3127, 0.3290);
+    const auto of_chromaticity = [](glm::dvec2 xy) {
+        return glm::dvec3(xy.x / xy.y, 1.0, (1.0 - xy.x - xy.y) / xy.y);
+    };
+    const auto& [red, green, blue, white_point] = rec709_primaries;
+    const glm::dmat3 primaries(of_chromaticity(red), of_chromaticity(green), of_chromaticity(blue));
+    const glm::dvec3 luminances = glm::inverse(primaries) * of_chromaticity(white_point);
     const glm::dmat3 xyz_from_rec709(luminances.x * primaries[0], luminances.y * primaries[1],
                                      luminances.z * primaries[2]);
     const double white = display.luminance_of(1.0) - display.luminance_of(0.0);

@@ -10,6 +10,7 @@
 #include "experiment/pictures/picture_library.h"
 #include "experiment/pictures/plain_exr.h"
 #include "experiment/pictures/plain_png.h"
+#include "experiment/pictures/radiance_picture.h"
 
 namespace overt {
 
@@ -26,15 +27,15 @@ std::string fault_of(const PictureHeader& header) {
         return fmt::format("claims {} x {} px: more than {} px a side are not read", size.x, size.y,
                            most_picture_side_px);
     // A tile is read whole, whatever of it lies in the picture.
-    const glm::vec<2, std::uint64_t> covered(glm::max(size, header.tile_px));
+    const glm::vec<2, std::uint64_t> covered(glm::max(glm::max(size, header.stored_px), header.tile_px));
     const std::uint64_t most_values = most_picture_bytes / sizeof(float);
     if (covered.x > most_values / covered.y || covered.x * covered.y > most_values / header.channels.size())
-        return fmt::format("claims {} x {} px of {} channels{}: more than {} MiB of values are not read",
-                           size.x, size.y, header.channels.size(),
-                           header.tile_px.x > 0
-                               ? fmt::format(" in tiles of {} x {}", header.tile_px.x, header.tile_px.y)
-                               : std::string(),
-                           most_picture_bytes >> 20);
+        return fmt::format(
+            "claims {} x {} px of {} channels{}: more than {} MiB of values are not read",
+            glm::max(size, header.stored_px).x, glm::max(size, header.stored_px).y, header.channels.size(),
+            header.tile_px.x > 0 ? fmt::format(" in tiles of {} x {}", header.tile_px.x, header.tile_px.y)
+                                 : std::string(),
+            most_picture_bytes >> 20);
     return {};
 }
 
@@ -45,6 +46,8 @@ PictureFile::PictureFile(std::filesystem::path file, std::string_view kind, Stra
     std::string fault;
     decoder_ = open_plain_exr(file_.string());
     if (!decoder_)
+        decoder_ = open_radiance(file_.string(), fault);
+    if (!decoder_ && fault.empty())
         decoder_ = picture_library().open(file_.string(), straight == StraightColours::as_they_stand, fault);
     if (!decoder_)
         throw InputError(fmt::format("{}: cannot be read as a {}: {}", file_.string(), kind_, fault));

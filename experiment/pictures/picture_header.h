@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,6 +29,10 @@ struct PictureHeader {
     std::vector<std::pair<std::string, PictureAttribute>> attributes = {};
 
     // Of files that are read.
+    std::string format = {}; ///< "openexr", "radiance", …, as OpenImageIO names them
+    /// CIE 1931 x and y of red, green, blue and white, if the file says what its colours are.
+    std::optional<std::array<double, 8>> primaries = {};
+    glm::ivec2 stored_px{0};      ///< what is read at once, where that is not the picture itself
     std::string type_name = {};   ///< for people
     glm::ivec2 tile_px{0};        ///< 0: not in tiles
     bool channels_differ = false; ///< in their type

@@ -12,6 +12,7 @@
 #include <ImfInputFile.h>
 #include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfTestFile.h>
 #include <ImfVecAttribute.h>
@@ -90,6 +91,15 @@ std::optional<PictureHeader> plain_header_of(const Imf::Header& stored) {
     }
     header.type = type->type;
     header.type_name = type->name;
+    header.format = "openexr";
+    if (Imf::hasChromaticities(stored)) {
+        const Imf::Chromaticities& colours = Imf::chromaticities(stored);
+        auto* number = header.primaries.emplace().data();
+        for (const Imath::V2f& xy : {colours.red, colours.green, colours.blue, colours.white}) {
+            *number++ = static_cast<double>(xy.x);
+            *number++ = static_cast<double>(xy.y);
+        }
+    }
     header.attributes.emplace_back("compression", std::string(compression->name));
     for (auto attribute = stored.begin(); attribute != stored.end(); ++attribute)
         read_attribute(attribute.name(), attribute.attribute(), header);

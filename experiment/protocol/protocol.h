@@ -241,7 +241,8 @@ struct SculptureSettings {
     std::filesystem::path mesh; ///< PLY, OBJ or STL, or empty; resolved against the protocol's folder
     std::string up = "z";       ///< axis of the file that points up: x, y, z, -x, -y, -z
     double scale = 1.0;
-    std::string unit = "mm"; ///< of the file: mm, cm, m, in, which all become millimetres; or own
+    std::string unit = "mm";      ///< of the file: mm, cm, m, in, which all become millimetres; or own
+    double weld_tolerance = 1e-6; ///< of vertices, as a share of the diagonal of the mesh's box
     std::filesystem::path
         labels; ///< a label for each triangle or vertex of the mesh, or empty; resolved likewise
     /// Coordinate-encoded maps made by another program, or empty: path with # for the digits of the frame

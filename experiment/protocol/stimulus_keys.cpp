@@ -98,7 +98,13 @@ std::vector<Key> sculpture() {
          "every export says so."},
         {"labels", &S::labels, left_out("the labels of the mesh file, if it has any"),
          "A text file with a whole number for each triangle of the mesh, or for each vertex: which part it "
-         "belongs to. Lines `# part 1 head` name parts. Not beside `head`."},
+         "belongs to. Lines `# part 1 head` name parts. Beside `head` both hold: a part that lies in the "
+         "head as "
+         "a whole stays a part, called head/NAME, and counts as head; of one that reaches beyond it the head "
+         "takes what it contains."},
+        {"weld_tolerance", &S::weld_tolerance, range(0, 0.01),
+         "Vertices of the mesh that are no farther apart than this share of the diagonal of its box are one: "
+         "what some programs write for a corner differs by rounding. 0: only those at the very same place."},
         {"lut", &S::lut, left_out("maps are made from the mesh"),
          "Instead of a mesh, for a sculpture whose `[[frames]]` another program rendered: the "
          "coordinate-encoded maps that it made of them, with # for the digits of the number: "

@@ -40,11 +40,21 @@ bool is_animation(const Animation& animation, double refresh_hz) {
            animation.frame_count / animation.frame_rate_hz * refresh_hz <= most_refreshes;
 }
 
-bool is_pose_table(const PoseTable& poses) {
+/// With a pose for each frame of the animation.
+bool is_pose_table(const PoseTable& poses, const Animation& animation) {
     return !poses.angles.empty() &&
+           poses.of_frame.size() == static_cast<std::size_t>(animation.frame_count) &&
            std::all_of(poses.of_frame.begin(), poses.of_frame.end(), [&](PoseIndex pose) {
                return pose.value >= 0 && static_cast<std::size_t>(pose.value) < poses.angles.size();
            });
+}
+
+template <class Items> bool is_index(int index, const Items& items) {
+    return index >= 0 && static_cast<std::size_t>(index) < items.size();
+}
+
+bool is_condition(const Condition& condition, const SessionHeader& header) {
+    return is_index(condition.sculpture, header.sculptures) && is_index(condition.material, header.materials);
 }
 
 bool is_label(const std::string& label) {
@@ -69,7 +79,7 @@ void check_header(const SessionHeader& header, const std::filesystem::path& file
     demand(header.display.latency <= longest_latency && header.display.latency >= -longest_latency,
            "the display's latency");
     demand(is_within(header.tracker.sample_rate_hz, 0.0, 1e6), "the tracker's rate");
-    demand(is_pose_table(header.poses), "the table of poses");
+    demand(is_pose_table(header.poses, header.animation), "the table of poses");
     // They name folders and files of exports, and files that are read.
     // An imported session may have none.
     demand(header.protocol.name.empty() || is_plain_name(header.protocol.name), "the protocol's name");
@@ -77,8 +87,17 @@ void check_header(const SessionHeader& header, const std::filesystem::path& file
         demand(is_plain_name(sculpture.id) &&
                    (sculpture.mesh_file.empty() || stays_inside(sculpture.mesh_file)),
                fmt::format("the id or the mesh file of sculpture \"{}\"", sculpture.id));
-    for (const RecordedMap& map : header.maps)
+    for (const RecordedMap& map : header.maps) {
         demand(stays_inside(map.file), fmt::format("the map file \"{}\"", map.file));
+        demand(is_index(map.sculpture, header.sculptures) && is_index(map.pose.value, header.poses.angles),
+               fmt::format("the sculpture or the pose of map \"{}\"", map.file));
+    }
+    for (const RecordedStimulus& stimulus : header.stimuli)
+        demand(is_condition(stimulus.condition, header), "the sculpture or the material of a stimulus");
+    for (const Trial& trial : header.schedule.trials)
+        demand(is_index(trial.task, header.tasks) && is_condition(trial.condition, header) &&
+                   (header.blocks.empty() || is_index(trial.block, header.blocks)),
+               fmt::format("the task, sculpture, material or block of planned trial {}", trial.index + 1));
     const auto have_plain_names = [](const auto& entries) {
         return std::ranges::all_of(entries, [](const auto& entry) { return is_plain_name(entry.id); });
     };

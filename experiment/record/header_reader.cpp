@@ -5,6 +5,7 @@
 #include "experiment/base/error.h"
 #include "experiment/record/header_rows.h"
 #include "experiment/record/header_tables.h"
+#include "experiment/record/no_stimulus.h"
 #include "experiment/record/sql.h"
 
 namespace overt {
@@ -98,6 +99,9 @@ SessionHeader read_session_header(const SQLite::Database& database) {
     read_characterisation(database, header);
     read_design(database, header);
     read_sculptures(database, header);
+    // Imports of earlier programs have the motion of a protocol, which nothing went through, and one pose.
+    if (knows_no_stimulus(header) && header.poses.of_frame.size() == 1)
+        header.animation = no_animation;
     return std::move(header);
 }
 

@@ -15,20 +15,6 @@
 namespace overt {
 namespace {
 
-// Gives the number of vertices that were welded.
-std::size_t weld(Mesh& mesh, double tolerance) {
-    const std::size_t before = mesh.positions.size();
-    VertexWelder welder(tolerance, before);
-    std::vector<std::uint32_t> place_of(before);
-    for (std::size_t i = 0; i < before; ++i)
-        place_of[i] = welder.index_of(mesh.positions[i]);
-    mesh.positions = std::move(welder).positions();
-    for (glm::uvec3& triangle : mesh.triangles) {
-        triangle = {place_of[triangle.x], place_of[triangle.y], place_of[triangle.z]};
-    }
-    return before - mesh.positions.size();
-}
-
 // Differences of floats and their products are exact in double precision (barring extreme ratios), so the
 // cross product is zero exactly when the corners lie on a line.
 bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle) {
@@ -37,6 +23,22 @@ bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle) {
     const glm::dvec3 a(mesh.positions[triangle.x]), b(mesh.positions[triangle.y]),
         c(mesh.positions[triangle.z]);
     return glm::cross(b - a, c - a) == glm::dvec3(0.0);
+}
+
+void weld(Mesh& mesh, double tolerance, MeshCleaningReport& report) {
+    const std::size_t before = mesh.positions.size();
+    VertexWelder welder(tolerance, before);
+    std::vector<std::uint32_t> place_of(before);
+    for (std::size_t i = 0; i < before; ++i) {
+        const glm::dvec3 position(mesh.positions[i]);
+        place_of[i] = welder.index_of(position);
+        report.vertices_moved += welder.positions()[place_of[i]] != position ? 1 : 0;
+    }
+    mesh.positions.assign(welder.positions().begin(), welder.positions().end());
+    for (glm::uvec3& triangle : mesh.triangles)
+        triangle = {place_of[triangle.x], place_of[triangle.y], place_of[triangle.z]};
+    report.weld_tolerance = tolerance;
+    report.vertices_welded = before - mesh.positions.size();
 }
 
 // Keeps the triangles, with their parts, for whose index `keep` says so; gives the number dropped.
@@ -127,9 +129,15 @@ MeshCleaningReport clean_mesh(Mesh& mesh, double weld_tolerance) {
     MeshCleaningReport report;
     report.vertices_read = mesh.positions.size();
     report.triangles_read = mesh.triangles.size();
-    report.vertices_welded = weld(mesh, weld_tolerance);
-    report.degenerate_faces_dropped =
-        drop_triangles(mesh, [&](std::size_t i) { return !is_degenerate(mesh, mesh.triangles[i]); });
+    std::vector<bool> had_area(mesh.triangles.size());
+    for (std::size_t i = 0; i < had_area.size(); ++i)
+        had_area[i] = !is_degenerate(mesh, mesh.triangles[i]);
+    weld(mesh, weld_tolerance, report);
+    report.degenerate_faces_dropped = drop_triangles(mesh, [&](std::size_t i) {
+        const bool has_area = !is_degenerate(mesh, mesh.triangles[i]);
+        report.collapsed_faces_dropped += had_area[i] && !has_area ? 1 : 0;
+        return has_area;
+    });
     report.duplicate_faces_dropped = drop_duplicates(mesh);
     report.unreferenced_vertices_dropped = drop_unreferenced(mesh);
 
@@ -154,10 +162,28 @@ std::vector<std::string> describe(const MeshCleaningReport& report) {
         if (count > 0)
             sentences.push_back(fmt::format("{} {}", counted(count, one, many), rest));
     };
+    sentences = report.part_remarks;
+    if (report.rounding > 0.0) {
+        sentences.push_back(fmt::format(
+            "The mesh lies so far from the origin of its file that 32-bit coordinates from there would be "
+            "wrong by up to {:.2g}: its own origin is the point ({}, {}, {}), turned and scaled as the mesh.",
+            report.rounding, report.origin.x, report.origin.y, report.origin.z));
+    }
+    say(report.crossing_faces, "face", "faces",
+        "of more than three corners cross themselves and have no inside; they were cut about their first "
+        "corner.");
+    say(report.vertices_without_place, "vertex was", "vertices were",
+        "left aside: no face uses them, and their coordinates are no finite numbers.");
     // A file that has three vertices for each triangle, as every STL, says nothing by repeating them.
     if (report.vertices_read != 3 * report.triangles_read)
-        say(report.vertices_welded, "vertex was", "vertices were", "welded to another at the same place.");
-    say(report.degenerate_faces_dropped, "face was", "faces were", "dropped: no area.");
+        say(report.vertices_welded - report.vertices_moved, "vertex was", "vertices were",
+            "welded to another at the same place.");
+    say(report.vertices_moved, "vertex was", "vertices were",
+        fmt::format("welded to another within {:.2g} (weld_tolerance).", report.weld_tolerance));
+    say(report.degenerate_faces_dropped - report.collapsed_faces_dropped, "face was", "faces were",
+        "dropped: no area.");
+    say(report.collapsed_faces_dropped, "face was", "faces were",
+        "dropped: welding left them no area; a smaller weld_tolerance keeps them.");
     say(report.duplicate_faces_dropped, "face was", "faces were", "dropped: the same as another.");
     say(report.unreferenced_vertices_dropped, "vertex was", "vertices were", "dropped: no face uses it.");
     say(report.boundary_edges, "edge has", "edges have", "only one face: the surface has holes.");

@@ -14,10 +14,18 @@ namespace overt {
 struct MeshCleaningReport {
     std::size_t vertices_read = 0;
     std::size_t triangles_read = 0;
-    std::size_t vertices_welded = 0;               ///< that became one with an earlier vertex
-    std::size_t degenerate_faces_dropped = 0;      ///< two corners at one vertex, or all three on a line
-    std::size_t duplicate_faces_dropped = 0;       ///< same corners, same front as an earlier one
-    std::size_t unreferenced_vertices_dropped = 0; ///< of no triangle, after the faces were dropped
+    std::size_t vertices_welded = 0;          ///< that became one with an earlier vertex
+    std::size_t vertices_moved = 0;           ///< of these, those that were not at the very same place
+    double weld_tolerance = 0.0;              ///< in the mesh's unit
+    std::size_t degenerate_faces_dropped = 0; ///< two corners at one vertex, or all three on a line
+    std::size_t collapsed_faces_dropped = 0;  ///< of these, those that had an area before they were welded
+    std::size_t duplicate_faces_dropped = 0;  ///< same corners, same front as an earlier one
+    std::size_t unreferenced_vertices_dropped = 0; ///< of no triangle
+    std::size_t vertices_without_place = 0;        ///< likewise, with a coordinate that is none
+    std::size_t crossing_faces = 0;                ///< whose outline crosses itself
+    glm::dvec3 origin{0.0}; ///< of the object, in the file's coordinates turned and in the mesh's unit
+    std::vector<std::string> part_remarks; ///< see label_parts()
+    double rounding = 0.0; ///< that coordinates from the file's own origin would have; 0 if that was kept
     std::size_t boundary_edges = 0;
     std::size_t non_manifold_edges = 0;
     std::size_t conflicting_edges = 0; ///< between two triangles whose fronts disagree

@@ -1,6 +1,7 @@
 /// Which part of the figure each triangle belongs to: by regions of space, or by labels of the mesh file.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -35,16 +36,45 @@ struct PartRegion {
 /// Most parts that a mesh can have.
 inline constexpr std::size_t max_mesh_parts = 256;
 
-/// Gives each triangle the part of the first region that contains its centroid, or else the part `rest_name`,
-/// which is part 0. Regions with the same name are one part. What the mesh's parts were before is forgotten.
+/// Name of the part that results tell from the rest.
+inline constexpr std::string_view head_part = "head";
+
+/// Which parts of a sculpture belong to its head: the part "head", and those that lie in it ("head/eyes").
+class HeadParts {
+  public:
+    HeadParts() = default;
+    /// One part.
+    HeadParts(PartIndex part) : parts_(std::size_t{part} + 1, false) { parts_.back() = true; }
+    /// By the names of all parts, in their order.
+    explicit HeadParts(std::span<const std::string> part_names);
+
+    /// Whether there is any.
+    bool has_value() const;
+    explicit operator bool() const { return has_value(); }
+    bool has(std::optional<PartIndex> part) const { return part && *part < parts_.size() && parts_[*part]; }
+    void reset() { parts_.clear(); }
+
+  private:
+    std::vector<bool> parts_; ///< by PartIndex
+};
+
+/// Whether a part of that name belongs to the head.
+bool is_of_head(std::string_view part_name);
+
+/// Adds the regions to the parts that the mesh has: the first region that contains the centroid of a triangle
+/// has it. Regions with the same name are one part. A part that lies in a region as a whole stays a part of
+/// its own, named as lying in it ("head/eyes"); of one that reaches beyond it the region takes what it
+/// contains. Where the mesh has but one part, the region takes that, too.
 ///
-/// The regions must be in the mesh's coordinates. A region noted in a file's coordinates is applied before
-/// the mesh is turned and scaled, which import_mesh does.
+/// `places` are those of the vertices in the coordinates in which the regions are given; empty: the mesh's
+/// own. A region noted in a file's coordinates is applied before the mesh is turned and scaled, which
+/// import_mesh does. Gives a sentence for each part that was cut.
 ///
 /// Throws InputError if a region has no name, neither spheres nor half-spaces, a radius that is not positive,
 /// a normal of length 0 or a number that is not finite; if it contains no triangle, as happens when it is
 /// given in other coordinates; and for more than max_mesh_parts parts.
-void label_parts(Mesh& mesh, std::span<const PartRegion> regions, std::string_view rest_name = "body");
+std::vector<std::string> label_parts(Mesh& mesh, std::span<const PartRegion> regions,
+                                     std::span<const glm::dvec3> places = {});
 
 /// The mesh with the parts that its file labels, in ascending order of the labels, named as in the file or
 /// else "part LABEL". Named labels of no triangle are parts too. A file without labels, or with a single one

@@ -1,10 +1,10 @@
 /// Reading a sculpture from a file: what format it is in, which way is up, and what had to be tidied.
 ///
-/// Memory: RawMesh takes 12 bytes for each vertex and 12 for each triangle (16 with labels); a closed mesh
-/// has half as many vertices as triangles, so 18 (22) bytes for each triangle, and Mesh 19. While a file is
+/// Memory: RawMesh takes 24 bytes for each vertex and 12 for each triangle (16 with labels); a closed mesh
+/// has half as many vertices as triangles, so 24 (28) bytes for each triangle, and Mesh 19. While a file is
 /// read its bytes are in memory too (19 for each triangle of a usual binary PLY, 50 of a binary STL, about 35
 /// of an OBJ); cleaning takes at most 16 more. Importing 20 million triangles from a binary PLY with parts
-/// takes 0.84 GB at its peak (measured).
+/// takes about 1 GB at its peak (reckoned from these).
 #pragma once
 
 #include <filesystem>
@@ -43,14 +43,16 @@ struct MeshImport {
     UpAxis up = UpAxis::z;
     double scale = 1.0;           ///< object unit per file unit, above 0
     std::filesystem::path labels; ///< an id map, see label_by_file(); empty: the labels of the mesh file
-    double weld_tolerance = 0.0;  ///< in the object unit; 0: only vertices at equal coordinates are welded
-    /// Regions of parts in the file's coordinates, applied as label_parts does. Empty: the parts are those
-    /// that the file labels.
+    /// As a share of the diagonal of the mesh's box; 0: only vertices at equal coordinates are welded.
+    double weld_tolerance = 0.0;
+    /// Regions of parts in the file's coordinates, beside the parts that the file labels (label_parts).
     std::vector<PartRegion> regions;
-    std::string rest_name = "body"; ///< part of what no region contains
 };
 
-/// Reads, labels, turns, scales and cleans a mesh, and reports what was cleaned. Throws InputError, naming
+/// Reads, labels, turns, scales and cleans a mesh, and reports what was cleaned. All of it is done in doubles
+/// up to the last step. A mesh so far from its origin that 32-bit coordinates would move its points by more
+/// than the millionth of its box's diagonal gets an origin of its own near its middle, which the report
+/// names. Vertices that no face uses have no say in that, nor in what is welded. Throws InputError, naming
 /// the file, as read_mesh_file and label_parts do, for a scale that is not positive or makes coordinates
 /// overflow, and for a mesh without any area.
 Mesh import_mesh(const std::filesystem::path& path, const MeshImport& import, MeshCleaningReport& report);

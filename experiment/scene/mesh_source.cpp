@@ -62,7 +62,9 @@ MeshSource::MeshSource(std::filesystem::path path) : path_(std::move(path)) {
             break;
         size_ += static_cast<std::size_t>(got);
     }
-    if (size_ == 0)
+    if (bytes().starts_with("\xEF\xBB\xBF"))
+        mark_ = 3;
+    if (bytes().empty())
         fail("this mesh file is empty.");
 }
 
@@ -75,7 +77,7 @@ void MeshSource::fail_at(std::size_t line, std::size_t column, std::string_view 
 }
 
 void MeshSource::fail_at_byte(std::size_t offset, std::string_view message) const {
-    throw InputError(fmt::format("{}: byte {}: {}", path_.string(), offset, message));
+    throw InputError(fmt::format("{}: byte {}: {}", path_.string(), mark_ + offset, message));
 }
 
 bool is_padding(std::string_view bytes) {

@@ -12,7 +12,8 @@
 
 namespace overt {
 
-/// The bytes of a regular file, read once. Not copyable; views of its bytes live as long as it does.
+/// The bytes of a regular file, read once, without the mark of UTF-8 that some programs write in front. Not
+/// copyable; views of its bytes live as long as it does.
 class MeshSource {
   public:
     /// Reads the whole file. Throws InputError if it does not exist, is no regular file, is empty or cannot
@@ -20,19 +21,21 @@ class MeshSource {
     explicit MeshSource(std::filesystem::path path);
 
     const std::filesystem::path& path() const { return path_; }
-    std::string_view bytes() const { return {bytes_.get(), size_}; }
+    std::string_view bytes() const { return {bytes_.get() + mark_, size_ - mark_}; }
 
     /// Throws InputError "PATH: MESSAGE".
     [[noreturn]] void fail(std::string_view message) const;
     /// Throws InputError "PATH:LINE:COLUMN: MESSAGE"; line and column (in bytes) count from 1.
     [[noreturn]] void fail_at(std::size_t line, std::size_t column, std::string_view message) const;
-    /// Throws InputError "PATH: byte OFFSET: MESSAGE"; the file's first byte is byte 0.
+    /// Throws InputError "PATH: byte OFFSET: MESSAGE" for an offset in bytes(); the file's first byte is byte
+    /// 0.
     [[noreturn]] void fail_at_byte(std::size_t offset, std::string_view message) const;
 
   private:
     std::filesystem::path path_;
     std::unique_ptr<char[]> bytes_;
     std::size_t size_ = 0;
+    std::size_t mark_ = 0; ///< bytes of the mark
 };
 
 /// The number of type T stored at `bytes` in the given byte order; needs no alignment.

@@ -1,7 +1,6 @@
 #include "experiment/scene/mesh_text.h"
 
 #include <charconv>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <system_error>
@@ -115,21 +114,21 @@ bool MeshText::to_next_line() {
 
 void MeshText::fail(std::string_view message) const { source_.fail_at(place_.line, place_.column, message); }
 
-std::optional<float> MeshText::number_in(std::string_view word) {
+std::optional<double> MeshText::number_in(std::string_view word) {
     word = without_plus(word);
     std::errc error{};
-    const std::optional<float> value = parsed<float>(word, error);
-    if (error != std::errc::result_out_of_range)
-        return value;
-    // Outside float's range: the wider type tells too small from too large, and beyond it the exponent's
-    // sign.
-    const std::optional<double> wide = parsed<double>(word, error);
-    if (!wide)
-        return std::nullopt;
-    if (error != std::errc::result_out_of_range)
-        return static_cast<float>(*wide);
-    const bool tiny = word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
-    return tiny ? 0.0f : std::numeric_limits<float>::infinity();
+    const std::optional<double> value = parsed<double>(word, error);
+    if (error == std::errc::result_out_of_range) {
+        // Beyond the type's range the exponent's sign tells too small from too large.
+        const bool tiny =
+            word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
+        return tiny ? 0.0 : std::numeric_limits<double>::infinity();
+    }
+    if (!value &&
+        (word.find(".#IND") != std::string_view::npos || word.find(".#INF") != std::string_view::npos ||
+         word.find(".#QNAN") != std::string_view::npos || word.find(".#SNAN") != std::string_view::npos))
+        return std::numeric_limits<double>::quiet_NaN();
+    return value;
 }
 
 std::optional<std::int64_t> MeshText::integer_in(std::string_view word) {
@@ -148,15 +147,13 @@ std::string MeshText::quoted(std::string_view word) {
     return fmt::format("'{}{}'", text, word.size() > longest ? "..." : "");
 }
 
-bool MeshText::is_finite(float value) { return std::isfinite(value); }
-
-void MeshText::refuse_coordinate(std::string_view word, char axis, std::string_view owner) const {
-    if (word.empty())
+void MeshText::refuse_coordinate(char axis, std::string_view owner) const {
+    if (last_.empty())
         fail(fmt::format("{} has no {} coordinate.", owner, axis));
-    if (!number_in(word))
-        fail(fmt::format("{} of {} is {}, which is no number.", axis, owner, quoted(word)));
+    if (!number_in(last_))
+        fail(fmt::format("{} of {} is {}, which is no number.", axis, owner, quoted(last_)));
     fail(fmt::format("{} of {} is {}; coordinates must be finite and fit a 32-bit float.", axis, owner,
-                     quoted(word)));
+                     quoted(last_)));
 }
 
 } // namespace overt

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "experiment/scene/mesh_source.h"
+#include "experiment/scene/raw_mesh.h"
 
 namespace overt {
 
@@ -47,20 +48,28 @@ class MeshText {
     /// Throws InputError at place().
     [[noreturn]] void fail(std::string_view message) const;
 
-    /// Takes the next word of this line as a finite coordinate; throws InputError at its place if it is
-    /// missing, no number, or no finite float. `owner` says whose coordinate it is ("vertex 7"), and is
-    /// called only for the message.
-    template <class Owner> float coordinate(char axis, const Owner& owner) {
-        const std::string_view word = next_in_line();
-        const std::optional<float> value = number_in(word);
-        if (!value || !is_finite(*value))
-            refuse_coordinate(word, axis, owner());
+    /// Takes the next word of this line as a number; throws InputError at its place if it is missing or none.
+    /// `owner` says whose coordinate it is ("vertex 7"), and is called only for the message.
+    template <class Owner> double number(char axis, const Owner& owner) {
+        last_ = next_in_line();
+        const std::optional<double> value = number_in(last_);
+        if (!value)
+            refuse_coordinate(axis, owner());
         return *value;
     }
+    /// The same; throws InputError also if it can be no coordinate (is_coordinate).
+    template <class Owner> double coordinate(char axis, const Owner& owner) {
+        const double value = number(axis, owner);
+        if (!is_coordinate(value))
+            refuse_coordinate(axis, owner());
+        return value;
+    }
+    /// Throws InputError at the number taken last, saying what is wrong with it as a coordinate.
+    [[noreturn]] void refuse_coordinate(char axis, std::string_view owner) const;
 
-    /// The whole word as a float; nullopt if it is no number. Too large a number becomes infinite, too small
-    /// a one zero.
-    static std::optional<float> number_in(std::string_view word);
+    /// The whole word as a number; nullopt if it is none. Too large a number becomes infinite, too small a
+    /// one zero. "nan", "inf" and what Microsoft's library writes for them ("-1.#IND") are numbers.
+    static std::optional<double> number_in(std::string_view word);
     /// The whole word as an integer; nullopt if it is none or does not fit.
     static std::optional<std::int64_t> integer_in(std::string_view word);
 
@@ -68,8 +77,6 @@ class MeshText {
     static std::string quoted(std::string_view word);
 
   private:
-    static bool is_finite(float value);
-    [[noreturn]] void refuse_coordinate(std::string_view word, char axis, std::string_view owner) const;
     std::size_t joint_length() const;
     void skip_blanks();
     void begin_line();
@@ -81,6 +88,7 @@ class MeshText {
     std::size_t line_;
     TextPlace place_;
     LineJoining joining_;
+    std::string_view last_; ///< taken as a number
 };
 
 } // namespace overt

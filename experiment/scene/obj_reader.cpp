@@ -2,26 +2,24 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <optional>
 #include <string>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
+#include "experiment/scene/face_cutting.h"
 #include "experiment/scene/mesh_text.h"
 
 namespace overt {
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
-std::size_t text_begin(const MeshSource& source) {
-    return source.bytes().starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
-}
-
 class ObjReader {
   public:
-    explicit ObjReader(const MeshSource& source)
-        : source_(source), text_(source, text_begin(source), 1, LineJoining::backslash) {}
+    // `refused`: the vertex, counted from 0, whose coordinates are known to be none.
+    explicit ObjReader(const MeshSource& source, std::optional<std::size_t> refused = {})
+        : source_(source), text_(source, 0, 1, LineJoining::backslash), refused_(refused) {}
 
     RawMesh read() {
         do {
@@ -37,6 +35,9 @@ class ObjReader {
         expect_known_vertices();
         if (mesh_.triangles.empty())
             source_.fail("this OBJ file has no faces (lines 'f ...').");
+        if (const auto vertex = first_used_without_place(mesh_); vertex && !refused_)
+            return ObjReader(source_, vertex).read();
+        fans_.cut();
         keep_groups_if_several();
         return std::move(mesh_);
     }
@@ -46,29 +47,28 @@ class ObjReader {
         if (mesh_.positions.size() == max_mesh_vertices)
             text_.fail("this mesh has too many vertices.");
         const auto owner = [this] { return fmt::format("vertex {}", mesh_.positions.size() + 1); };
-        glm::vec3 position;
-        position.x = text_.coordinate('x', owner);
-        position.y = text_.coordinate('y', owner);
-        position.z = text_.coordinate('z', owner);
+        glm::dvec3 position;
+        for (int axis = 0; axis < 3; ++axis) {
+            position[axis] = text_.number("xyz"[axis], owner);
+            if (is_coordinate(position[axis]))
+                continue;
+            if (mesh_.positions.size() == refused_)
+                text_.refuse_coordinate("xyz"[axis], owner());
+            position[axis] = std::numeric_limits<double>::quiet_NaN();
+        }
         mesh_.positions.push_back(position);
     }
 
     void read_face() {
-        std::uint32_t first = 0, previous = 0;
+        fans_.begin_face();
         int corners = 0;
         for (std::string_view word = text_.next_in_line(); !word.empty(); word = text_.next_in_line()) {
             if (word.front() == '#')
                 break;
-            const std::uint32_t corner = vertex_index(word);
-            if (corners == 0)
-                first = corner;
-            if (corners >= 2) {
-                mesh_.triangles.emplace_back(first, previous, corner);
-                mesh_.triangle_labels.push_back(group_);
-            }
-            previous = corner;
+            fans_.add_corner(vertex_index(word));
             ++corners;
         }
+        mesh_.triangle_labels.resize(mesh_.triangles.size(), group_);
         if (corners < 3)
             text_.fail(fmt::format("this face has {} corners; a face has at least 3.", corners));
     }
@@ -135,6 +135,8 @@ class ObjReader {
     const MeshSource& source_;
     MeshText text_;
     RawMesh mesh_;
+    FaceFans fans_{mesh_};
+    std::optional<std::size_t> refused_;
     std::int64_t highest_ = 0; ///< largest vertex number used before its vertex was read
     TextPlace highest_place_;
     const std::string unnamed_ = "body";
@@ -147,7 +149,7 @@ class ObjReader {
 
 bool is_obj(const MeshSource& source) {
     constexpr std::array statements{"v", "vt", "vn", "vp", "f", "o", "g", "s", "mtllib", "usemtl"};
-    MeshText text(source, text_begin(source));
+    MeshText text(source);
     do {
         const std::string_view word = text.next_in_line();
         if (word.empty() || word.front() == '#')

@@ -123,13 +123,19 @@ void expect_triangle_mesh(const PlyHeader& header, const MeshSource& source) {
             source.fail(fmt::format("the PLY header gives element vertex no property {}.", axis));
         }
     }
-    const PlyElement* faces = header.find("face");
-    if (!faces || faces->count == 0 || vertices->count == 0) {
+    bool has_faces = false;
+    for (const std::string_view name : {"face", "tristrips"}) {
+        const PlyElement* const faces = header.find(name);
+        if (!faces || faces->count == 0)
+            continue;
+        has_faces = true;
+        if (!find_corner_list(*faces)) {
+            source.fail(fmt::format(
+                "the PLY header gives element {} no list vertex_indices (or vertex_index).", name));
+        }
+    }
+    if (!has_faces || vertices->count == 0)
         source.fail("this PLY file has no faces; a surface is needed, not a cloud of points.");
-    }
-    if (!find_property(*faces, {"vertex_indices", "vertex_index"}, true)) {
-        source.fail("the PLY header gives element face no list vertex_indices (or vertex_index).");
-    }
 }
 
 } // namespace
@@ -171,6 +177,10 @@ std::optional<std::size_t> find_property(const PlyElement& element,
             return i;
     }
     return std::nullopt;
+}
+
+std::optional<std::size_t> find_corner_list(const PlyElement& element) {
+    return find_property(element, {"vertex_indices", "vertex_index"}, true);
 }
 
 PlyHeader read_ply_header(const MeshSource& source) {

@@ -62,9 +62,12 @@ struct PlyHeader {
 std::optional<std::size_t> find_property(const PlyElement& element,
                                          std::initializer_list<std::string_view> names, bool is_list);
 
+/// The list that holds the corners of a face or strip: `vertex_indices` or `vertex_index`.
+std::optional<std::size_t> find_corner_list(const PlyElement& element);
+
 /// Reads the header. Throws InputError with line and column if it is damaged, or lacks what a triangle mesh
-/// needs: an element `vertex` with x, y and z, and an element `face` with a list `vertex_indices` or
-/// `vertex_index`.
+/// needs: an element `vertex` with x, y and z, and an element `face` or `tristrips` with a list
+/// `vertex_indices` or `vertex_index`.
 PlyHeader read_ply_header(const MeshSource& source);
 
 } // namespace overt

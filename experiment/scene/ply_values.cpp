@@ -32,12 +32,6 @@ std::string cut_off(const PlyElement& element, std::uint64_t row) {
         element.name, row, element.count, row);
 }
 
-std::string not_finite(char axis, std::uint64_t row, double value) {
-    return fmt::format(
-        "{} of vertex {} (counted from 0) is {}; coordinates must be finite and fit a 32-bit float.", axis,
-        row, value);
-}
-
 // nullopt unless the number is integral; beyond 64 bits it becomes the largest or smallest.
 std::optional<std::int64_t> integral(double value) {
     if (std::isnan(value) || std::trunc(value) != value)
@@ -71,28 +65,37 @@ void PlyText::begin_element(const PlyElement& element) {
 void PlyText::begin_row(std::uint64_t row) {
     row_ = row;
     row_begins_ = true;
+    broken_at_.reset();
 }
 
 std::string_view PlyText::next_word() {
-    const std::string_view word = row_begins_ ? text_.next() : text_.next_in_line();
+    std::string_view word = row_begins_ ? text_.next() : text_.next_in_line();
+    if (word.empty() && text_.remaining_bytes() == 0)
+        text_.fail(cut_off(*element_, row_));
     if (word.empty()) {
-        if (text_.remaining_bytes() == 0)
-            text_.fail(cut_off(*element_, row_));
-        text_.fail(fmt::format("the line of {} {} (counted from 0) lacks a value.", element_->name, row_));
+        if (!broken_at_)
+            broken_at_ = text_.place();
+        word = text_.next();
+        if (word.empty())
+            fail_lacking(*broken_at_);
     }
     row_begins_ = false;
     return word;
 }
 
-float PlyText::coordinate(PlyType, char axis) {
+void PlyText::fail_lacking(TextPlace place) const {
+    text_.source().fail_at(
+        place.line, place.column,
+        fmt::format("the line of {} {} (counted from 0) lacks a value.", element_->name, row_));
+}
+
+double PlyText::coordinate(PlyType, char axis) {
     const std::string_view word = next_word();
-    const std::optional<float> value = MeshText::number_in(word);
+    const std::optional<double> value = MeshText::number_in(word);
     if (!value) {
         text_.fail(fmt::format("{} of vertex {} (counted from 0) is {}, which is no number.", axis, row_,
                                MeshText::quoted(word)));
     }
-    if (!std::isfinite(*value))
-        text_.fail(not_finite(axis, row_, static_cast<double>(*value)));
     return *value;
 }
 
@@ -101,7 +104,7 @@ std::int64_t PlyText::integer(PlyType) {
     if (const auto value = MeshText::integer_in(word))
         return *value;
     if (const auto number = MeshText::number_in(word)) {
-        if (const auto value = integral(static_cast<double>(*number)))
+        if (const auto value = integral(*number))
             return *value;
     }
     text_.fail(fmt::format("{} in {} {} (counted from 0) is no integer.", MeshText::quoted(word),
@@ -115,6 +118,9 @@ void PlyText::skip(PlyType, std::int64_t count) {
 
 void PlyText::end_row() {
     if (const std::string_view word = text_.next_in_line(); !word.empty()) {
+        // A row that goes on in the next line takes that line whole, or it lacks a value itself.
+        if (broken_at_)
+            fail_lacking(*broken_at_);
         text_.fail(fmt::format(
             "the line of {} {} (counted from 0) goes on with {}; the header promises fewer values.",
             element_->name, row_, MeshText::quoted(word)));
@@ -152,22 +158,12 @@ const char* PlyBinary::take(std::uint64_t size) {
     return last_;
 }
 
-float PlyBinary::coordinate(PlyType type, char axis) {
-    double value = 0.0;
-    if (type == PlyType::float32) {
-        const auto stored = stored_value<float>(take(4), order_);
-        if (std::isfinite(stored))
-            return stored;
-        value = static_cast<double>(stored);
-    } else if (type == PlyType::float64) {
-        value = stored_value<double>(take(8), order_);
-        const auto narrow = static_cast<float>(value);
-        if (std::isfinite(narrow))
-            return narrow;
-    } else {
-        return static_cast<float>(integer(type));
-    }
-    fail(not_finite(axis, row_, value));
+double PlyBinary::coordinate(PlyType type, char) {
+    if (type == PlyType::float32)
+        return static_cast<double>(stored_value<float>(take(4), order_));
+    if (type == PlyType::float64)
+        return stored_value<double>(take(8), order_);
+    return static_cast<double>(integer(type));
 }
 
 std::int64_t PlyBinary::integer(PlyType type) {

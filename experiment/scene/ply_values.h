@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,7 +14,8 @@
 
 namespace overt {
 
-/// A PLY body in text: one line for each element, blank lines between them allowed.
+/// A PLY body in text: each element begins a line and ends with a line; it may go on over several, and blank
+/// lines are passed over.
 class PlyText {
   public:
     PlyText(const MeshSource& source, const PlyHeader& header);
@@ -22,8 +24,8 @@ class PlyText {
     /// whatever they hold, so that nothing is allocated on the word of a damaged header.
     void begin_element(const PlyElement& element);
     void begin_row(std::uint64_t row);
-    /// The next value of the row as a coordinate; throws InputError at its place if it is no finite float.
-    float coordinate(PlyType type, char axis);
+    /// The next value of the row as a number, finite or not; throws InputError at its place if it is none.
+    double coordinate(PlyType type, char axis);
     /// The next value of the row as an integer; throws InputError at its place if it is none.
     std::int64_t integer(PlyType type);
     /// Passes over the next values of the row.
@@ -40,11 +42,13 @@ class PlyText {
 
   private:
     std::string_view next_word();
+    [[noreturn]] void fail_lacking(TextPlace place) const;
 
     MeshText text_;
     const PlyElement* element_ = nullptr;
     std::uint64_t row_ = 0;
     bool row_begins_ = true;
+    std::optional<TextPlace> broken_at_; ///< where the row's line ended before the row did
 };
 
 /// A PLY body in binary. Members as in PlyText.
@@ -54,7 +58,7 @@ class PlyBinary {
 
     void begin_element(const PlyElement& element);
     void begin_row(std::uint64_t row) { row_ = row; }
-    float coordinate(PlyType type, char axis);
+    double coordinate(PlyType type, char axis);
     std::int64_t integer(PlyType type);
     void skip(PlyType type, std::int64_t count = 1);
     void end_row() {}

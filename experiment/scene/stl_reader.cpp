@@ -95,10 +95,9 @@ class TextStlReader {
         const auto owner = [this] {
             return fmt::format("a corner of facet {} (counted from 0)", mesh_.triangles.size());
         };
-        glm::vec3 position;
-        position.x = text_.coordinate('x', owner);
-        position.y = text_.coordinate('y', owner);
-        position.z = text_.coordinate('z', owner);
+        glm::dvec3 position;
+        for (int axis = 0; axis < 3; ++axis)
+            position[axis] = text_.coordinate("xyz"[axis], owner);
         return corners_.index_of(position);
     }
 

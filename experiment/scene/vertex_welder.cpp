@@ -47,7 +47,7 @@ std::size_t VertexWelder::bucket_of(const glm::dvec3& cell) const {
 
 void VertexWelder::look_in(const glm::dvec3& cell, const glm::dvec3& position, Nearest& nearest) const {
     for (std::uint32_t i = heads_[bucket_of(cell)]; i != nobody; i = next_[i]) {
-        const glm::dvec3 apart = glm::dvec3(positions_[i]) - position;
+        const glm::dvec3 apart = positions_[i] - position;
         const double distance_squared = glm::dot(apart, apart);
         if (distance_squared > tolerance_ * tolerance_)
             continue;
@@ -75,8 +75,8 @@ VertexWelder::Nearest VertexWelder::nearest_to(const glm::dvec3& position) const
     return nearest;
 }
 
-std::uint32_t VertexWelder::index_of(const glm::vec3& position) {
-    if (const Nearest found = nearest_to(glm::dvec3(position)); found.index != nobody)
+std::uint32_t VertexWelder::index_of(const glm::dvec3& position) {
+    if (const Nearest found = nearest_to(position); found.index != nobody)
         return found.index;
     if (positions_.size() == max_mesh_vertices)
         throw InputError("this mesh has too many vertices.");
@@ -92,7 +92,7 @@ std::uint32_t VertexWelder::index_of(const glm::vec3& position) {
 }
 
 void VertexWelder::insert(std::uint32_t index) {
-    std::uint32_t& head = heads_[bucket_of(cell_of(glm::dvec3(positions_[index])))];
+    std::uint32_t& head = heads_[bucket_of(cell_of(positions_[index]))];
     next_[index] = head;
     head = index;
 }

@@ -23,11 +23,11 @@ class VertexWelder {
 
     /// Index of the place that this finite position stands for. Throws InputError beyond max_mesh_vertices
     /// places.
-    std::uint32_t index_of(const glm::vec3& position);
+    std::uint32_t index_of(const glm::dvec3& position);
 
     /// All places so far, by index.
-    const std::vector<glm::vec3>& positions() const& { return positions_; }
-    std::vector<glm::vec3> positions() && { return std::move(positions_); }
+    const std::vector<glm::dvec3>& positions() const& { return positions_; }
+    std::vector<glm::dvec3> positions() && { return std::move(positions_); }
 
   private:
     struct Nearest {
@@ -43,7 +43,7 @@ class VertexWelder {
     void resize_table(std::size_t buckets);
 
     double tolerance_;
-    std::vector<glm::vec3> positions_;
+    std::vector<glm::dvec3> positions_;
     std::vector<std::uint32_t> heads_; ///< for each bucket the place added last; a power of two of them
     std::vector<std::uint32_t> next_;  ///< for each place the one before it in its bucket
 };

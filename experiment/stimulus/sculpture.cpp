@@ -39,6 +39,7 @@ MeshImport import_of(const SculptureSettings& settings) {
     import.up = up_axis_named(settings.up);
     import.scale = settings.scale * mm_of_unit(settings.unit);
     import.labels = settings.labels;
+    import.weld_tolerance = settings.weld_tolerance;
     if (auto head = head_region(settings))
         import.regions.push_back(*std::move(head));
     return import;
@@ -57,7 +58,8 @@ Mesh shipped_sculpture(const std::string& name, const std::filesystem::path& cac
     return mesh;
 }
 
-Camera camera_of(const ViewSettings& settings, const Protocol& protocol, const Mesh& mesh) {
+Camera camera_of(const ViewSettings& settings, const Protocol& protocol, const Mesh& mesh,
+                 glm::dvec3 origin) {
     const glm::ivec2 image_px(settings.width_px, settings.height_px);
     const double mm_per_px = protocol.display.height_mm / protocol.display.height_px;
     // Seen from the observer's place, the picture then has the perspective of the object itself.
@@ -66,7 +68,8 @@ Camera camera_of(const ViewSettings& settings, const Protocol& protocol, const M
     const Degrees field = settings.vertical_fov_deg ? Degrees{*settings.vertical_fov_deg} : natural;
     if (!settings.camera_position)
         return fit_camera(mesh, field, image_px, protocol.animation.amplitude, settings.margin);
-    return {*settings.camera_position, settings.camera_target.value_or(mesh.bounds().centre()), field};
+    return {*settings.camera_position - origin,
+            settings.camera_target ? *settings.camera_target - origin : mesh.bounds().centre(), field};
 }
 
 } // namespace
@@ -100,6 +103,7 @@ Sculpture load_sculpture(const SculptureSettings& settings, const Protocol& prot
         MeshCleaningReport report;
         sculpture.mesh = import_mesh(settings.mesh, import_of(settings), report);
         sculpture.remarks = describe(report);
+        sculpture.origin = report.origin;
         order_for_drawing(sculpture.mesh);
     } else {
         if (!settings.lut.empty()) {
@@ -112,7 +116,7 @@ Sculpture load_sculpture(const SculptureSettings& settings, const Protocol& prot
     sculpture.mesh_hash = hash_of_mesh(sculpture.mesh);
     sculpture.scene.view.image_px = {protocol.view.width_px, protocol.view.height_px};
     sculpture.scene.bounds = sculpture.mesh.bounds();
-    sculpture.scene.view.camera = camera_of(protocol.view, protocol, sculpture.mesh);
+    sculpture.scene.view.camera = camera_of(protocol.view, protocol, sculpture.mesh, sculpture.origin);
     try {
         depth_range(sculpture.scene.bounds, sculpture.scene.view);
     } catch (const InputError& error) {

@@ -25,7 +25,8 @@ struct Sculpture {
     /// Without triangles if the protocol gives none: then its stimuli are frames. Where it gives ready-made
     /// maps, the part names are those of the maps.
     Mesh mesh;
-    ContentHash mesh_hash; ///< see hash_of_mesh
+    ContentHash mesh_hash;  ///< see hash_of_mesh
+    glm::dvec3 origin{0.0}; ///< of the mesh's coordinates in those of its file, turned and scaled alike
     SceneView scene;
     std::vector<std::string> remarks; ///< on the mesh, for the experimenter
 

@@ -26,7 +26,7 @@ std::optional<bool> is_on_head(const StudyResults& results, const StudyFixation&
     const StudySculpture& sculpture = results.sculptures[static_cast<std::size_t>(trial.sculpture)];
     if (!fixation.part || !sculpture.head)
         return std::nullopt;
-    return *fixation.part == *sculpture.head;
+    return sculpture.head.has(fixation.part);
 }
 
 /// Intervals of means can reach beyond what a share can be.

@@ -61,13 +61,12 @@ double wss_difference_deg2(const LevelComparison& comparison, const ObjectScale&
 }
 
 std::optional<double> head_difference(const LevelComparison& comparison, const StudyResults& results) {
-    const std::optional<PartIndex> head =
-        results.sculptures[static_cast<std::size_t>(comparison.sculpture)].head;
+    const HeadParts& head = results.sculptures[static_cast<std::size_t>(comparison.sculpture)].head;
     if (!head)
         return std::nullopt;
     const auto share = [&](const std::vector<const StudyFixation*>& fixations) {
         const auto on_head = std::count_if(fixations.begin(), fixations.end(),
-                                           [&](const StudyFixation* one) { return one->part == head; });
+                                           [&](const StudyFixation* one) { return head.has(one->part); });
         return static_cast<double>(on_head) / static_cast<double>(fixations.size());
     };
     return share(comparison.a) - share(comparison.b);

@@ -16,7 +16,7 @@ TrialSummaryRow trial_summary(const StudyResults& results, const StudyTrial& tri
             continue;
         ++row.counted;
         row.counted_s += fixation.duration_s;
-        if (fixation.part && fixation.part == sculpture.head) {
+        if (sculpture.head.has(fixation.part)) {
             ++row.on_head;
             row.head_s += fixation.duration_s;
         }

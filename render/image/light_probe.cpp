@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -139,7 +140,7 @@ LightProbe load_light_probe(const LightSettings& light) {
     } else if (light.probe == "gallery") {
         probe = gallery_probe();
     } else {
-        probe.radiance = read_linear_image(light.probe);
+        probe.radiance = read_linear_image(light.probe, FrameEncoding::linear, FileColours::as_rec709);
         const glm::ivec2 size = probe.radiance.size_px;
         if (size.x != 2 * size.y) {
             throw InputError(
@@ -208,19 +209,41 @@ LightProbe blurred_by_ggx(const LightProbe& probe, double alpha, glm::ivec2 size
 }
 
 LightProbe irradiance_over_pi(const LightProbe& probe, glm::ivec2 size_px) {
-    const LightProbe source = reduced(probe, {64, 32});
-    return probe_of(size_px, [&](glm::vec3 normal) {
-        const Frame frame(normal);
-        glm::vec3 sum(0.0f);
-        const int samples = 512;
-        for (int i = 0; i < samples; ++i) {
-            const glm::vec2 point = r2_point(i);
-            const float radius = std::sqrt(point.x), turn = 2.0f * pi * point.y;
-            sum += source.towards(radius * std::cos(turn) * frame.tangent +
-                                  radius * std::sin(turn) * frame.bitangent +
-                                  std::sqrt(1.0f - point.x) * normal);
+    // All of the light in directions that are few and near to one another beside a cosine: no direction is
+    // drawn by lot, or the surface would show which.
+    constexpr glm::ivec2 lamps_px(64, 32);
+    struct Lamp {
+        glm::dvec3 flux{0.0};
+        double solid_angle = 0.0;
+    };
+    std::vector<Lamp> lamps(static_cast<std::size_t>(lamps_px.x * lamps_px.y));
+    const glm::ivec2 source = probe.radiance.size_px;
+    for (int y = 0; y < source.y; ++y) {
+        const double band =
+            std::cos(std::numbers::pi * y / source.y) - std::cos(std::numbers::pi * (y + 1) / source.y);
+        const double solid_angle = band * 2.0 * std::numbers::pi / source.x;
+        for (int x = 0; x < source.x; ++x) {
+            const auto lamp =
+                static_cast<std::size_t>(y * lamps_px.y / source.y * lamps_px.x + x * lamps_px.x / source.x);
+            lamps[lamp].flux += solid_angle * glm::dvec3(probe.radiance.at(x, y));
+            lamps[lamp].solid_angle += solid_angle;
         }
-        return sum / static_cast<float>(samples);
+    }
+    return probe_of(size_px, [&](glm::vec3 normal) {
+        glm::dvec3 sum(0.0);
+        double cosines = 0.0;
+        for (int y = 0; y < lamps_px.y; ++y) {
+            for (int x = 0; x < lamps_px.x; ++x) {
+                const double cosine = static_cast<double>(glm::dot(normal, direction_of(x, y, lamps_px)));
+                if (cosine <= 0.0)
+                    continue;
+                const Lamp& lamp = lamps[static_cast<std::size_t>(y * lamps_px.x + x)];
+                sum += cosine * lamp.flux;
+                cosines += cosine * lamp.solid_angle;
+            }
+        }
+        // The cosines over a hemisphere sum to pi.
+        return glm::vec3(sum / cosines);
     });
 }
 

@@ -8,6 +8,10 @@
 
 namespace overt {
 
+/// Changes whenever the light of the same file is read differently: part of the key under which frames are
+/// kept.
+constexpr int probe_file_version = 2;
+
 /// Rows run from zenith to nadir. A direction d of the world (+z up) stands at u = atan2(d.x, d.y) / 2 pi +
 /// 1/2 of the width and v = acos(d.z) / pi of the height. Linear Rec.709; alpha unused.
 struct LightProbe {

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <span>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
 #include "experiment/base/memory_for.h"
+#include "experiment/colour/rgb_primaries.h"
 #include "experiment/pictures/picture_file.h"
 #include "render/image/stored_values.h"
 
@@ -20,7 +24,7 @@ struct ChannelPlaces {
     int channels = 4; ///< that are read
     std::array<int, 4> of{0, 1, 2, -1};
 
-    bool are_rgba() const { return channels == 4 && of[3] == 3; }
+    bool are_rgba() const { return channels == 4 && of == std::array{0, 1, 2, 3}; }
 };
 
 /// Number of the alpha channel, or -1.
@@ -31,7 +35,50 @@ int alpha_channel_of(const PictureHeader& header) {
     return channels == 4 || channels == 2 ? channels - 1 : -1;
 }
 
+[[noreturn]] void refuse_channels(const PictureHeader& header, const std::filesystem::path& file,
+                                  std::string_view what) {
+    throw InputError(
+        fmt::format("{}: {}: it has {} ({}). Save a picture with the channels R, G, B, or Y alone, "
+                    "perhaps with A",
+                    file.string(), what, fmt::join(header.channels, ", "), header.type_name));
+}
+
+/// By the channels' names, as OpenEXR has them: there what stands first may be depth, or a normal.
+ChannelPlaces named_places_in(const PictureHeader& header, const std::filesystem::path& file) {
+    // The layers that have colours; a picture without layers has one without a name.
+    std::vector<std::string> layers;
+    for (const std::string& channel : header.channels) {
+        if (channel != "R" && !channel.ends_with(".R"))
+            continue;
+        const std::string layer = channel.substr(0, channel.size() - 1);
+        if (header.channel(layer + "G") >= 0 && header.channel(layer + "B") >= 0)
+            layers.push_back(layer);
+    }
+    ChannelPlaces places;
+    const auto take = [&](std::array<std::string, 4> names) {
+        for (std::size_t i = 0; i < 4; ++i)
+            places.of[i] = header.channel(names[i]);
+        places.channels = *std::ranges::max_element(places.of) + 1;
+        return places;
+    };
+    const bool has_plain = std::ranges::find(layers, std::string()) != layers.end();
+    if (has_plain || layers.size() == 1) {
+        const std::string layer = has_plain ? std::string() : layers.front();
+        return take({layer + "R", layer + "G", layer + "B", layer + "A"});
+    }
+    if (layers.size() > 1)
+        refuse_channels(header, file, "holds several layers of colours");
+    if (header.channel("RY") >= 0 || header.channel("BY") >= 0)
+        refuse_channels(header, file, "holds luminance with colour differences");
+    if (header.channel("Y") >= 0)
+        return take({"Y", "Y", "Y", "A"});
+    refuse_channels(header, file,
+                    header.channel("Z") >= 0 ? "holds depth and no colours" : "holds no colours");
+}
+
 ChannelPlaces places_in(const PictureHeader& header, const std::filesystem::path& file) {
+    if (header.format == "openexr")
+        return named_places_in(header, file);
     ChannelPlaces places;
     places.channels = std::min(header.channel_count(), 4);
     if (header.channels.size() < 3)
@@ -98,7 +145,42 @@ PictureFile opened(const std::filesystem::path& file) {
     return PictureFile(file, "picture", StraightColours::as_they_stand);
 }
 
-void read_opened(const std::filesystem::path& file, FrameEncoding encoding, LinearImage& into) {
+[[noreturn]] void refuse_value(const std::filesystem::path& file, const glm::vec4& pixel, int index,
+                               const PictureHeader& header) {
+    const bool is_infinite = std::isinf(pixel.x) || std::isinf(pixel.y) || std::isinf(pixel.z);
+    const int width = header.size_px.x;
+    throw InputError(fmt::format(
+        "{}: pixel ({}, {}) holds a value that is not a finite number ({:g}, {:g}, {:g}){}", file.string(),
+        index % width, index / width, pixel.x, pixel.y, pixel.z,
+        is_infinite
+            ? ": light brighter than 65504 does not fit half floats, as which a sun is often saved. Save the "
+              "picture with 32-bit floats, or with no value above 65504 (oiiotool IN --clamp:max=65504 -o "
+              "OUT)"
+            : ": save it without such values (oiiotool IN --fixnan box3 -o OUT)"));
+}
+
+/// What turns the file's colours into Rec. 709; nothing if they are that, or nobody said what they are.
+std::optional<glm::mat3> to_rec709(const PictureHeader& header, const std::filesystem::path& file) {
+    // Some programs write zeros for what they do not know.
+    if (!header.primaries || *header.primaries == std::array<double, 8>{})
+        return std::nullopt;
+    const auto& p = *header.primaries;
+    const RgbPrimaries own{{p[0], p[1]}, {p[2], p[3]}, {p[4], p[5]}, {p[6], p[7]}};
+    if (!are_primaries(own))
+        throw InputError(
+            fmt::format("{}: says of its colours that red, green, blue and white stand at x, y = {}, "
+                        "which is no space of colours; correct or remove its chromaticities",
+                        file.string(), fmt::join(p, ", ")));
+    const auto is_near = [](glm::dvec2 a, glm::dvec2 b) { return glm::distance(a, b) < 2e-4; };
+    const RgbPrimaries& rec709 = rec709_primaries;
+    if (is_near(own.red, rec709.red) && is_near(own.green, rec709.green) && is_near(own.blue, rec709.blue) &&
+        is_near(own.white, rec709.white))
+        return std::nullopt;
+    return glm::mat3(rec709_from(own));
+}
+
+void read_opened(const std::filesystem::path& file, FrameEncoding encoding, FileColours colours,
+                 LinearImage& into) {
     PictureFile picture = opened(file);
     const PictureHeader& header = picture.header();
     const ChannelPlaces places = places_in(header, file);
@@ -124,14 +206,15 @@ void read_opened(const std::filesystem::path& file, FrameEncoding encoding, Line
             return !all_finite({&pixel.x, 4});
         });
         // The value may stand in a channel that is not used.
-        if (bad != into.pixels.end()) {
-            const auto index = static_cast<int>(bad - into.pixels.begin());
-            throw InputError(fmt::format("{}: pixel ({}, {}) holds a value that is not a finite number",
-                                         file.string(), index % header.size_px.x, index / header.size_px.x));
-        }
+        if (bad != into.pixels.end())
+            refuse_value(file, *bad, static_cast<int>(bad - into.pixels.begin()), header);
     }
     if (encoding == FrameEncoding::srgb)
         decode_srgb(into, facts.are_codes);
+    if (const auto matrix = colours == FileColours::as_rec709 ? to_rec709(header, file) : std::nullopt) {
+        for (glm::vec4& pixel : into.pixels)
+            pixel = glm::vec4(*matrix * glm::vec3(pixel), pixel.w);
+    }
     const int* const straight = header.attribute<int>("oiio:UnassociatedAlpha");
     if (places.of[3] >= 0 && straight && *straight != 0) {
         for (glm::vec4& pixel : into.pixels)
@@ -141,19 +224,27 @@ void read_opened(const std::filesystem::path& file, FrameEncoding encoding, Line
 
 } // namespace
 
-LinearImage read_linear_image(const std::filesystem::path& file, FrameEncoding encoding) {
+LinearImage read_linear_image(const std::filesystem::path& file, FrameEncoding encoding,
+                              FileColours colours) {
     LinearImage image;
-    read_linear_image(file, encoding, image);
+    read_linear_image(file, encoding, colours, image);
     return image;
 }
 
-void read_linear_image(const std::filesystem::path& file, FrameEncoding encoding, LinearImage& into) {
-    with_memory_for(file, [&] { read_opened(file, encoding, into); });
+void read_linear_image(const std::filesystem::path& file, FrameEncoding encoding, FileColours colours,
+                       LinearImage& into) {
+    with_memory_for(file, [&] { read_opened(file, encoding, colours, into); });
 }
 
 glm::ivec2 image_size_px(const std::filesystem::path& file) { return opened(file).header().size_px; }
 
-bool has_alpha(const std::filesystem::path& file) { return alpha_channel_of(opened(file).header()) >= 0; }
+bool has_alpha(const std::filesystem::path& file) {
+    return places_in(opened(file).header(), file).of[3] >= 0;
+}
+
+bool has_other_primaries(const std::filesystem::path& file) {
+    return to_rec709(opened(file).header(), file).has_value();
+}
 
 void write_linear_exr(const std::filesystem::path& file, const LinearImage& image,
                       const ImageAttributes& attributes) {

@@ -45,6 +45,8 @@ ContentHash hash_of_surroundings(const LightSettings& light) {
         hasher.add(gallery_probe_version);
     if (probe != "overcast")
         hasher.add(aimed_paths_version);
+    if (light.is_file())
+        hasher.add(probe_file_version);
     return hasher.finish();
 }
 

@@ -87,14 +87,26 @@ LinearImage StimulusLibrary::page(const Condition& condition, int page) const {
     return image;
 }
 
+LinearImage StimulusLibrary::page_on_screen(const Condition& condition, int page) const {
+    LinearImage image = this->page(condition, page);
+    const auto background = static_cast<float>(protocol_->display.background);
+    for (glm::vec4& pixel : image.pixels)
+        pixel = glm::vec4(glm::vec3(pixel) + (1.0f - pixel.w) * background, 1.0f);
+    return image;
+}
+
 const LinearImage& StimulusLibrary::read_page(const Condition& condition, int page, LinearImage& room) const {
     if (const FrameSequenceSettings* sequence = cache_.sequence_of(condition)) {
-        read_linear_image(frame_file(*sequence, {page}), sequence->encoding, room);
+        read_linear_image(frame_file(*sequence, {page}), sequence->encoding,
+                          sequence->colour_space == FrameColours::rec709 ? FileColours::as_rec709
+                                                                         : FileColours::as_they_stand,
+                          room);
         transform(room, sequence->exposure * display_from(colours_of(*sequence), protocol_->display));
         return room;
     }
     const FrameQuality& quality = qualities_[index_of(condition)];
-    read_linear_image(cache_.frame_file_of(condition, quality, {page}), FrameEncoding::linear, room);
+    read_linear_image(cache_.frame_file_of(condition, quality, {page}), FrameEncoding::linear,
+                      FileColours::as_they_stand, room);
     transform(room, cache_.display_from_frame(quality));
     return room;
 }
@@ -189,10 +201,12 @@ std::filesystem::path StimulusLibrary::first_frame_file(const Condition& conditi
     hasher.add(std::string_view(frames_hash(condition)));
     if (!cache_.is_ready_made(condition))
         hasher.add(cache_.angle_of({first}).value);
+    if (protocol_->display.background != 0.0)
+        hasher.add(protocol_->display.background);
     std::filesystem::path file = cache_.first_frame_file(hasher.finish());
     if (!std::filesystem::exists(file)) {
         std::filesystem::create_directories(file.parent_path());
-        write_srgb_png(file, page(condition, first));
+        write_srgb_png(file, page_on_screen(condition, first));
     }
     return file;
 }

@@ -45,6 +45,8 @@ class StimulusLibrary final : public FrameSource {
     std::vector<int> page_of_frame(const Condition& condition) const override;
     LinearImage page(const Condition& condition, int page) const override;
     const LinearImage& read_page(const Condition& condition, int page, LinearImage& room) const override;
+    /// The page as a screen shows it: over the display's background, opaque.
+    LinearImage page_on_screen(const Condition& condition, int page) const;
 
     /// Where the pictures of a stimulus come from, in words.
     std::string source_of(const Condition& condition) const;
@@ -58,8 +60,8 @@ class StimulusLibrary final : public FrameSource {
     /// InputError, RecordError.
     std::optional<std::filesystem::path> light_file(const Condition& condition, bool make) const;
 
-    /// The first frame for looking at (write_srgb_png), from the cache; made if it is not there. Throws
-    /// likewise.
+    /// The first frame on the display's background, for looking at (write_srgb_png), from the cache; made if
+    /// it is not there. Throws likewise.
     std::filesystem::path first_frame_file(const Condition& condition) const;
 
   private:

@@ -16,7 +16,7 @@
 namespace overt {
 
 /// Changes whenever the same inputs would give other pixels: part of the key under which frames are kept.
-constexpr int stimulus_renderer_version = 5;
+constexpr int stimulus_renderer_version = 6;
 
 /// One light for all stimuli of a protocol.
 class StimulusRenderer {

@@ -128,7 +128,7 @@ LinearImage draw_trial_picture(const TrialPictureContent& content) {
     const int captions_top = margin_px + panel.y + margin_px / 2 + scale_px + margin_px / 2;
     LinearImage picture({3 * panel.x + 4 * margin_px, captions_top + caption_height + margin_px});
     std::fill(picture.pixels.begin(), picture.pixels.end(), glm::vec4(glm::vec3(paper), 1.0f));
-    // On black, as on the display.
+    // The frame is there as the display shows it; the others stand on black.
     const std::array<LinearImage, 3> panels{opaque(content.frame), opaque(map_panel(content)),
                                             opaque(gaze_panel(content))};
     for (int i = 0; i < 3; ++i) {

@@ -71,10 +71,10 @@ inline void take_asc(std::string_view bytes, Depth depth = Depth::full) {
     options.out = folder.path() / "session";
     options.screen_mm = glm::dvec2(400.0, 300.0);
     options.viewing_distance_mm = 600.0;
-    options.report = [](const std::string&) {};
+    options.reading.report = [](const std::string&) {};
     try {
         const std::filesystem::path file = put(folder, "fuzz.asc", bytes);
-        survey_asc(file, options.report);
+        survey_asc(file, options.reading);
         if (lot % 8 != 0)
             return;
         const AscImportSummary summary = import_asc(file, options);

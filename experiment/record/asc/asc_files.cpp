@@ -1,6 +1,7 @@
 #include "experiment/record/asc/asc_files.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -18,8 +19,59 @@ namespace fs = std::filesystem;
 namespace overt {
 namespace {
 
-/// What a binary recording of an EyeLink begins with.
-constexpr std::string_view edf_mark = "SR_RESEARCH";
+using namespace std::string_view_literals;
+
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
+/// What files begin with that are no text in ASCII or UTF-8, with what they are and how they become such.
+struct ForeignBeginning {
+    std::string_view bytes, what, remedy;
+};
+constexpr std::array foreign_beginnings{
+    ForeignBeginning{"SR_RESEARCH"sv, "a binary recording of an EyeLink (EDF)",
+                     "Make its text form with SR Research's edf2asc, and import that: edf2asc {}"},
+    ForeignBeginning{"\xff\xfe\0\0"sv, "text in UTF-32",
+                     "Convert it: iconv -f UTF-32 -t UTF-8 {} > utf8.asc"},
+    ForeignBeginning{"\xff\xfe"sv, "text in UTF-16", "Convert it: iconv -f UTF-16 -t UTF-8 {} > utf8.asc"},
+    ForeignBeginning{"\xfe\xff"sv, "text in UTF-16", "Convert it: iconv -f UTF-16 -t UTF-8 {} > utf8.asc"},
+    ForeignBeginning{"\x1f\x8b"sv, "compressed with gzip", "Unpack it: gzip -dc {} > unpacked.asc"},
+    ForeignBeginning{"BZh"sv, "compressed with bzip2", "Unpack it: bzip2 -dc {} > unpacked.asc"},
+    ForeignBeginning{"\3757zXZ"sv, "compressed with xz", "Unpack it: xz -dc {} > unpacked.asc"},
+    ForeignBeginning{"\x28\xb5\x2f\xfd"sv, "compressed with zstd", "Unpack it: zstd -dc {} > unpacked.asc"},
+    ForeignBeginning{"PK\x03\x04"sv, "a ZIP archive", "Unpack it: unzip {}"},
+    ForeignBeginning{"7z\xbc\xaf"sv, "a 7z archive", "Unpack it: 7z x {}"},
+};
+
+/// Text in UTF-16 without a mark has a zero in every other byte.
+bool is_wide_text(std::string_view begin) {
+    constexpr std::size_t looked_at = 256;
+    begin = begin.substr(0, looked_at);
+    std::size_t zeros[2] = {0, 0};
+    for (std::size_t i = 0; i < begin.size(); ++i)
+        zeros[i % 2] += begin[i] == '\0';
+    const auto [least, most] = std::minmax(zeros[0], zeros[1]);
+    return begin.size() >= 8 && least == 0 && 4 * most > begin.size();
+}
+
+/// Throws InputError if a file begins with what no text form of a recording does.
+void refuse_foreign(const fs::path& file, std::string_view begin) {
+    const std::string name = file.filename().string();
+    for (const ForeignBeginning& foreign : foreign_beginnings)
+        if (begin.starts_with(foreign.bytes))
+            throw InputError(fmt::format("{}: is {}. {}", file.string(), foreign.what,
+                                         fmt::format(fmt::runtime(foreign.remedy), name)));
+    if (is_wide_text(begin))
+        throw InputError(fmt::format("{}: is text in UTF-16. Convert it: iconv -f UTF-16{} -t UTF-8 {} > "
+                                     "utf8.asc",
+                                     file.string(), begin.front() == '\0' ? "BE" : "LE", name));
+    std::string_view first = begin.substr(0, begin.find('\n'));
+    if (first.size() < begin.size() && first.ends_with('\r'))
+        first.remove_suffix(1); // as on Windows
+    if (std::count(first.begin(), first.end(), '\r') > 1)
+        throw InputError(fmt::format("{0}: its lines end with a carriage return alone (CR), as on old "
+                                     "Macintoshes. Convert it: tr '\\r' '\\n' < {1} > lines.asc",
+                                     file.string(), name));
+}
 
 /// Gives a file's lines one after another.
 class AscLines {
@@ -54,11 +106,10 @@ AscLines::AscLines(const fs::path& file)
             fmt::format("{}: this file cannot be read. Give the path of a recording in EyeLink's "
                         "text form (.asc).",
                         file.string()));
-    if (fill() && rest_.starts_with(edf_mark))
-        throw InputError(
-            fmt::format("{}: is a binary recording of an EyeLink (EDF). Make its text form with SR "
-                        "Research's edf2asc, and import that: edf2asc {}",
-                        file.string(), file.filename().string()));
+    fill();
+    refuse_foreign(file, rest_);
+    if (rest_.starts_with(byte_order_mark))
+        rest_.remove_prefix(byte_order_mark.size());
 }
 
 bool AscLines::fill() {
@@ -200,6 +251,26 @@ std::string AscFiles::hashes() const {
 
 const fs::path& AscFiles::of_line(std::string_view line) const {
     return are_two() && is_sample(line) ? samples_ : events_;
+}
+
+void AscFiles::read_lines(const std::function<void(std::string_view)>& take,
+                          const std::function<void(std::int64_t, std::int64_t)>& progress) const {
+    std::vector<fs::path> files{events_};
+    if (are_two())
+        files.push_back(samples_);
+    std::int64_t all = 0, before = 0, told = -1;
+    for (const fs::path& file : files)
+        all += AscLines(file).all();
+    for (const fs::path& file : files) {
+        AscLines lines(file);
+        while (const std::optional<std::string_view> line = lines.next()) {
+            take(*line);
+            const std::int64_t done = before + lines.read();
+            if (progress && done != std::exchange(told, done))
+                progress(done, all);
+        }
+        before += lines.all();
+    }
 }
 
 void AscFiles::parse(AscParser& parser,

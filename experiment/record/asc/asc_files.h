@@ -29,6 +29,11 @@ class AscFiles {
     /// The file that a line comes from.
     const std::filesystem::path& of_line(std::string_view line) const;
 
+    /// Gives each line of one file after the other. Throws InputError if they cannot be read, or are no text
+    /// in ASCII, Latin-1 or UTF-8 with lines that end with a line feed.
+    void read_lines(const std::function<void(std::string_view line)>& take,
+                    const std::function<void(std::int64_t done, std::int64_t all)>& progress = {}) const;
+
     /// Reads and gives each line to the parser, then its end; `progress` is told the bytes read and all. Of
     /// two files the samples stand between the other's lines by their times, and what the file of samples has
     /// besides is left out, for the other has it, too. Memory does not grow with the files. Throws InputError

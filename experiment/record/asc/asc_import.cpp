@@ -8,6 +8,7 @@
 #include "experiment/record/asc/imported_session.h"
 #include "experiment/record/asc/recording_date.h"
 #include "experiment/record/header_rows.h"
+#include "experiment/record/no_stimulus.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
 
@@ -37,8 +38,10 @@ SessionHeader header_of(const AscFiles& files, const AscSurvey& survey, const As
         header.schedule.trials.push_back({trial, 0, {0, 0}, 0});
     header.started_utc = iso_date(header_line(survey, "** DATE: ")).value_or(options.now_utc);
     header.program = options.program;
-    const std::string model = header_line(survey, "** EYELINK II ");
-    header.tracker.name = model.empty() ? "EyeLink" : "EyeLink " + model;
+    // An export of a session of ours names the tracker that was there, beside what readers want to find.
+    const std::string model = header_line(survey, "** EYELINK II "),
+                      own = header_line(survey, own_tracker_remark);
+    header.tracker.name = !own.empty() ? own : model.empty() ? "EyeLink" : "EyeLink " + model;
     header.tracker.sample_rate_hz = survey.rate_hz;
     header.tracker.eye = survey.has_left ? Eye::left : Eye::right;
     header.tracker.both_eyes = survey.has_left && survey.has_right;
@@ -50,7 +53,8 @@ SessionHeader header_of(const AscFiles& files, const AscSurvey& survey, const As
         options.viewing_distance_mm ? *options.viewing_distance_mm : survey.viewing_distance_mm.value_or(0.0);
     header.display.refresh_hz = survey.refresh_hz.value_or(0.0);
     header.display.output_mode = "unknown";
-    header.poses = {{Degrees{0.0}}, {PoseIndex{0}}};
+    header.animation = no_animation;
+    header.poses = distinct_poses(header.animation);
     header.tasks = {{"imported", ""}};
     RecordedSculpture nothing;
     nothing.id = "none";
@@ -114,6 +118,49 @@ void add_remarks(AscImportSummary& summary, const SessionHeader& header) {
 
 } // namespace
 
+namespace {
+
+/// On what samples' lines did not say themselves.
+void add_remarks_on_samples(AscImportSummary& summary) {
+    const AscSurvey& survey = summary.survey;
+    const AscConventions& conventions = survey.conventions;
+    const auto add = [&](std::string remark) { summary.remarks.push_back(std::move(remark)); };
+    if (conventions.missing_number || !conventions.missing_word.empty())
+        add(fmt::format("Places of {} are lost gaze (edf2asc -miss).",
+                        conventions.missing_number ? fmt::format("{:g}", *conventions.missing_number)
+                                                   : fmt::format("\"{}\"", conventions.missing_word)));
+    if (conventions.least_pupil <= 0.0 && survey.samples > 0)
+        add("Pupils are not as EyeLinks have them, or were not recorded: a sample is lost where its place is "
+            "missing, however small its pupil.");
+    if (survey.decimal_commas > 0)
+        add(fmt::format("{} lines of samples have decimal commas, and are read so.", survey.decimal_commas));
+    if (survey.restored_stamps > 0)
+        add(fmt::format(
+            "{} samples have rounded times (edf2asc -ftime has single precision only): the sampling "
+            "rate of {:g} Hz tells their true ones.",
+            survey.restored_stamps, survey.rate_hz));
+    if (survey.lines_of_one_eye > 0)
+        add(fmt::format(
+            "{} lines of samples have one eye's values in a recording of both: they are taken for the "
+            "eye whose event goes on, or whose gaze was nearer before.",
+            survey.lines_of_one_eye));
+    if (survey.lines_of_both_eyes > 0)
+        add(fmt::format(
+            "{} lines of samples have both eyes' values in a recording that is said to be of one: "
+            "both are kept.",
+            survey.lines_of_both_eyes));
+    if (survey.raw_samples > 0)
+        add(fmt::format(
+            "{} samples have pupils of less than 0, EyeLink's sign of raw data: they are kept without "
+            "gaze.",
+            survey.raw_samples));
+    if (survey.format.has_pupil_areas && survey.format.has_pupil_diameters)
+        add("Pupils are areas in some recordings and diameters in others: the tables' dictionary says in "
+            "which.");
+}
+
+} // namespace
+
 void add_asc_remarks(AscImportSummary& summary) {
     const AscSurvey& survey = summary.survey;
     const auto add = [&](std::string remark) { summary.remarks.push_back(std::move(remark)); };
@@ -136,6 +183,11 @@ void add_asc_remarks(AscImportSummary& summary) {
     if (survey.samples_that_are_no_gaze > 0)
         add(fmt::format("{} samples that were no gaze on a screen (HREF or PUPIL) are left out.",
                         survey.samples_that_are_no_gaze));
+    add_remarks_on_samples(summary);
+    if (survey.unreadable_event_values > 0)
+        add(fmt::format(
+            "{} values of fixations and saccades were no numbers: the events are kept without them.",
+            survey.unreadable_event_values));
     if (survey.mended_durations > 0)
         add(fmt::format("{} fixations, saccades or blinks had a duration that cannot be (negative, or longer "
                         "than from begin to end): it is taken from their begin and end.",
@@ -152,7 +204,8 @@ GazeSource gaze_source_of(const AscFiles& files, const AscSurvey& survey) {
     source.file = files.name();
     source.sha256 = files.hashes();
     source.header = survey.header;
-    source.pupil_is_diameter = survey.format.pupil_is_diameter;
+    // Recordings whose pupils are others than most have it in the event of their START.
+    source.pupil_is_diameter = survey.format.has_pupil_diameters && !survey.format.has_pupil_areas;
     source.rate_hz = survey.rate_hz;
     source.has_left = survey.has_left;
     source.has_right = survey.has_right;
@@ -174,7 +227,9 @@ AscImportSummary import_asc(const AscFiles& files, const AscImportOptions& optio
         check_observer_label(options.place.observer_label);
 
     AscImportSummary summary;
-    summary.survey = survey_asc(files, options.report, part_of(options.progress, 0));
+    AscSurveyOptions reading = options.reading;
+    reading.progress = part_of(options.reading.progress, 0, 2, 3);
+    summary.survey = survey_asc(files, reading);
     SessionHeader header = header_of(files, summary.survey, options);
     std::optional<SessionDirectory> by_place;
     std::optional<PartialDirectory> by_name;
@@ -198,10 +253,11 @@ AscImportSummary import_asc(const AscFiles& files, const AscImportOptions& optio
                 insert_trial(database, times, session_time);
                 ++summary.trials;
             });
-        AscParser parser(sink);
-        files.parse(parser, part_of(options.progress, 1));
+        AscParser parser(sink, summary.survey.conventions);
+        files.parse(parser, part_of(options.reading.progress, 2, 1, 3));
         sink.end();
     });
+    note_detection(session_file.parent_path(), 1, files.path(), options, summary);
     finish_imported_session(session_file.parent_path(), options.program);
     if (by_place)
         by_place->publish();

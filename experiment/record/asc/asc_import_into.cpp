@@ -159,7 +159,9 @@ AscImportSummary import_asc_into(const AscFiles& files, const fs::path& session,
         throw InputError(fmt::format(
             "{}: exists already and is not overwritten. Name another folder with --out.", out.string()));
     AscImportSummary summary;
-    summary.survey = survey_asc(files, options.report, part_of(options.progress, 0));
+    AscSurveyOptions reading = options.reading;
+    reading.progress = part_of(options.reading.progress, 0, 2, 3);
+    summary.survey = survey_asc(files, reading);
     const Match match = best_match(record, summary.survey.trial_numbers);
     if (match.attempt_of.empty())
         throw InputError(
@@ -199,8 +201,8 @@ AscImportSummary import_asc_into(const AscFiles& files, const fs::path& session,
                     for (const ClockPair& pair : pairs_of(*found->second, times))
                         pairs.push_back(pair);
             });
-        AscParser parser(sink);
-        files.parse(parser, part_of(options.progress, 1));
+        AscParser parser(sink, summary.survey.conventions);
+        files.parse(parser, part_of(options.reading.progress, 2, 1, 3));
         sink.end();
         if (keeps_clock)
             return;
@@ -216,6 +218,7 @@ AscImportSummary import_asc_into(const AscFiles& files, const fs::path& session,
             insert_values(database, "INTO clock_pair (sitting, before_ns, tracker_us, after_ns)",
                           match.sitting, pair.before, pair.other, pair.after);
     });
+    note_detection(partial.path(), match.sitting, files.path(), options, summary);
     finish_imported_session(partial.path(), options.program);
     partial.publish();
     summary.session = partial.path();

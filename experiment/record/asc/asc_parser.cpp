@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/utf8_text.h"
-#include "experiment/record/asc/asc_place.h"
+#include "experiment/record/asc/asc_event_values.h"
 #include "experiment/record/asc/asc_words.h"
 
 namespace overt {
@@ -59,6 +59,10 @@ void AscParser::line(std::string_view line, std::int64_t number) {
         return bad("longer than any line of a recording", line.substr(0, 80));
     if (line.find_first_not_of(" \t") == std::string_view::npos)
         return;
+    if (is_comment(line)) {
+        ++counts_.comments;
+        return;
+    }
     const std::string_view word = line.substr(0, line.find_first_of(" \t"));
     if (std::find(layout_words.begin(), layout_words.end(), word) != layout_words.end())
         return layout_line(word, line);
@@ -77,6 +81,15 @@ void AscParser::line(std::string_view line, std::int64_t number) {
         return bad("begins with a blank, and belongs to no calibration", line);
     }
     event_line(line);
+}
+
+void AscParser::declare_eyes(bool left, bool right, AscFormat::EyesBy by) {
+    if (by < format_.eyes_by)
+        return;
+    format_.eyes_by = by;
+    format_.has_left = left;
+    format_.has_right = right;
+    format_.eyes_are_known = true;
 }
 
 void AscParser::note(std::string_view line) {
@@ -128,11 +141,8 @@ void AscParser::message_line(std::string_view line) {
         const std::string_view eyes = setup.next();
         if (rate_hz)
             take_rate(*rate_hz);
-        if (eyes == "L" || eyes == "R" || eyes == "LR") {
-            format_.has_left = eyes != "R";
-            format_.has_right = eyes != "L";
-            format_.eyes_are_known = format_.eyes_are_declared = true;
-        }
+        if (eyes == "L" || eyes == "R" || eyes == "LR")
+            declare_eyes(eyes != "R", eyes != "L", AscFormat::EyesBy::setup);
     }
     listener_.event(event);
 }
@@ -149,6 +159,7 @@ void AscParser::eye_event_begin(std::string_view line, Kind kind) {
 }
 
 void AscParser::eye_event_end(std::string_view line, Kind kind) {
+    ++recordings_.back().event_lines;
     Words words(line);
     words.next();
     const std::optional<Eye> eye = eye_of(words.next());
@@ -156,7 +167,7 @@ void AscParser::eye_event_end(std::string_view line, Kind kind) {
     const std::string_view duration = words.next();
     if (eye)
         open_events_[slot(kind, *eye)] = false; // it ended, whatever becomes of its line
-    if (!eye || !start || !end || !number_of(duration) || *end < *start)
+    if (!eye || !start || !end || duration.empty() || *end < *start)
         return bad("an event without eye, begin, end or duration", line);
     GazeEvent event;
     event.kind = kind;
@@ -164,27 +175,13 @@ void AscParser::eye_event_end(std::string_view line, Kind kind) {
     event.start = tracker_time(*start);
     event.end = tracker_time(*end);
     event.duration = duration_of(duration, event.end - event.start);
-    const auto take_place = [&](std::optional<ScreenPoint>& into) {
-        const std::string_view x = words.next(), y = words.next();
-        const AscPoint place = place_of(x, y);
-        into = format_.events_are_gaze ? place.point : std::nullopt;
-        return place.is_valid;
-    };
-    // Nothing where it is missing.
-    const auto take_number = [&](std::optional<double>& into) {
-        const std::string_view word = words.next();
-        into = is_missing(word) ? std::nullopt : number_of(word);
-        return is_missing(word) || into.has_value();
-    };
-    bool is_whole = true;
-    if (kind == Kind::fixation)
-        is_whole = take_place(event.place) && take_number(event.pupil);
-    if (kind == Kind::saccade)
-        is_whole = take_place(event.place) && take_place(event.arrival) && take_number(event.amplitude_deg) &&
-                   take_number(event.peak_velocity_deg_s);
-    if (!is_whole)
+    const AscEventValues values =
+        read_event_values(words.rest(), format_.events_are_gaze, conventions_, event);
+    if (!values.is_whole)
         return bad("an event without all its values", line);
-    counts_.events_that_are_no_gaze += !format_.events_are_gaze && kind != Kind::blink;
+    counts_.events_that_are_no_gaze += !values.is_gaze;
+    counts_.unreadable_event_values += values.unreadable;
+    ++recordings_.back().events_read;
     listener_.event(event);
 }
 
@@ -216,6 +213,8 @@ void AscParser::recording_line(std::string_view line, bool begins) {
     settle_leap(tracker_time(*us));
     event.kind = begins ? Kind::started : Kind::ended;
     event.start = event.end = last_time_ = tracker_time(*us);
+    // What was declared of the recording before holds until the next says something else.
+    format_.eyes_by = std::min(format_.eyes_by, AscFormat::EyesBy::setup);
     bool left = false, right = false;
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
         left |= word == "LEFT";
@@ -226,22 +225,27 @@ void AscParser::recording_line(std::string_view line, bool begins) {
         }
     }
     if (begins) {
-        if (left || right) {
-            format_.has_left = left;
-            format_.has_right = right;
-            format_.eyes_are_known = format_.eyes_are_declared = true;
-        }
+        if (left || right)
+            declare_eyes(left, right, AscFormat::EyesBy::start);
+        recordings_.push_back({event.start});
         event.text = left && right ? "LEFT RIGHT" : left ? "LEFT" : right ? "RIGHT" : "";
         start_eyes_ = event.text;
         // A new recording may begin with the time of the last one's end.
         last_sample_.reset();
-        stamps_ = {};
+        stamps_.begin(event.start);
     }
     recording_start_ = begins ? std::optional(event.start) : std::nullopt;
     if (begins)
         start_ = std::move(event);
     else
         listener_.event(event);
+}
+
+/// In the event of the recording's START, for it may be another than that of the other recordings.
+void AscParser::tell_pupil() {
+    constexpr std::string_view words = " PUPIL DIAMETER";
+    if (start_ && format_.pupil_is_diameter && !start_->text.ends_with(words))
+        start_->text += words;
 }
 
 void AscParser::layout_line(std::string_view word, std::string_view line) {
@@ -252,6 +256,8 @@ void AscParser::layout_line(std::string_view word, std::string_view line) {
         samples_layout(line);
     } else if (word == "PUPIL") {
         format_.pupil_is_diameter = words.next() == "DIAMETER";
+        (format_.pupil_is_diameter ? format_.has_pupil_diameters : format_.has_pupil_areas) = true;
+        tell_pupil();
     }
 }
 
@@ -285,9 +291,9 @@ void AscParser::samples_layout(std::string_view line) {
     const bool is_of_samples = words.next() == "SAMPLES";
     const std::string_view what = words.next();
     if (is_of_samples)
-        format_.is_gaze = what == "GAZE";
+        format_.is_gaze = what == "GAZE", format_.kind_is_declared = true;
     else
-        format_.events_are_gaze = what != "HREF" && what != "PUPIL";
+        format_.events_are_gaze = what == "GAZE";
     bool left = false, right = false;
     std::string further;
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
@@ -303,13 +309,11 @@ void AscParser::samples_layout(std::string_view line) {
         if (!rate_hz || !take_rate(*rate_hz))
             bad("a sampling rate that is none", line);
     }
-    if (start_)
-        start_->text = start_eyes_ + further; // SAMPLES comes last
-    if (left || right) {
-        format_.has_left = left;
-        format_.has_right = right;
-        format_.eyes_are_known = format_.eyes_are_declared = true;
-    }
+    if (start_) // SAMPLES comes last
+        start_->text = start_eyes_ + further;
+    tell_pupil();
+    if (left || right)
+        declare_eyes(left, right, is_of_samples ? AscFormat::EyesBy::samples : AscFormat::EyesBy::events);
 }
 
 void AscParser::end() {

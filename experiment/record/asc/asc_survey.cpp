@@ -9,6 +9,8 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/utf8_text.h"
+#include "experiment/record/asc/asc_pair_check.h"
+#include "experiment/record/asc/asc_survey_checks.h"
 #include "experiment/record/asc/asc_words.h"
 
 namespace overt {
@@ -48,6 +50,7 @@ class Surveyor final : public AscListener {
     int trials(AscTrialCutter::By by) const {
         return 1 + (by == AscTrialCutter::By::trial_ids ? by_ids_ : by_recordings_).trial();
     }
+    std::string fault_of_pair() const { return pair_.fault(); }
     std::int64_t shortest_interval_us() const { return shortest_interval_us_; }
     bool clock_began_anew() const { return clock_began_anew_; }
     TrackerTime began_anew_at() const { return began_anew_at_; }
@@ -64,6 +67,7 @@ class Surveyor final : public AscListener {
     TrackerTime began_anew_at_;
     std::optional<TrackerTime> last_sample_;
     std::int64_t shortest_interval_us_ = 0;
+    AscPairCheck pair_;
 };
 
 void Surveyor::take_time(TrackerTime time) {
@@ -88,7 +92,15 @@ void Surveyor::samples(std::span<const GazeSample> samples) {
             shortest_interval_us_ == 0 ? interval_us : std::min(shortest_interval_us_, interval_us);
     }
     last_sample_ = time;
+    if (files_.are_two())
+        pair_.samples(samples);
     for (const GazeSample& sample : samples) {
+        if (sample.gaze) {
+            constexpr double largest_screen_px = 8192.0;
+            const auto is_off = [&](double px) { return px < 0.0 || px > largest_screen_px; };
+            survey_.places_off_screen += is_off(sample.gaze->x_px) || is_off(sample.gaze->y_px);
+            ++survey_.places;
+        }
         (sample.eye == Eye::left ? survey_.has_left : survey_.has_right) = true;
         ++survey_.samples;
         survey_.samples_without_gaze += !sample.gaze;
@@ -101,6 +113,8 @@ void Surveyor::event(const GazeEvent& event) {
     if (is_trial_id(event) && !survey_.trial_numbers.empty())
         survey_.trial_numbers.back() = asc_trial_number(event);
     by_recordings_.take(event);
+    if (files_.are_two())
+        pair_.event(event);
     ++survey_.events;
     if (event.kind == Kind::note)
         return;
@@ -205,14 +219,15 @@ bool AscTrialCutter::take_sample() {
     return begin();
 }
 
-AscSurvey survey_asc(const AscFiles& files, const AscReport& report,
-                     const std::function<void(std::int64_t, std::int64_t)>& progress) {
+AscSurvey survey_asc(const AscFiles& files, const AscSurveyOptions& options) {
     AscSurvey survey;
     const std::string file = files.path();
-    Surveyor surveyor(survey, files, report);
-    AscParser parser(surveyor);
-    files.parse(parser, progress);
+    survey.conventions = find_conventions(files, options.missing, part_of(options.progress, 0, 1, 2));
+    Surveyor surveyor(survey, files, options.report);
+    AscParser parser(surveyor, survey.conventions);
+    files.parse(parser, part_of(options.progress, 1, 1, 2));
     survey.format = parser.format();
+    survey.recordings = parser.recordings();
     static_cast<AscCounts&>(survey) = parser.counts();
     survey.cut_by = surveyor.has_trial_ids() ? AscTrialCutter::By::trial_ids : AscTrialCutter::By::recordings;
     survey.trials = surveyor.trials(survey.cut_by);
@@ -221,14 +236,13 @@ AscSurvey survey_asc(const AscFiles& files, const AscReport& report,
         survey.has_left = survey.format.has_left;
         survey.has_right = survey.format.has_right || !survey.has_left;
     }
-    if (survey.rate_hz <= 0.0 && surveyor.shortest_interval_us() > 0)
-        survey.rate_hz = 1e6 / static_cast<double>(surveyor.shortest_interval_us());
-    if (survey.samples == 0 && survey.samples_that_are_no_gaze > 0)
-        throw InputError(
-            fmt::format("{}: its samples are of the pupil or in the head's frame (SAMPLES HREF or "
-                        "PUPIL), and no places on a screen. Convert the recording again with gaze.",
-                        file));
-    if (survey.trials == 0)
+    if (survey.rate_hz <= 0.0)
+        survey.rate_hz = survey.conventions.stamps_are_rounded && survey.conventions.rate_hz > 0.0
+                             ? survey.conventions.rate_hz
+                         : surveyor.shortest_interval_us() > 0
+                             ? 1e6 / static_cast<double>(surveyor.shortest_interval_us())
+                             : 0.0;
+    if (survey.trials == 0 && survey.samples_that_are_no_gaze == 0)
         throw InputError(
             fmt::format("{}: no recording of an EyeLink was found in {} lines, {} of them could not "
                         "be read. Give a file that edf2asc has written.",
@@ -238,19 +252,27 @@ AscSurvey survey_asc(const AscFiles& files, const AscReport& report,
             "{}: is a table of numbers, and nothing in it is as an EyeLink has it: no header, no message, "
             "no event, no status after the values of a sample. Give a file that edf2asc has written.",
             file));
+    check_gaze(survey, file, options);
     if (surveyor.clock_began_anew())
         throw InputError(
             fmt::format("{}: the tracker's clock began anew at time stamp {}: this is two recordings "
                         "in one file. Cut it there and import both.",
                         file, surveyor.began_anew_at().time_since_epoch().count() / 1000));
+    if (const std::string fault = files.are_two() ? surveyor.fault_of_pair() : ""; !fault.empty())
+        throw InputError(fmt::format(
+            "{}: {}. They are not of one recording: give the samples and the events of the same one.", file,
+            fault));
+    check_shares(survey, file, options.least_read);
     return survey;
 }
 
-ByteProgress part_of(const ByteProgress& progress, int reading) {
+ByteProgress part_of(const ByteProgress& progress, int before, int readings, int all) {
     if (!progress)
         return {};
-    return
-        [progress, reading](std::int64_t done, std::int64_t all) { progress(done + reading * all, 2 * all); };
+    return [progress, before, readings, all](std::int64_t done, std::int64_t bytes) {
+        const std::int64_t once = bytes / readings;
+        progress(done + before * once, all * once);
+    };
 }
 
 } // namespace overt

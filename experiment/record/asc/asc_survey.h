@@ -44,12 +44,16 @@ std::optional<int> asc_trial_number(const GazeEvent& event);
 bool is_trial_id(const GazeEvent& event);
 
 struct AscSurvey : AscCounts {
+    AscConventions conventions;           ///< for whoever reads the file again
+    std::vector<AscReadShare> recordings; ///< as AscParser has them
     AscTrialCutter::By cut_by = AscTrialCutter::By::recordings;
     int trials = 0;
     std::vector<std::optional<int>> trial_numbers; ///< that their TRIALIDs name, cut by these
     AscFormat format;                              ///< at the file's end
     std::string header;
     std::int64_t samples = 0, samples_without_gaze = 0, events = 0;
+    std::int64_t places = 0,
+                 places_off_screen = 0;       ///< of samples; beyond the left or upper edge, or far beyond
     bool has_left = false, has_right = false; ///< of all recordings
     TrackerTime first, last;                  ///< of all lines
     double rate_hz = 0.0;                     ///< the highest that the file names, or by its closest samples
@@ -66,13 +70,26 @@ std::string skipped_line_text(std::int64_t line, std::string_view why, std::stri
 /// A line that could not be read: "FILE:LINE: why: the line".
 using AscReport = std::function<void(const std::string&)>;
 
-/// Reads the files; each line that is skipped is reported. Throws InputError if it cannot be read, if it is
-/// no recording of an EyeLink with gaze on a screen, or if the tracker's clock began anew in it.
-AscSurvey survey_asc(const AscFiles& files, const AscReport& report,
-                     const std::function<void(std::int64_t, std::int64_t)>& progress = {});
+/// How a file is to be surveyed.
+struct AscSurveyOptions {
+    AscReport report; ///< told each line that is skipped; may be empty
+    std::function<void(std::int64_t done, std::int64_t all)>
+        progress; ///< in bytes that are read; may be empty
+    /// What the file has in place of lost values; nothing: it is found.
+    std::optional<std::string> missing;
+    /// Of a recording's lines of samples, and of its lines of events, so large a share must be read.
+    double least_read = 0.9;
+    /// Samples of which the file does not say what they are, and that mostly lie off the screen, are gaze.
+    bool is_gaze = false;
+};
 
-/// Progress of the first (0) or second (1) reading of the same files, as part of both.
+/// Reads the files twice. Throws InputError if they cannot be read, if they are no recording of an EyeLink
+/// with gaze on a screen, if too little of a recording can be read, if two files do not belong together, or
+/// if the tracker's clock began anew.
+AscSurvey survey_asc(const AscFiles& files, const AscSurveyOptions& options);
+
 using ByteProgress = std::function<void(std::int64_t done, std::int64_t all)>;
-ByteProgress part_of(const ByteProgress& progress, int reading);
+/// Progress of `readings` of the same files, after `before` others and as part of `all`.
+ByteProgress part_of(const ByteProgress& progress, int before, int readings, int all);
 
 } // namespace overt

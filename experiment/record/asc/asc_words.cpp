@@ -11,7 +11,7 @@ std::optional<std::int64_t> asc_time_us(std::string_view text) {
         return std::nullopt;
     if (end == last)
         return 1000 * ms;
-    if (*end != '.')
+    if (*end != '.' && *end != ',')
         return std::nullopt;
     std::int64_t fraction_us = 0, weight = 100;
     for (const char* digit = end + 1; digit != last; ++digit, weight /= 10) {

@@ -118,12 +118,15 @@ void AscWriter::message(TrackerTime at, std::string_view text) {
 
 AscStart asc_start(std::string_view text, const AscLayout& layout) {
     AscStart start;
+    start.pupil_is_diameter = layout.pupil_is_diameter;
     Words words(text);
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
         if (word == "LEFT")
             start.left = true;
         else if (word == "RIGHT")
             start.right = true;
+        else if (word == "PUPIL")
+            start.pupil_is_diameter = words.next() == "DIAMETER";
         else
             start.tracking += fmt::format(" {}", word);
     }
@@ -146,7 +149,7 @@ void AscWriter::start(TrackerTime at, const AscStart& start) {
     line(fmt::format("START\t{} \t{}\tSAMPLES\tEVENTS", written(at), eyes));
     line("PRESCALER\t1");
     line("VPRESCALER\t1");
-    line(layout_.pupil_is_diameter ? "PUPIL\tDIAMETER" : "PUPIL\tAREA");
+    line(start.pupil_is_diameter ? "PUPIL\tDIAMETER" : "PUPIL\tAREA");
     std::string tracking = ascii_of(start.tracking);
     std::replace(tracking.begin(), tracking.end(), ' ', '\t');
     for (const char* what : {"EVENTS", "SAMPLES"})

@@ -30,6 +30,7 @@ struct AscLayout {
 /// What a START says, besides its time.
 struct AscStart {
     bool left = false, right = false;
+    bool pupil_is_diameter = false;
     std::string tracking; ///< at the end of the layout's lines, such as " TRACKING CR FILTER 2"; may be empty
 };
 

@@ -12,6 +12,7 @@
 #include "experiment/record/bids/bids_tracker.h"
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/record/tables/joined_cells.h"
+#include "experiment/record/read/tracker_facts.h"
 #include "experiment/record/tables/sample_rows.h"
 
 namespace fs = std::filesystem;
@@ -33,13 +34,12 @@ JoinedColumns first_columns() {
     };
 }
 
-RowLayout<JoinedRow> physio_layout(bool pupil_is_diameter) {
+/// BIDS has one name for it, and wants the words area or diameter.
+RowLayout<JoinedRow> physio_layout(const PupilWords& words) {
     RowLayout<JoinedRow> layout("", "", first_columns());
     layout.add<JoinedRow>({
-        {{"pupil_size",
-          pupil_is_diameter ? "Pupil diameter, in the tracker's own unit"
-                            : "Pupil area, in the tracker's own unit",
-          "arbitrary"},
+        {{"pupil_size", words.meaning + (words.unit == "mm" ? "" : ", in the tracker's own unit"),
+          words.unit == "mm" ? "mm" : "arbitrary"},
          pupil_size},
     });
     return layout;
@@ -55,11 +55,11 @@ RowLayout<JoinedRow> surface_layout(const SessionHeader& header) {
 /// The files of one eye.
 class EyeFiles {
   public:
-    EyeFiles(const SessionRecord& record, Eye eye, int number, int run, bool pupil_is_diameter,
+    EyeFiles(const SessionRecord& record, Eye eye, int number, int run, const PupilWords& pupil,
              const fs::path& raw, const fs::path& derived)
         : record_(record), eye_(eye), stem_(BidsNames(record.header()).eye_stem(run, number)),
           surface_stem_(BidsNames(record.header()).surface_stem(run, number)), raw_(raw), derived_(derived),
-          physio_(physio_layout(pupil_is_diameter)), surface_(surface_layout(record.header())),
+          physio_(physio_layout(pupil)), surface_(surface_layout(record.header())),
           samples_(raw / (stem_ + "_physio.tsv.gz"), physio_.table(), TableFormat::tsv, Packing::gzip,
                    TableWriter::Header::none) {
         if (!record.header().stimuli.empty())
@@ -145,13 +145,12 @@ std::optional<SessionTime> bids_zero(const SessionRecord& record, int run) {
 BidsGazeCounts write_bids_gaze(const SessionRecord& record, int run, const LookupFor& lookup_for,
                                const fs::path& raw, const fs::path& derived) {
     const SessionRecord::Eyes eyes = record.eyes(run);
-    const std::optional<GazeSource> source = record.gaze_source(run);
-    const bool pupil_is_diameter = source && source->pupil_is_diameter;
+    const PupilWords pupil = pupil_words(record, run);
     std::vector<std::unique_ptr<EyeFiles>> files;
     for (const Eye eye : {Eye::left, Eye::right})
         if (eye == Eye::left ? eyes.left : eyes.right)
             files.push_back(std::make_unique<EyeFiles>(record, eye, static_cast<int>(files.size()) + 1, run,
-                                                       pupil_is_diameter, raw, derived));
+                                                       pupil, raw, derived));
     std::vector<JoinedSample> joined;
     for (const TrialRecord& trial : record.trials()) {
         if (trial.sitting != run || files.empty())

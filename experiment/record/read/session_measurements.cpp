@@ -59,6 +59,16 @@ std::vector<FlipRecord> SessionRecord::flips(const TrialRecord& trial) const {
                         has_column(*database_, "flip", "uncertainty_ns") ? "uncertainty_ns" : "0"),
             [&](Query& row) { return read_flip(row, trial.trial.index); }, trial.id);
     });
+    for (const FlipRecord& flip : rows) {
+        const auto is_frame = [&](AnimationFrameIndex frame) {
+            return frame == no_frame || (frame.value >= 0 && frame.value < header_.animation.frame_count);
+        };
+        if (flip.pose.value < 0 || static_cast<std::size_t>(flip.pose.value) >= header_.poses.angles.size() ||
+            !is_frame(flip.shown) || !is_frame(flip.planned))
+            throw RecordError(fmt::format("{}: table flip, trial {}: refresh {} names a frame or a pose that "
+                                          "the session does not have: the file is damaged.",
+                                          file_.string(), trial.trial.index + 1, flip.refresh_in_trial));
+    }
     if (!rows.empty() && header_.display.refresh_hz == 0.0)
         throw RecordError(
             fmt::format("{}: trial {} has flips of a display that has no refresh rate: the file is "

@@ -33,7 +33,7 @@ struct Cells {
     double width = 0.0; ///< of a square of a cell's area, in the mesh's unit
 };
 
-Cells cells_of(const Mesh& mesh, PartIndex head) {
+Cells cells_of(const Mesh& mesh, const HeadParts& head) {
     std::vector<double> up_to; // area up to and with each triangle
     double all = 0.0;
     const auto corner = [&](glm::uvec3 triangle, int i) { return glm::dvec3(mesh.positions[triangle[i]]); };
@@ -55,7 +55,7 @@ Cells cells_of(const Mesh& mesh, PartIndex head) {
         const glm::uvec3 t = mesh.triangles[triangle];
         cells.positions.push_back((1.0 - root) * corner(t, 0) + root * (1.0 - share) * corner(t, 1) +
                                   root * share * corner(t, 2));
-        cells.is_head.push_back(mesh.triangle_parts[triangle] == head);
+        cells.is_head.push_back(head.has(mesh.triangle_parts[triangle]));
     }
     return cells;
 }
@@ -75,8 +75,8 @@ struct PosePicture {
 
 class Deconvolution {
   public:
-    Deconvolution(const Mesh& mesh, PartIndex head, const SceneView& scene, std::span<const Degrees> poses,
-                  std::span<const MeasuredPlace> fixations)
+    Deconvolution(const Mesh& mesh, const HeadParts& head, const SceneView& scene,
+                  std::span<const Degrees> poses, std::span<const MeasuredPlace> fixations)
         : cells_(cells_of(mesh, head)), fixations_(fixations), pictures_(poses.size()),
           candidates_(fixations.size()) {
         std::vector<std::uint8_t> is_used(poses.size(), 0);
@@ -224,7 +224,7 @@ class Deconvolution {
 
 } // namespace
 
-std::vector<std::optional<PartEvidence>> part_evidence(const Mesh& mesh, PartIndex head,
+std::vector<std::optional<PartEvidence>> part_evidence(const Mesh& mesh, const HeadParts& head,
                                                        const SceneView& scene, std::span<const Degrees> poses,
                                                        std::span<const MeasuredPlace> fixations) {
     if (mesh.triangles.empty() || fixations.size() < least_fixations)

@@ -34,7 +34,7 @@ inline constexpr double farthest_sigmas = 3.035;
 /// Nothing for fixations beyond farthest_sigmas, and for all if the mesh has no triangle of the head, or of
 /// anything else, or a few fixations only. `poses` by PoseIndex. The same on any number of processors.
 /// Throws GraphicsError if the mesh's rays cannot be cast.
-std::vector<std::optional<PartEvidence>> part_evidence(const Mesh& mesh, PartIndex head,
+std::vector<std::optional<PartEvidence>> part_evidence(const Mesh& mesh, const HeadParts& head,
                                                        const SceneView& scene, std::span<const Degrees> poses,
                                                        std::span<const MeasuredPlace> fixations);
 

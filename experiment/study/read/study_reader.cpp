@@ -6,10 +6,12 @@
 #include <mutex>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
 #include "experiment/maps/coordinate_maps.h"
+#include "experiment/record/no_stimulus.h"
 #include "experiment/record/preview_file.h"
 #include "experiment/study/read/exposure.h"
 #include "experiment/study/read/gaze_quality.h"
@@ -24,9 +26,11 @@ class StudyReader {
   public:
     StudyReader(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
                 const StudyOptions& options, const StudyProgress& progress)
-        : surface_for_(surface_for), options_(options), progress_(progress), open_(open_sessions(sessions)) {
+        : surface_for_(surface_for), options_(options), progress_(progress),
+          open_(open_sessions(sessions, options.detect_events)) {
         for (std::size_t i = 0; i < open_.size(); ++i)
             add_session(i, sessions[i]);
+        name_same_observers();
         study_.surfaces.resize(results().sculptures.size());
     }
 
@@ -98,6 +102,24 @@ class StudyReader {
         results().sessions.push_back(describe_session(open_[index], path));
     }
 
+    /// Gives sessions the observer that the options take theirs for.
+    void name_same_observers() {
+        for (const auto& [label, other] : options_.same_observer) {
+            const auto is_there = [&](const std::string& wanted) {
+                return std::ranges::any_of(open_, [&](const OpenSession& one) {
+                    return one.record().header().schedule.observer.label == wanted;
+                });
+            };
+            for (const std::string& wanted : {label, other})
+                if (!is_there(wanted))
+                    throw InputError(fmt::format("--same-observer {}={}: no session is of observer {}.",
+                                                 label, other, wanted));
+            for (StudySession& session : results().sessions)
+                if (session.observer == label)
+                    session.observer = other;
+        }
+    }
+
     /// The study's index of a session's sculpture, which is new or was in a session before.
     int sculpture_of(std::size_t session, int own) {
         const SessionHeader& header = open_[session].record().header();
@@ -132,19 +154,19 @@ class StudyReader {
         parallel_for(static_cast<int>(jobs.size()), [&](int i) {
             const auto [session, reader] = jobs[static_cast<std::size_t>(i)];
             OpenSession& open = open_[session];
-            std::optional<GeodesicField> field;
+            std::optional<SurfaceWays> ways;
             if (surface.coarse)
-                field.emplace(*surface.coarse_geometry);
+                ways.emplace(*surface.geometry, *surface.coarse, *surface.coarse_geometry);
             const SessionRecord& record = *open.readers[reader];
             for (std::size_t t = reader; t < record.trials().size(); t += open.readers.size()) {
                 const TrialRecord& trial = record.trials()[t];
                 if (!is_of(session, trial, index))
                     continue;
-                read_[session].trials[t] = read_trial(record, trial, *open.keys[reader], open.validations,
-                                                      {lookup, surface.geometry.get(), surface.coarse.get(),
-                                                       field ? &*field : nullptr, surface.scale,
-                                                       light_of(light, record.header(), trial)},
-                                                      options_);
+                read_[session].trials[t] =
+                    read_trial(record, trial, *open.keys[reader], open.validations,
+                               {lookup, surface.geometry != nullptr, ways ? &*ways : nullptr, surface.scale,
+                                light_of(light, record.header(), trial)},
+                               options_);
                 const std::scoped_lock lock(progress_mutex);
                 progress_(what, ++done, trials);
             }
@@ -223,7 +245,7 @@ class StudyReader {
             return;
         const SceneView scene{{sculpture.camera, sculpture.screen.image_px}, sculpture.mesh->bounds()};
         const auto evidence =
-            part_evidence(*sculpture.mesh, *sculpture.head, scene, header->poses.angles, places);
+            part_evidence(*sculpture.mesh, sculpture.head, scene, header->poses.angles, places);
         for (std::size_t i = 0; i < fixations.size(); ++i)
             fixations[i]->evidence = evidence[i];
     }
@@ -290,6 +312,9 @@ class StudyReader {
                 ReadTrial& read = read_[session].trials[t];
                 const int index = static_cast<int>(results().trials.size());
                 read.trial.session = static_cast<int>(session);
+                for (StudyKey& key : read.trial.keys)
+                    if (key.column == "observer")
+                        key.value = results().sessions[session].observer;
                 read.trial.sculpture =
                     open_[session].sculptures[static_cast<std::size_t>(trials[t].trial.condition.sculpture)];
                 read.trial.first_fixation = results().fixations.size();
@@ -315,13 +340,43 @@ class StudyReader {
             }
             results().session_quality.push_back(quality_of_all(own));
         }
+        const std::string no_angles = sentence_on({SessionRecord::EventOrigin::From::no_angles, {}});
+        for (const StudySession& session : results().sessions) {
+            if (session.events.find(no_angles) != std::string::npos)
+                results().remarks.push_back(fmt::format("{}: {}", session.folder, no_angles));
+        }
         if (any_both_eyes)
             results().remarks.emplace_back(
                 "Of binocular recordings the eye that the session names is taken.");
-        for (const StudySculpture& sculpture : results().sculptures) {
-            if (!sculpture.remark.empty())
-                results().remarks.push_back(sculpture.remark);
+        remark_on_sessions_without_stimulus();
+        for (std::size_t i = 0; i < results().sculptures.size(); ++i) {
+            const std::string& remark = results().sculptures[i].remark;
+            if (!remark.empty() && !knows_no_stimulus(open_[shown_in_[i].first].record().header()))
+                results().remarks.push_back(remark);
         }
+    }
+
+    /// What is given of them, and what is not.
+    void remark_on_sessions_without_stimulus() {
+        std::vector<std::string> folders;
+        for (std::size_t session = 0; session < open_.size(); ++session) {
+            if (knows_no_stimulus(open_[session].record().header()))
+                folders.push_back(results().sessions[session].folder);
+        }
+        if (folders.empty())
+            return;
+        constexpr std::size_t most_named = 5;
+        const std::string named =
+            folders.size() > most_named
+                ? fmt::format("{} sessions know of no stimulus, as imported recordings do", folders.size())
+                : fmt::format("{} {} of no stimulus, as imported recordings do", fmt::join(folders, ", "),
+                              folders.size() == 1 ? "knows" : "know");
+        results().remarks.push_back(
+            named +
+            ": their fixations with their places on the screen, the quality of their gaze and their trials "
+            "are in the tables fixations, quality and trials, and their saccades and blinks in the exports. "
+            "Their gaze has no places on a surface, so that none of it is in maps, in shares of parts, or "
+            "in comparisons.");
     }
 
     const SurfaceFor& surface_for_;

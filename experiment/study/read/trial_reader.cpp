@@ -23,6 +23,21 @@ std::vector<StudyTurn> turns_of(const TrialLedger& ledger, SessionTime onset,
     return turns;
 }
 
+/// From the onset to the last sample, or to the end of the last event: how long a trial was recorded that
+/// does not say how long it showed something.
+double recorded_s(std::span<const PlacedSample> samples, std::span<const GazeEvent> events,
+                  const std::optional<ClockMap>& clock_map, SessionTime onset) {
+    double last_s = 0.0;
+    for (const PlacedSample& sample : samples)
+        if (sample.has_time)
+            last_s = std::max(last_s, sample.time_s);
+    if (clock_map)
+        for (const GazeEvent& event : events)
+            last_s = std::max(last_s, to_seconds(clock_map->to_session(event.start).time - onset) +
+                                          std::chrono::duration<double>(event.duration).count());
+    return last_s;
+}
+
 /// Every n-th sample, but the first of each loss of the eye too, so that blinks stay visible.
 StudyTrace trace_of(std::span<const PlacedSample> samples, std::span<const GazeEvent> events,
                     const std::optional<ClockMap>& clock_map, SessionTime onset, double presentation_s,
@@ -77,22 +92,15 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                      const StudyOptions& options) {
     const SessionHeader& header = record.header();
     const std::optional<TrialLedger> ledger = record.ledger(trial);
-    const bool has_onset = trial.reached(trial.outcome.presentation_onset);
-    const SessionTime onset = has_onset ? trial.outcome.presentation_onset : trial.started;
+    const TrialPresentation presentation = presentation_of(header, trial, ledger.has_value(), validations);
+    const SessionTime onset = presentation.onset;
     ReadTrial read;
     StudyTrial& of = read.trial;
     of.number = trial.trial.index + 1;
     of.label = fmt::format("observer {}, trial {}", header.schedule.observer.label, of.number);
-    if (has_onset && trial.reached(trial.outcome.presentation_end))
-        of.presentation_s = to_seconds(trial.outcome.presentation_end - onset);
-    else if (trial.has_outcome() && trial.outcome.responded_at > onset)
-        of.presentation_s = to_seconds(trial.outcome.responded_at - onset);
-    else
-        of.presentation_s = header.animation.duration_s;
+    of.presentation_s = presentation.duration_s.value_or(0.0);
 
-    const auto validation = std::find_if(validations.rbegin(), validations.rend(),
-                                         [&](const auto& one) { return one.at <= trial.started; });
-    const double accuracy_deg = validation != validations.rend() ? validation->mean_deg : 0.0;
+    const double accuracy_deg = presentation.validation ? presentation.validation->mean_deg : 0.0;
     const PlacedSamples placed =
         placed_samples(record, trial, ledger, surface.lookup, onset, header.tracker.eye,
                        Degrees{options.reach_deg.value_or(accuracy_deg)});
@@ -108,10 +116,14 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
     std::stable_sort(events.begin(), events.end(),
                      [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
 
+    const std::optional<ClockMap> clock_map = record.clock_map(trial);
+    if (!presentation.duration_s)
+        of.presentation_s = recorded_s(placed.samples, events, clock_map, onset);
+
     of.quality = gaze_quality(placed.samples, events, header.display.screen);
-    if (validation != validations.rend()) {
-        of.quality.accuracy_deg = validation->mean_deg;
-        of.quality.worst_accuracy_deg = validation->worst_deg;
+    if (presentation.validation) {
+        of.quality.accuracy_deg = presentation.validation->mean_deg;
+        of.quality.worst_accuracy_deg = presentation.validation->worst_deg;
     }
     if (trial.outcome.drift)
         of.quality.drift_deg = trial.outcome.drift->value;
@@ -121,12 +133,15 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
         of.quality.missed_refreshes = trial.outcome.missed_refreshes;
     of.quality.refreshes = trial.outcome.shown_refreshes + trial.outcome.missed_refreshes;
     of.quality.off_plan = static_cast<double>(placed.counts.off_plan);
-    of.why_excluded = exclusion_of(of.quality, options.exclude);
+    const auto is_fixation = [](const GazeEvent& event) { return event.kind == GazeEvent::Kind::fixation; };
+    of.has_gaze = std::ranges::any_of(placed.samples, &PlacedSample::has_gaze) ||
+                  std::ranges::any_of(events, is_fixation);
+    // Means over trials would be too low with a trial in which nobody was measured.
+    of.why_excluded = of.has_gaze ? exclusion_of(of.quality, options.exclude) : "No gaze was recorded in it.";
     of.excluded = !of.why_excluded.empty();
 
     if (ledger)
         of.turns = turns_of(*ledger, onset, header.poses.angles);
-    const std::optional<ClockMap> clock_map = record.clock_map(trial);
     read.trace = trace_of(placed.samples, events, clock_map, onset, of.presentation_s,
                           of.quality.rate_hz.value_or(0.0));
 
@@ -146,9 +161,9 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                                   header.poses.angles,
                                   surface.scale,
                                   surface.lookup != nullptr,
-                                  surface.fine,
-                                  surface.coarse,
-                                  surface.field,
+                                  presentation.has_stimulus,
+                                  surface.has_mesh,
+                                  surface.ways,
                                   surface.lookup,
                                   cone ? &*cone : nullptr,
                                   &header.display.screen,

@@ -20,6 +20,8 @@ std::string_view name_of(NotCounted why) {
         return "no maps of the surface";
     case NotCounted::trial_excluded:
         return "trial excluded";
+    case NotCounted::no_stimulus:
+        return "no stimulus known";
     }
     return "";
 }

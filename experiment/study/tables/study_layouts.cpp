@@ -43,6 +43,13 @@ auto of_fixation(auto what) {
     return [what](const FixationRow& row) { return std::invoke(what, row.fixation); };
 }
 
+/// n/a of a fixation whose session knows of no stimulus.
+auto of_shown(auto what) {
+    return [what](const FixationRow& row) {
+        return when(row.fixation.why != NotCounted::no_stimulus, std::invoke(what, row.fixation));
+    };
+}
+
 auto of_evidence(double PartEvidence::*part) {
     return [part](const FixationRow& row) { return of_maybe(row.fixation.evidence, part); };
 }
@@ -88,10 +95,11 @@ RowLayout<FixationRow> study_fixations_layout(const StudyResults& results) {
               of_fixation([](auto& fixation) { return fixation.place.y_px; }), pixel_decimals);
     to.count("counted", "1 if it is counted in the results, else 0", of_fixation(&Fixation::counted));
     to.text("why", "counted, or why not", of_fixation([](auto& fixation) { return name_of(fixation.why); }));
-    to.count("samples", "Samples with gaze while a frame was lit", of_fixation(&Fixation::samples));
-    to.number("on_surface", "Share of these that met the sculpture", "", of_fixation(&Fixation::on_surface));
+    to.count("samples", "Samples with gaze while a frame was lit; where no stimulus is known, all with gaze",
+             of_fixation(&Fixation::samples));
+    to.number("on_surface", "Share of these that met the sculpture", "", of_shown(&Fixation::on_surface));
     to.number("within_reach", "Share that missed it by no more than the reach, placed at its outline", "",
-              of_fixation(&Fixation::within_reach));
+              of_shown(&Fixation::within_reach));
     to.count("only_by_reach", "1 if it is counted and would not be without the reach, else 0",
              of_fixation(&Fixation::only_by_reach));
     to.text("part", "The part with most of both", [&results](const FixationRow& row) {
@@ -112,8 +120,8 @@ RowLayout<FixationRow> study_fixations_layout(const StudyResults& results) {
               "1/px^2", of_evidence(&PartEvidence::head), density_decimals);
     to.number("evidence_elsewhere", "The same if another part was", "1/px^2",
               of_evidence(&PartEvidence::elsewhere), density_decimals);
-    to.number("angle_deg", "Turn of the sculpture halfway through", "deg",
-              of_fixation(&Fixation::mid_angle_deg), pixel_decimals);
+    to.number("angle_deg", "Turn of the sculpture halfway through", "deg", of_shown(&Fixation::mid_angle_deg),
+              pixel_decimals);
     return to;
 }
 
@@ -317,8 +325,10 @@ RowLayout<QualityRow> quality_layout() {
               of_quality(&Quality::drift_deg));
     to.number("rms_s2s_deg", "Precision: root mean square of steps between samples in fixations, median",
               "deg", of_quality(&Quality::rms_s2s_deg));
-    to.number("sd_deg", "Precision: standard deviation in fixations, median", "deg",
-              of_quality(&Quality::sd_deg));
+    to.number("sd_deg",
+              "Precision: standard deviation in fixations, median; around the motion of the eye, a line "
+              "through each 0.2 s, so that following a turning object is not taken for noise",
+              "deg", of_quality(&Quality::sd_deg));
     to.number("rate_hz", "Sampling rate, by the median interval of time stamps", "Hz",
               of_quality(&Quality::rate_hz));
     to.number("samples", "Samples of the eye", "", of_quality(&Quality::samples));

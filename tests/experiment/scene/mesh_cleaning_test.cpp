@@ -245,19 +245,19 @@ TEST_CASE("welding within a tolerance finds the nearest earlier place, as a plai
     std::mt19937 random(3);
     bool on_lattice = false; // where many places are equally near
     const auto coordinate = [&] {
-        const float value = static_cast<float>(random() % 2001) / 100.0f - 10.0f;
+        const double value = static_cast<double>(random() % 2001) / 100.0 - 10.0;
         return on_lattice ? std::round(value) : value;
     };
     for (const double tolerance : {0.0, 0.05, 1.0, 1.0, 2.5, 2.5, 7.0}) {
         on_lattice = !on_lattice;
         VertexWelder welder(tolerance);
-        std::vector<glm::vec3> places;
+        std::vector<glm::dvec3> places;
         for (int i = 0; i < 3000; ++i) {
-            const glm::vec3 position(coordinate(), coordinate(), coordinate());
+            const glm::dvec3 position(coordinate(), coordinate(), coordinate());
             std::size_t nearest = places.size();
             double shortest = std::numeric_limits<double>::infinity();
             for (std::size_t place = 0; place < places.size(); ++place) {
-                const glm::dvec3 apart = glm::dvec3(places[place]) - glm::dvec3(position);
+                const glm::dvec3 apart = places[place] - position;
                 const double squared = glm::dot(apart, apart);
                 if (squared <= tolerance * tolerance && squared < shortest) {
                     nearest = place;

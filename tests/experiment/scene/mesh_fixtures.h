@@ -145,6 +145,10 @@ template <class AnyMesh> std::vector<glm::vec3> corners_of(const AnyMesh& mesh) 
     return corners;
 }
 
+inline std::vector<glm::vec3> in_floats(const std::vector<glm::dvec3>& places) {
+    return {places.begin(), places.end()};
+}
+
 /// What the function's InputError says; empty if it throws none.
 template <class Error, class Function> std::string message_of(const Function& function) {
     try {

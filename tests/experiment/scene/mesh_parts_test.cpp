@@ -9,8 +9,8 @@
 #include "experiment/scene/mesh_reader.h"
 #include "experiment/scene/ply_writer.h"
 #include "tests/experiment/scene/mesh_fixtures.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/figures.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -62,11 +62,11 @@ TEST_CASE("each triangle gets the first region that contains its centroid, or th
     const std::vector<PartRegion> regions{{"head", {{0, 0, 1.2, 0.5}}, {}},
                                           {"hand", {{0.9, 0, 0, 0.4}}, {}},
                                           {"head", {{0, 0, 0.9, 0.5}}, {{{0, 0, 0}, {1, 0, 0}}}}};
-    label_parts(mesh, regions, "rest");
-    CHECK(mesh.part_names == std::vector<std::string>{"rest", "head", "hand"});
+    label_parts(mesh, regions);
+    CHECK(mesh.part_names == std::vector<std::string>{"body", "head", "hand"});
     std::set<int> seen;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        std::string expected = "rest";
+        std::string expected = "body";
         for (const PartRegion& region : regions) {
             if (!region.contains(centroid(mesh, i)))
                 continue;

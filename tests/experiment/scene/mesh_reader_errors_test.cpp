@@ -119,7 +119,7 @@ TEST_CASE("errors in a text PLY body name their line and column", "[unit]") {
             {"1 0 0\n", "1 nan 0\n",
              "m.ply:11:3: y of vertex 1 (counted from 0) is nan; coordinates must be finite"},
             {"1 0 0\n", "-inf 0 0\n", "m.ply:11:1: x of vertex 1 (counted from 0) is -inf"},
-            {"1 0 0\n", "1e39 0 0\n", "m.ply:11:1: x of vertex 1 (counted from 0) is inf"},
+            {"1 0 0\n", "1e39 0 0\n", "m.ply:11:1: x of vertex 1 (counted from 0) is 1e+39"},
             {"1 0 0\n", "1 0,5 0\n",
              "m.ply:11:3: y of vertex 1 (counted from 0) is '0,5', which is no number"},
             {"1 0 0\n", "1 +-5 0\n",

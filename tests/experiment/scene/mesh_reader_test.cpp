@@ -1,6 +1,8 @@
 #include "experiment/scene/mesh_reader.h"
 
+#include <algorithm>
 #include <random>
+#include <set>
 
 #include <catch2/catch.hpp>
 
@@ -15,26 +17,28 @@ namespace {
 
 constexpr std::array all_ply_forms{PlyForm::text, PlyForm::little_endian, PlyForm::big_endian};
 
-// A PLY file of random polygons, with coordinates, indices and much else in random types and orders.
+// A PLY file of random convex polygons, with coordinates, indices and much else in random types and orders.
 struct RandomPly {
     std::mt19937 random;
-    std::vector<glm::vec3> positions;
+    std::vector<glm::dvec3> positions;
     std::vector<std::vector<std::uint32_t>> polygons;
 
     explicit RandomPly(unsigned seed) : random(seed) {
-        for (unsigned i = 0, count = 3 + below(90); i < count; ++i) {
-            positions.emplace_back(coordinate(), coordinate(), coordinate());
-        }
+        // Any corners of a parabola make a convex polygon.
+        const double height = coordinate(), step = 1.0 / (1 << below(8));
+        for (unsigned i = 0, count = 9 + below(90); i < count; ++i)
+            positions.emplace_back(step * i, step * i * i, height);
         for (unsigned i = 0, count = 1 + below(60); i < count; ++i) {
-            std::vector<std::uint32_t> polygon(3 + below(6));
-            for (std::uint32_t& corner : polygon)
-                corner = below(static_cast<unsigned>(positions.size()));
-            polygons.push_back(polygon);
+            std::set<std::uint32_t> corners;
+            for (unsigned wanted = 3 + below(6); corners.size() < wanted;)
+                corners.insert(below(static_cast<unsigned>(positions.size())));
+            polygons.emplace_back(corners.begin(), corners.end());
+            std::ranges::rotate(polygons.back(), polygons.back().begin() + below(3));
         }
     }
 
     unsigned below(unsigned bound) { return static_cast<unsigned>(random() % bound); }
-    float coordinate() { return static_cast<float>(below(2000001)) / 1000.0f - 1000.0f; }
+    double coordinate() { return below(2000001) / 1024.0 - 1000.0; }
 
     // One property in the header, and how its value is written.
     struct Column {
@@ -62,7 +66,7 @@ struct RandomPly {
         std::string vertex_header = fmt::format("element vertex {}\n", positions.size()), vertices;
         for (const Column& column : columns)
             vertex_header += column.header + "\n";
-        for (const glm::vec3& position : positions) {
+        for (const glm::dvec3& position : positions) {
             for (const Column& column : columns) {
                 if (column.axis == 4) {
                     vertices +=
@@ -70,9 +74,9 @@ struct RandomPly {
                 } else if (column.axis == 3) {
                     vertices += ply_value(form, std::uint8_t{200});
                 } else if (column.wide) {
-                    vertices += ply_value(form, static_cast<double>(position[column.axis]));
-                } else {
                     vertices += ply_value(form, position[column.axis]);
+                } else {
+                    vertices += ply_value(form, static_cast<float>(position[column.axis]));
                 }
             }
             vertices += line_end;
@@ -135,7 +139,7 @@ TEST_CASE("a PLY file gives the same mesh in text and in both byte orders", "[un
     const Mesh ball = bumpy_ball();
     for (const PlyForm form : all_ply_forms) {
         const RawMesh raw = read_mesh_file(folder.file("ball.ply", as_ply(ball, form)));
-        CHECK(raw.positions == ball.positions);
+        CHECK(in_floats(raw.positions) == ball.positions);
         CHECK(raw.triangles == ball.triangles);
         CHECK(raw.triangle_labels.empty());
     }
@@ -149,7 +153,7 @@ TEST_CASE("a PLY file may have any types, any order of properties and elements, 
         const PlyForm form = all_ply_forms[seed % 3];
         INFO("seed " << seed);
         const RawMesh raw = read_mesh_file(folder.file("random.ply", ply.file(form)));
-        CHECK(raw.positions == ply.positions);
+        CHECK(in_floats(raw.positions) == in_floats(ply.positions));
         CHECK(raw.triangles == ply.fans());
     }
 }
@@ -160,7 +164,7 @@ TEST_CASE("a text PLY file may have CR LF line ends, blank lines and plus signs"
         "crlf.ply", "ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty float x\r\nproperty float "
                     "y\r\nproperty float z\r\nelement face 1\r\nproperty list uchar int "
                     "vertex_index\r\nend_header\r\n\r\n0 0 0\r\n+1.5e0 0 0\r\n0 1e-60 0\r\n\r\n3 0 1 2\r\n"));
-    CHECK(raw.positions == std::vector<glm::vec3>{{0, 0, 0}, {1.5f, 0, 0}, {0, 0, 0}});
+    CHECK(raw.positions == std::vector<glm::dvec3>{{0, 0, 0}, {1.5, 0, 0}, {0, 1e-60, 0}});
     CHECK(raw.triangles == std::vector<glm::uvec3>{{0, 1, 2}});
 }
 
@@ -168,7 +172,7 @@ TEST_CASE("an OBJ file gives the mesh that was written", "[unit]") {
     const TemporaryFolder folder;
     const Mesh ball = bumpy_ball();
     const RawMesh raw = read_mesh_file(folder.file("ball.obj", as_obj(ball)));
-    CHECK(raw.positions == ball.positions);
+    CHECK(in_floats(raw.positions) == ball.positions);
     CHECK(raw.triangles == ball.triangles);
     CHECK(raw.triangle_labels.empty());
 }
@@ -180,7 +184,7 @@ TEST_CASE("an OBJ file may use all forms of corners, polygons, joined lines and 
         "\xEF\xBB\xBF# forms\r\nmtllib none.mtl\r\nv 0 0 0 1.0\r\nv 1 0 \\\r\n 0\r\nv 1 1 0\nvt 0 0\n"
         "vn 0 0 1\nf 1/1 2/1 3/1\nf -3//1 -2//1 \\\n-1//1\nf 1/1/1 2/1/1 3/1/1 4/1/1 # a square\n"
         "usemtl gold\ns off\nv 0 1 0\nf -4 -3 -2 -1"));
-    CHECK(raw.positions == std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    CHECK(raw.positions == std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
     CHECK(raw.triangles ==
           std::vector<glm::uvec3>{{0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 2, 3}, {0, 1, 2}, {0, 2, 3}});
 }

@@ -218,7 +218,11 @@ TEST_CASE("a recording's samples and events in two files are as in one, and its 
     Lab lab;
     AscExample example;
     example.trials = 3;
-    const std::string whole = asc_text(example);
+    std::string whole = asc_text(example);
+    // Its fixations lie where its samples are.
+    for (int trial = 0; trial < example.trials; ++trial)
+        whole.replace(whole.find("\t  512.8\t  394.5\t"), 17,
+                      fmt::format("\t  {:.1f}\t  {:.1f}\t", example_x(trial, 17, true), example_y(17)));
     std::string only_samples, only_events;
     for (const std::string& line : lines_of(whole))
         (!line.empty() && std::isdigit(static_cast<unsigned char>(line[0])) ? only_samples : only_events) +=

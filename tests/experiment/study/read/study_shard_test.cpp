@@ -133,7 +133,7 @@ TEST_CASE("a shard that was forged with its hash has no words that there are not
         for (const ReadSession& session : read.read)
             for (const ReadTrial& trial : session.trials) {
                 for (const StudyFixation& fixation : trial.fixations)
-                    REQUIRE(fixation.why <= NotCounted::trial_excluded);
+                    REQUIRE(fixation.why <= NotCounted::no_stimulus);
                 for (const StudyTraceEvent& event : trial.trace.events)
                     REQUIRE(event.kind <= GazeEvent::Kind::blink);
             }

@@ -1,0 +1,20 @@
+/// What stands in the header of a session whose record knows of no stimulus, such as an imported recording.
+#pragma once
+
+#include "experiment/record/session_header.h"
+
+namespace overt {
+
+/// One frame that is shown for no time.
+inline constexpr Animation no_animation{
+    .frame_count = 1, .frame_rate_hz = 30.0, .amplitude = {0.0}, .duration_s = 0.0};
+
+/// Whether nothing was shown, as far as the session knows: it has neither stimuli nor maps nor meshes.
+inline bool knows_no_stimulus(const SessionHeader& header) {
+    for (const RecordedSculpture& sculpture : header.sculptures)
+        if (!sculpture.mesh_file.empty())
+            return false;
+    return header.stimuli.empty() && header.maps.empty();
+}
+
+} // namespace overt
