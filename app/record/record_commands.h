@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/cli/chosen_command.h"
+#include "app/cli/event_options.h"
 
 namespace overt {
 
@@ -22,12 +23,14 @@ struct ImportOptions {
     std::filesystem::path sessions = "sessions";
     std::string observer; ///< empty: letters and digits of the file's name
     std::optional<int> session_number;
+    bool is_another_person = false; ///< see SessionPlace
     std::string task = "imported";
     std::vector<double> screen_mm; ///< width and height, or empty
     std::optional<double> distance_mm;
     std::optional<std::string> missing; ///< in place of lost values; nothing: found in the file
     double least_read = 0.9;            ///< share of a recording's lines that must be read
     bool as_gaze = false;               ///< what the file does not say
+    EventOptions events;
     std::filesystem::path print_session_to;
     bool json = false;
 };
@@ -40,7 +43,7 @@ struct VerifyOptions {
 int run_verify(const VerifyOptions& options);
 
 struct ShowOptions {
-    std::filesystem::path session;
+    std::vector<std::filesystem::path> sessions;
     std::optional<int> trial;
     std::filesystem::path picture;
     std::filesystem::path plot; ///< of the presentation's timing, SVG

@@ -18,6 +18,8 @@ void add_session_commands(CLI::App& app, ChosenCommand& chosen) {
            must_be_given);
     option(command, "--session", options.session_number, "N",
            "Number of the session (default: the next free one)", above_zero());
+    command.add_flag("--another-person", options.is_another_person,
+                     "This observer is not the one whose label differs in case or leading zeros only");
     choice<ResumePolicy>(command, "--resume", options.resume, "POLICY",
                          "Go on with this observer's interrupted session (with --session that one, else the "
                          "last): its interrupted trial is done again (redo, the default), skipped (skip), or "

@@ -224,7 +224,7 @@ draw_figure5();
       share_column('lost', of('lost')), share_column('lost in blinks', of('blinked')), number_column('blinks', of('blinks')), number_column('rate / Hz', of('rate'), {digits: 5}),
       number_column('refreshes', of('refreshes')), number_column('missed', of('missed')), number_column('trials', r => r.s.trials)],
       note:
-      'As the minimum reporting guideline asks (Dunn et al. 2023). Accuracy: mean and largest offset at the validation targets. RMS-S2S and SD: within fixations, medians.'}));
+      'As the minimum reporting guideline asks (Dunn et al. 2023). Accuracy: mean and largest offset at the validation targets. RMS-S2S and SD: within fixations, medians; SD around the motion of the eye, a line through each 0.2 s.'}));
   by_id('reporting_body').append(table({name: 'reporting', title: 'What an article has to report', rows: data.reporting, columns: [
       text_column('aspect', r => r[0]), text_column('item', r => r[1]), text_column('value', r => r[2], {long: true})],
       note: 'Aspects of Holmqvist et al. (2022, table 7), on which the minimum reporting guideline of Dunn et al. (2023) rests. What is not recorded has to be added by hand.'}));

@@ -15,7 +15,7 @@ constexpr int probability_decimals = 4;
 } // namespace
 
 RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const SessionHeader& header,
-                                      std::optional<Degrees> cone_accuracy, const std::string& pupil) {
+                                      const PupilWords& pupil, std::optional<Degrees> cone_accuracy) {
     RowLayout<SampleCells> layout{
         "samples",
         "One row for each gaze sample of the completed trials, and of an imported recording also for those "
@@ -33,7 +33,7 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
         {eye_column(), [](auto& to, auto& row) { to.word(word_of_eye(row.sample.eye)); }},
         {{"x_px", "Gaze on the screen, to the right", "px"}, gaze_x},
         {{"y_px", "Gaze on the screen, downwards", "px"}, gaze_y},
-        {{"pupil_area", pupil, "the tracker's own unit"}, pupil_size},
+        {{pupil.column, pupil.meaning, pupil.unit}, pupil_size},
     });
     layout.add<JoinedRow>(place_columns(header));
     if (!cone_accuracy)

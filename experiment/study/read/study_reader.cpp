@@ -26,9 +26,11 @@ class StudyReader {
   public:
     StudyReader(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
                 const StudyOptions& options, const StudyProgress& progress)
-        : surface_for_(surface_for), options_(options), progress_(progress), open_(open_sessions(sessions)) {
+        : surface_for_(surface_for), options_(options), progress_(progress),
+          open_(open_sessions(sessions, options.detect_events)) {
         for (std::size_t i = 0; i < open_.size(); ++i)
             add_session(i, sessions[i]);
+        name_same_observers();
         study_.surfaces.resize(results().sculptures.size());
     }
 
@@ -98,6 +100,24 @@ class StudyReader {
         for (int i = 0; i < static_cast<int>(header.sculptures.size()); ++i)
             open_[index].sculptures.push_back(sculpture_of(index, i));
         results().sessions.push_back(describe_session(open_[index], path));
+    }
+
+    /// Gives sessions the observer that the options take theirs for.
+    void name_same_observers() {
+        for (const auto& [label, other] : options_.same_observer) {
+            const auto is_there = [&](const std::string& wanted) {
+                return std::ranges::any_of(open_, [&](const OpenSession& one) {
+                    return one.record().header().schedule.observer.label == wanted;
+                });
+            };
+            for (const std::string& wanted : {label, other})
+                if (!is_there(wanted))
+                    throw InputError(fmt::format("--same-observer {}={}: no session is of observer {}.",
+                                                 label, other, wanted));
+            for (StudySession& session : results().sessions)
+                if (session.observer == label)
+                    session.observer = other;
+        }
     }
 
     /// The study's index of a session's sculpture, which is new or was in a session before.
@@ -292,6 +312,9 @@ class StudyReader {
                 ReadTrial& read = read_[session].trials[t];
                 const int index = static_cast<int>(results().trials.size());
                 read.trial.session = static_cast<int>(session);
+                for (StudyKey& key : read.trial.keys)
+                    if (key.column == "observer")
+                        key.value = results().sessions[session].observer;
                 read.trial.sculpture =
                     open_[session].sculptures[static_cast<std::size_t>(trials[t].trial.condition.sculpture)];
                 read.trial.first_fixation = results().fixations.size();
@@ -316,6 +339,11 @@ class StudyReader {
                     own.push_back(&trial.quality);
             }
             results().session_quality.push_back(quality_of_all(own));
+        }
+        const std::string no_angles = sentence_on({SessionRecord::EventOrigin::From::no_angles, {}});
+        for (const StudySession& session : results().sessions) {
+            if (session.events.find(no_angles) != std::string::npos)
+                results().remarks.push_back(fmt::format("{}: {}", session.folder, no_angles));
         }
         if (any_both_eyes)
             results().remarks.emplace_back(

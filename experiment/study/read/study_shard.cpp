@@ -68,9 +68,9 @@ template <class Archive> void fields(Archive& archive, StudyQuality& quality) {
 }
 template <class Archive> void fields(Archive& archive, StudyTrial& trial) {
     auto& [session, sculpture, label, number, keys, presentation_s, excluded, why, first_fixation, fixations,
-           turns, clock_uncertainty_s, quality] = trial;
+           turns, clock_uncertainty_s, quality, has_gaze] = trial;
     archive(session, sculpture, label, number, keys, presentation_s, excluded, why, first_fixation, fixations,
-            turns, clock_uncertainty_s, quality);
+            turns, clock_uncertainty_s, quality, has_gaze);
 }
 template <class Archive> void fields(Archive& archive, FixationLight& light) {
     auto& [met, at_place, at_point] = light;
@@ -221,7 +221,7 @@ bool is_shard(const std::filesystem::path& folder) {
 std::vector<StudyParameter> reading_parameters(const StudyOptions& options) {
     static const std::vector<std::string> of_reading{"sigma",      "shortest-fixation", "least-on-surface",
                                                      "reach",      "most-lost",         "most-accuracy",
-                                                     "most-drift", "most-missed"};
+                                                     "most-drift", "most-missed",       "detect-events"};
     std::vector<StudyParameter> parameters = parameters_of(options);
     std::erase_if(parameters, [](const StudyParameter& one) {
         return std::ranges::find(of_reading, one.name) == of_reading.end();

@@ -98,6 +98,8 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
     StudyTrial& of = read.trial;
     of.number = trial.trial.index + 1;
     of.label = fmt::format("observer {}, trial {}", header.schedule.observer.label, of.number);
+    of.presentation_s = presentation.duration_s.value_or(0.0);
+
     const double accuracy_deg = presentation.validation ? presentation.validation->mean_deg : 0.0;
     const PlacedSamples placed =
         placed_samples(record, trial, ledger, surface.lookup, onset, header.tracker.eye,
@@ -115,8 +117,8 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                      [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
 
     const std::optional<ClockMap> clock_map = record.clock_map(trial);
-    of.presentation_s = presentation.duration_s ? *presentation.duration_s
-                                                : recorded_s(placed.samples, events, clock_map, onset);
+    if (!presentation.duration_s)
+        of.presentation_s = recorded_s(placed.samples, events, clock_map, onset);
 
     of.quality = gaze_quality(placed.samples, events, header.display.screen);
     if (presentation.validation) {
@@ -131,7 +133,11 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
         of.quality.missed_refreshes = trial.outcome.missed_refreshes;
     of.quality.refreshes = trial.outcome.shown_refreshes + trial.outcome.missed_refreshes;
     of.quality.off_plan = static_cast<double>(placed.counts.off_plan);
-    of.why_excluded = exclusion_of(of.quality, options.exclude);
+    const auto is_fixation = [](const GazeEvent& event) { return event.kind == GazeEvent::Kind::fixation; };
+    of.has_gaze = std::ranges::any_of(placed.samples, &PlacedSample::has_gaze) ||
+                  std::ranges::any_of(events, is_fixation);
+    // Means over trials would be too low with a trial in which nobody was measured.
+    of.why_excluded = of.has_gaze ? exclusion_of(of.quality, options.exclude) : "No gaze was recorded in it.";
     of.excluded = !of.why_excluded.empty();
 
     if (ledger)

@@ -7,7 +7,24 @@ namespace overt {
 
 namespace {
 
+std::string same_observers(const StudyOptions& options) {
+    std::string text;
+    for (const auto& [label, other] : options.same_observer)
+        text += fmt::format("{}{}={}", text.empty() ? "" : ",", label, other);
+    return text.empty() ? "none" : text;
+}
+
 std::string number_or_none(const auto& limit) { return limit ? fmt::format("{}", *limit) : "none"; }
+
+std::string words_of(const std::optional<ChosenThresholds>& detect_events) {
+    if (!detect_events)
+        return "no";
+    std::string words;
+    for (std::size_t i = 0; i < event_thresholds.size(); ++i)
+        if (const std::optional<double>& value = detect_events->values[i])
+            words += fmt::format("{}{} {}", words.empty() ? "" : ", ", event_thresholds[i].key, *value);
+    return words.empty() ? "usual thresholds" : words;
+}
 
 } // namespace
 
@@ -73,6 +90,13 @@ std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
          "Trials with a larger error at the drift check are excluded."},
         {"most-missed", number_or_none(rules.most_missed_refreshes), "refreshes",
          "Trials with more missed refreshes are excluded."},
+        {"detect-events", words_of(options.detect_events), "",
+         "Whether fixations, saccades and blinks were found anew in the samples of all sessions, and the "
+         "thresholds that were chosen for it; others go with each recording's rate and noise. no: those on "
+         "record, and found where an imported recording has none."},
+        {"same-observer", same_observers(options), "",
+         "Labels of observers that stand for another observer's, whose sessions are then counted as one "
+         "person's."},
         {"time-step", fmt::format("{}", options.time_step_s), "s", "Stretches of the time course."},
         {"confidence", fmt::format("{}", options.confidence), "", "Level of all intervals."},
         {"resamples", fmt::format("{}", options.resamples), "",

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiment/base/enum_names.h"
+#include "experiment/events/event_thresholds.h"
 #include "experiment/statistics/bootstrap.h"
 #include "experiment/statistics/permutation.h"
 #include "experiment/study/results/study_results.h"
@@ -51,6 +53,11 @@ struct StudyOptions {
     /// Nothing: the mean error of the validation before the trial, and 0 if there was none.
     std::optional<double> reach_deg;
     ExclusionRules exclude;
+    /// Fixations, saccades and blinks are found anew in all sessions, by these thresholds. Nothing: those on
+    /// record, and found in imports that have none.
+    std::optional<ChosenThresholds> detect_events;
+    /// Labels that stand for the same observer as another, and that one's.
+    std::vector<std::pair<std::string, std::string>> same_observer;
     double time_step_s = 1.0; ///< of the time course
     double confidence = 0.95;
     int resamples = 2000;    ///< of the bootstrap

@@ -55,6 +55,16 @@ struct StudySession {
     bool is_simulated() const { return setup.gaze.is_simulated(); }
 };
 
+/// An observer of the sessions that were given, and whether N has them. One counts whose gaze there is in a
+/// trial that counts and is not excluded.
+struct StudyObserver {
+    std::string label;
+    bool counts = false;
+    std::string why; ///< a clause, such as "no gaze was recorded in any trial"; empty if counted
+    std::vector<std::string> alike; ///< labels of others that differ in case or leading zeros only
+    int sessions = 0, trials = 0, fixations = 0; ///< trials not excluded; counted fixations
+};
+
 /// What an article has to report: see reporting.h.
 struct ReportingItem {
     std::string topic, item, value;
@@ -190,9 +200,9 @@ struct StudyQuality {
     std::optional<double> worst_accuracy_deg; ///< its largest
     std::optional<double> drift_deg;          ///< gaze error at the drift check
     std::optional<double> rms_s2s_deg;        ///< of successive samples within fixations, median over these
-    std::optional<double> sd_deg;             ///< standard deviation within fixations, median over these
-    std::optional<double> rate_hz;            ///< from the samples' own time stamps
-    double samples = 0.0, lost = 0.0;         ///< numbers of samples; lost ones outside of blinks
+    std::optional<double> sd_deg;  ///< of samples around the eye's motion within fixations, median over these
+    std::optional<double> rate_hz; ///< from the samples' own time stamps
+    double samples = 0.0, lost = 0.0; ///< numbers of samples; lost ones outside of blinks
     double lost_in_blinks = 0.0;
     int blinks = 0;
     int refreshes = 0;
@@ -216,6 +226,7 @@ struct StudyTrial {
     std::vector<StudyTurn> turns;
     double clock_uncertainty_s = 0.0; ///< bound on the error of its samples' times by the session's clock
     StudyQuality quality;
+    bool has_gaze = true; ///< any, or a fixation that the tracker told; a trial without it is excluded
     /// The value in a column; n/a if there is no such column.
     const std::string& key(const std::string& column) const;
 };
@@ -290,8 +301,8 @@ struct DistributionRow {
 /// A similarity of two maps beside what to compare it with.
 struct SimilarityEstimate {
     Estimate value;
-    /// Of random halves, as many fixations in each: one of either level, and both of the same level. Only these
-    /// two can be held against each other: a similarity grows with the number of fixations.
+    /// Of random halves, as many fixations in each: one of either level, and both of the same level. Only
+    /// these two can be held against each other: a similarity grows with the number of fixations.
     Estimate between_halves, within_halves;
     Estimate null; ///< of all fixations, dealt out again over the levels within observers
     /// How often dealing out gives as small a similarity. Takes fixations as exchangeable, which they are not
@@ -419,7 +430,8 @@ struct TimeCourseRow {
 
 struct StudyGlance {
     std::string title; ///< of the protocol, or of several
-    int observers = 0, sessions = 0, trials = 0, excluded_trials = 0;
+    int observers = 0; ///< N: those who count, see StudyObserver
+    int sessions = 0, trials = 0, excluded_trials = 0;
     std::int64_t samples = 0;
     int fixations = 0; ///< all
     int counted = 0;
@@ -427,7 +439,8 @@ struct StudyGlance {
     std::vector<std::pair<NotCounted, int>> not_counted; ///< reasons that occur, and how often
     double counted_s = 0.0;                              ///< of fixation
     bool any_simulated = false;
-    std::vector<std::pair<ExclusionRule, int>> excluded_by{}; ///< trials by the first rule that they break
+    int without_gaze = 0;                                     ///< excluded trials in which none was recorded
+    std::vector<std::pair<ExclusionRule, int>> excluded_by{}; ///< others, by the first rule that they break
 };
 
 struct StudyResults {
@@ -438,6 +451,7 @@ struct StudyResults {
     std::vector<std::string> by; ///< columns that make the groups
     double confidence = 0.95;
     std::vector<StudySession> sessions;
+    std::vector<StudyObserver> observers; ///< in the order of the sessions
     std::vector<StudySculpture> sculptures;
     std::vector<StudyTrial> trials;
     std::vector<StudyFixation> fixations; ///< by trial, in the order of their onsets

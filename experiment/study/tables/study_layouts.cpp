@@ -325,8 +325,10 @@ RowLayout<QualityRow> quality_layout() {
               of_quality(&Quality::drift_deg));
     to.number("rms_s2s_deg", "Precision: root mean square of steps between samples in fixations, median",
               "deg", of_quality(&Quality::rms_s2s_deg));
-    to.number("sd_deg", "Precision: standard deviation in fixations, median", "deg",
-              of_quality(&Quality::sd_deg));
+    to.number("sd_deg",
+              "Precision: standard deviation in fixations, median; around the motion of the eye, a line "
+              "through each 0.2 s, so that following a turning object is not taken for noise",
+              "deg", of_quality(&Quality::sd_deg));
     to.number("rate_hz", "Sampling rate, by the median interval of time stamps", "Hz",
               of_quality(&Quality::rate_hz));
     to.number("samples", "Samples of the eye", "", of_quality(&Quality::samples));

@@ -32,11 +32,11 @@ RecordedCalibration of_both_eyes() {
     return calibration;
 }
 
-struct Recorded {
+struct RecordedSetups {
     test::TemporaryFolder root;
     std::filesystem::path session;
 
-    Recorded() {
+    RecordedSetups() {
         SessionHeader header = eye_session_header();
         header.tracker.both_eyes = true;
         header.schedule.observer.label = "AB7";
@@ -81,7 +81,7 @@ struct Recorded {
 } // namespace
 
 TEST_CASE("a calibration comes back from the record as it went in", "[unit]") {
-    const Recorded recorded;
+    const RecordedSetups recorded;
     const SessionRecord record(recorded.session);
     const std::vector<RecordedCalibration> all = record.calibrations(1);
     REQUIRE(all.size() == 1);
@@ -120,7 +120,7 @@ TEST_CASE("of each eye a validation has its own mean and largest error", "[unit]
 
 TEST_CASE("inputs, buttons, gaps and the tracker's own events stand among the trial's gaze events",
           "[unit]") {
-    const Recorded recorded;
+    const RecordedSetups recorded;
     const SessionRecord record(recorded.session);
     std::vector<GazeEvent> events;
     record.read_gaze_events(record.trials().at(0), [&](const GazeEvent& event) { events.push_back(event); });
@@ -150,7 +150,7 @@ TEST_CASE("inputs, buttons, gaps and the tracker's own events stand among the tr
 }
 
 TEST_CASE("ASC and BIDS tell of each eye's validation and its targets", "[unit]") {
-    const Recorded recorded;
+    const RecordedSetups recorded;
     const SessionRecord record(recorded.session);
     const test::TemporaryFolder out;
     export_asc(record, out.path() / "asc");
@@ -160,11 +160,17 @@ TEST_CASE("ASC and BIDS tell of each eye's validation and its targets", "[unit]"
     CHECK_THAT(text, Contains("VALIDATE L 2POINT 0 LEFT  at 100,200  OFFSET 0.25 deg.  4.0,-3.0 pix.\n"));
     CHECK_THAT(text, Contains("VALIDATE R 2POINT 1 RIGHT  at 900,800  MISSING\n"));
     CHECK(read_as_mne(text).failure == "");
+    // What the program took down of the tracker is a message, once: a line without a time is no ASC.
+    CHECK_THAT(text, Contains("MSG\t2030 data lost (queue overflow): 12 samples\n"));
+    CHECK(text.find("data lost") == text.rfind("data lost"));
     const nlohmann::ordered_json left = bids_tracker(record, 1, Eye::left);
     CHECK(left["CalibrationCount"] == 1);
-    CHECK(left["CalibrationType"] == "HV2");
-    CHECK(left["CalibrationUnit"] == "pixel");
-    CHECK(left["CalibrationPosition"] == nlohmann::ordered_json::parse("[[100.0, 200.0], [900.0, 800.0]]"));
+    // The calibration had nine targets, and where they were is not on record; the validation had these two.
+    CHECK(left["CalibrationType"] == "HV9");
+    CHECK_FALSE(left.contains("CalibrationPosition"));
+    CHECK(left["ValidationUnit"] == "pixel");
+    CHECK(left["ValidationPosition"] == nlohmann::ordered_json::parse("[[100.0, 200.0], [900.0, 800.0]]"));
+    CHECK_THAT(text, Contains(">>>>>>> CALIBRATION (HV9,"));
     CHECK(left["AverageCalibrationError"] == 0.5);
     CHECK(left["MaximalCalibrationError"] == 0.75);
     CHECK(bids_tracker(record, 1, Eye::right)["MaximalCalibrationError"] == 0.5);

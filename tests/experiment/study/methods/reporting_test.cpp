@@ -57,6 +57,12 @@ TEST_CASE("what an article has to report is named item by item, with its value o
         CHECK_FALSE(item_of(items, missing).is_recorded);
         CHECK(item_of(items, missing).value.starts_with("not recorded: "));
     }
+    for (StudyTrial& trial : results.trials)
+        trial.quality.sd_deg = 0.07;
+    // What is taken out of the scatter is said.
+    CHECK(item_of(reporting_items(results, options), "precision (SD)").value ==
+          "0.0700 deg (the same in 3 trials); around the eye's own motion, a line through each 0.2 s of a "
+          "fixation");
     // Each of the nine aspects is there, in their order.
     char last = '0';
     for (const ReportingItem& item : items) {
