@@ -94,7 +94,7 @@ std::string gaze_quality_text(const StudyResults& results) {
         add_sentence(text, "the precision of gaze is not known");
     if (!rms.empty())
         add_sentence(text,
-                     fmt::format("precision within fixations was, from sample to sample (RMS-S2S), {}", rms));
+                     fmt::format("precision within fixations was {} from sample to sample (RMS-S2S)", rms));
     if (!sd.empty())
         add_sentence(text,
                      fmt::format("as standard deviation within fixations (SD), around the eye's own motion "
