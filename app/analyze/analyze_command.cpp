@@ -12,6 +12,7 @@
 #include "app/cli/command_options.h"
 #include "app/cli/event_options.h"
 #include "app/cli/interruption.h"
+#include "app/inputs/session_folders.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/study/tables/study_tables.h"
@@ -24,7 +25,8 @@ struct AnalyzeOptions {
     std::vector<std::filesystem::path> sessions;
     std::filesystem::path out; ///< empty: "analysis", of shards "shards"
     StudyOptions study;
-    std::optional<std::string> compare; ///< nothing: the usual one, where it makes groups
+    std::optional<std::string> compare;     ///< nothing: the usual one, where it makes groups
+    std::vector<std::string> same_observer; ///< LABEL=LABEL
     std::string by, sigma = "1deg", kernel = "geodesic", format = "csv", shard;
     bool overwrite = false;
     EventOptions events;
@@ -42,6 +44,17 @@ std::vector<std::string> listed(const std::string& text) {
         begin = end + 1;
     }
     return items;
+}
+
+std::vector<std::pair<std::string, std::string>> same_observers(const std::vector<std::string>& given) {
+    std::vector<std::pair<std::string, std::string>> pairs;
+    for (const std::string& text : given) {
+        const std::size_t equals = text.find('=');
+        if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+            throw InputError(fmt::format("--same-observer {}: write LABEL=LABEL, as 01=1", text));
+        pairs.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    }
+    return pairs;
 }
 
 void print_summary(const StudyResults& results, const std::filesystem::path& out, TableFormat format) {
@@ -132,10 +145,12 @@ int run_analyze(AnalyzeOptions options) {
         options.study.compare = *options.compare;
     }
     options.study.sigma = kernel_width(options.sigma);
+    options.study.same_observer = same_observers(options.same_observer);
     for (std::size_t i = 0; i < names_of<MapKernel>.size(); ++i) {
         if (names_of<MapKernel>[i] == options.kernel)
             options.study.kernel = static_cast<MapKernel>(i);
     }
+    options.sessions = sessions_in(options.sessions, is_shard);
     if (!options.shard.empty())
         return run_shard(options);
     if (options.out.empty())
@@ -173,8 +188,8 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
            shown_default);
     option(command, "--kernel", options.kernel, "",
            "How maps are blurred: geodesic along the surface, euclidean in space, voxel as in the paper",
-           CLI::IsMember({"geodesic", "euclidean", "voxel"}), shown_default);
-    option(command, "--seed", study.seed, "N", "Of the bootstrap, the permutations and the halves",
+           one_of({"geodesic", "euclidean", "voxel"}), shown_default);
+    option(command, "--seed", study.seed, "SEED", "Of the bootstrap, the permutations and the halves",
            seed_number(), shown_default);
     option(command, "--shortest-fixation", study.shortest_fixation_s, "S", "Fixations below are not counted",
            not_negative(), shown_default);
@@ -197,6 +212,8 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
     add_event_options(command, options.events,
                       "Find fixations, saccades and blinks anew in the samples, in place of those on record; "
                       "imported recordings without any have them found anyway");
+    option(command, "--same-observer", options.same_observer, "LABEL=LABEL",
+           "Sessions of the first observer are those of the second, as 01=1; once for each", one_each_time);
     option(command, "--time-step", study.time_step_s, "S", "Stretches of the time course", above_zero(),
            shown_default);
     option(command, "--confidence", study.confidence, "", "Level of intervals", CLI::Range(0.5, 0.999),
@@ -219,7 +236,8 @@ void add_analyze_command(CLI::App& app, ChosenCommand& chosen) {
         "  overt analyze shards/* --out analysis\n"
         "Exit codes: 0 done, 1 failed, 2 bad input.");
     options.by = fmt::format("{}", fmt::join(options.study.by, ","));
-    command.add_option("SESSION", options.sessions, "Folders of sessions, or of all shards of a study")
+    command
+        .add_option("SESSION", options.sessions, fmt::format("{}; or all shards of a study", sessions_help))
         ->required();
     option(command, "--out", options.out, "DIR", "Folder to write to; with --shard, the folder of all shards")
         ->default_str("analysis; with --shard: shards");
@@ -227,14 +245,14 @@ void add_analyze_command(CLI::App& app, ChosenCommand& chosen) {
            "Only read the part of machine I of N, I from 1, of these sessions; giving all shards in place of "
            "the sessions joins them");
     add_study_options(command, options);
-    option(command, "--format", options.format, "", "Of the tables", CLI::IsMember({"csv", "tsv", "jsonl"}),
+    option(command, "--format", options.format, "", "Of the tables", one_of({"csv", "tsv", "jsonl"}),
            shown_default);
     command.add_flag("--meshes", options.extras.meshes,
                      "Write each map as a coloured mesh, too (GLB and PLY)");
     command.add_flag("--volumes", options.extras.volumes,
                      "Write each map in space, too, as voxels (NRRD) and as a table of coordinates (.cube)");
     command.add_flag("--overwrite", options.overwrite, "Replace an analysis that is there");
-    command.add_flag("--json", options.json, "Print the study as JSON");
+    add_json_flag(command, options.json);
 }
 
 } // namespace overt

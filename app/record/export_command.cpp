@@ -9,6 +9,7 @@
 #include "app/cli/event_options.h"
 #include "app/cli/interruption.h"
 #include "app/cli/progress_bar.h"
+#include "app/inputs/session_folders.h"
 #include "app/record/export_formats.h"
 #include "app/record/record_commands.h"
 #include "experiment/base/error.h"
@@ -65,8 +66,10 @@ void need_angles(const SessionRecord& record) {
                 fmt::format("{}: {}", folder_at(record.directory()).string(), sentence_on(origin)));
 }
 
-int run_export(const ExportOptions& options) {
+int run_export(const ExportOptions& given) {
     const Interruption interruption;
+    ExportOptions options = given;
+    options.sessions = sessions_in(given.sessions);
     const auto& [entry, format] = options.formats.at(options.format);
     for (const std::filesystem::path& session : options.sessions) {
         SessionRecord record(session);
@@ -103,7 +106,7 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
                     "overt export sessions/overt_2019/sub-07_ses-01 --format tsv --out tables\n"
                     "  overt export sessions/overt_2019/* --format bids --out dataset\n"
                     "  overt export sessions/overt_2019/sub-07_ses-01 --format asc --out asc");
-    command.add_option("SESSION", options.sessions, "Folders of sessions")->required();
+    command.add_option("SESSION", options.sessions, sessions_help)->required();
     std::vector<std::string> names, explained, joining;
     std::vector<std::shared_ptr<ExportFormat>> formats;
     for (const ExportFormatEntry& entry : export_formats()) {
@@ -117,7 +120,7 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
         }
     }
     option(command, "--format", options.format, "", fmt::format("{}", fmt::join(explained, "; ")),
-           CLI::IsMember(names), shown_default);
+           one_of(names), shown_default);
     option(command, "--out", options.out, "DIR",
            fmt::format("Folder to write to (default: export_FORMAT in the session; for several "
                        "sessions a folder each is made in it, but one dataset of all with {})",

@@ -7,6 +7,7 @@
 #include "app/cli/interruption.h"
 #include "app/cli/progress_bar.h"
 #include "app/cli/this_program.h"
+#include "app/inputs/session_folders.h"
 #include "app/record/record_commands.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
@@ -124,7 +125,8 @@ int run_import(const ImportOptions& options) {
                                                      : AscFiles(options.files.front());
     AscImportOptions request;
     request.place = {options.sessions, options.task,
-                     options.observer.empty() ? label_from(options.files.front()) : options.observer};
+                     options.observer.empty() ? label_from(options.files.front()) : options.observer,
+                     options.is_another_person};
     request.session_number = options.session_number;
     request.out = options.out;
     if (options.screen_mm.size() == 2)
@@ -146,8 +148,9 @@ int run_import(const ImportOptions& options) {
                    static_cast<int>(all / kilobyte));
         Interruption::check("The import");
     };
-    const AscImportSummary summary =
-        options.into.empty() ? import_asc(files, request) : import_asc_into(files, options.into, request);
+    const AscImportSummary summary = options.into.empty()
+                                         ? import_asc(files, request)
+                                         : import_asc_into(files, session_in(options.into), request);
     bar.finish();
     if (!options.print_session_to.empty())
         write_to(options.print_session_to, summary.session.string() + "\n");

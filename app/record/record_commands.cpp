@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "app/cli/command_options.h"
+#include "app/inputs/session_folders.h"
 
 namespace overt {
 
@@ -27,9 +28,11 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
     option(command, "--out", options.out, "DIR",
            "The new session's folder (default: by task and observer in --sessions; with --into the session's "
            "name in a folder FOLDER_imports beside the FOLDER that holds it)");
-    option(command, "--sessions", options.sessions, "DIR", "Folder of all sessions", shown_default);
-    option(command, "--observer", options.observer, "LABEL",
+    add_sessions_option(command, options.sessions);
+    option(command, "--observer", options.observer, "ID",
            "Label of the observer (default: letters and digits of the file's name)");
+    command.add_flag("--another-person", options.is_another_person,
+                     "This observer is not the one whose label differs in case or leading zeros only");
     option(command, "--session", options.session_number, "N",
            "Number of the session (default: the next free one)", above_zero());
     option(command, "--task", options.task, "NAME", "Name for what was done", shown_default);
@@ -52,8 +55,8 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
         "Note that the session's fixations, saccades and blinks are to be found in its samples, in place of "
         "any that the file has, which stay on record");
     option(command, "--print-session-to", options.print_session_to, "FILE",
-           "Write the new session's path into a file");
-    command.add_flag("--json", options.json, "Print JSON");
+           "Write the session's path to this file, for scripts");
+    add_json_flag(command, options.json);
 }
 
 void add_verify(CLI::App& app, ChosenCommand& chosen) {
@@ -65,17 +68,17 @@ void add_verify(CLI::App& app, ChosenCommand& chosen) {
                     "Exit codes: 0 all are sound (an interrupted one, too), 1 one is damaged, 2 one is no "
                     "session, or of a "
                     "newer overt.");
-    command.add_option("SESSION", options.sessions, "Folders of sessions")->required();
-    command.add_flag("--json", options.json, "Print JSON");
+    command.add_option("SESSION", options.sessions, sessions_help)->required();
+    add_json_flag(command, options.json);
 }
 
 void add_show(CLI::App& app, ChosenCommand& chosen) {
     const auto [command, options] =
         add_command(app, chosen, run_show, "show", "What a session holds, and one trial as a picture",
                     "overt show sessions/overt_2019/sub-07_ses-01 --trial 3 --picture trial.png");
-    command.add_option("SESSION", options.session, "Folder of a session")->required();
-    option(command, "--trial", options.trial, "N", "Trial for --picture, counted from 1 (default: the first)",
-           above_zero());
+    command.add_option("SESSION", options.sessions, sessions_help)->required();
+    option(command, "--trial", options.trial, "TRIAL",
+           "Trial for --picture, counted from 1 (default: the first)", above_zero());
     option(command, "--picture", options.picture, "FILE",
            "Write a PNG: a frame, its map, and the gaze on the surface");
     option(command, "--plot", options.plot, "FILE",
@@ -84,7 +87,7 @@ void add_show(CLI::App& app, ChosenCommand& chosen) {
         "--order", options.order,
         "The planned order of trials, made again from the recorded protocol and seed; exit code 1 "
         "if that gives another");
-    command.add_flag("--json", options.json, "Print JSON");
+    add_json_flag(command, options.json);
 }
 
 } // namespace

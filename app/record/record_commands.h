@@ -23,6 +23,7 @@ struct ImportOptions {
     std::filesystem::path sessions = "sessions";
     std::string observer; ///< empty: letters and digits of the file's name
     std::optional<int> session_number;
+    bool is_another_person = false; ///< see SessionPlace
     std::string task = "imported";
     std::vector<double> screen_mm; ///< width and height, or empty
     std::optional<double> distance_mm;
@@ -42,7 +43,7 @@ struct VerifyOptions {
 int run_verify(const VerifyOptions& options);
 
 struct ShowOptions {
-    std::filesystem::path session;
+    std::vector<std::filesystem::path> sessions;
     std::optional<int> trial;
     std::filesystem::path picture;
     std::filesystem::path plot; ///< of the presentation's timing, SVG

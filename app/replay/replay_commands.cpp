@@ -11,13 +11,15 @@ void add_replay_commands(CLI::App& app, ChosenCommand& chosen) {
         "overt replay sessions/overt_2019/sub-07_ses-01\n"
         "  overt replay sessions/overt_2019/sub-07_ses-01 --trial 3 --frame 12 --picture frame.png\n"
         "Exit codes: 0 all that was compared is the same, 1 something differs, 2 bad input.");
-    command.add_option("SESSION", options.session, "Folder of a session, or the session file in it")
+    command
+        .add_option("SESSION", options.session,
+                    "Folder of a session, or the session file in it; or a folder that holds a single one")
         ->required();
     option(command, "--files", options.files, "DIR",
            "Folder from which the paths in the protocol start (default: where its file lay, as seen from the "
            "session's folder)");
     CLI::Option* const trial = option(
-        command, "--trial", options.trial, "N",
+        command, "--trial", options.trial, "TRIAL",
         "Instead, draw of this trial, counted from 1, what --picture or --movie asks for", above_zero());
     CLI::Option* const frame = option(
         command, "--frame", options.frame, "K",
@@ -32,7 +34,7 @@ void add_replay_commands(CLI::App& app, ChosenCommand& chosen) {
     movie->needs(trial)->excludes(frame);
     frame->needs(picture);
     command.add_flag("--overwrite", options.overwrite, "Replace a picture or movie that is there");
-    command.add_flag("--json", options.json, "Print JSON");
+    add_json_flag(command, options.json);
     add_context_option(command, options.context);
 }
 

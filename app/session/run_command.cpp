@@ -103,7 +103,7 @@ void open_view(std::optional<OperatorEquipment>& view, const RunOptions& options
         options.operator_socket->empty() ? folder.path / operator_socket_name : *options.operator_socket;
     wished.tell = [](const std::string& sentence) { fmt::print(stderr, "{}\n", sentence); };
     view.emplace(std::move(wished), rig.clock(), rig.tracker(), store, keys);
-    fmt::print("operator's view: overt watch --socket {}\n", view->socket().string());
+    fmt::print("operator's view: overt watch --operator-socket {}\n", view->socket().string());
 }
 
 /// `again`: null for a session that is recorded for the first time.
@@ -120,7 +120,7 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
     }
     const Protocol& protocol = experiment.protocol;
     // What would refuse the session at its end is said before anything is drawn.
-    const SessionPlace place{options.sessions, protocol.name, observer.label};
+    const SessionPlace place{options.sessions, protocol.name, observer.label, options.is_another_person};
     if (options.resume && finish_manifest(options, place))
         return 0;
     const SessionPlan plan = plan_session(options, place, protocol, observer);
@@ -182,6 +182,8 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
     further.join(records);
     const RecordedTracker own_tracker{{}, protocol.tracker, rig.tracker(), folder.path, store};
     box.write_beginning(store);
+    if (!plan.earlier_sessions.empty() && !again)
+        records.event({rig.clock().now(), -1, earlier_sessions_event, plan.earlier_sessions});
     note_circumstances(options, protocol, plan.schedule, rig, records);
     note_tracker(own_tracker, rig.clock());
     for (const std::string& description : markers.descriptions())

@@ -27,6 +27,7 @@ struct RunOptions {
     std::filesystem::path protocol;
     std::string observer;
     std::optional<int> session_number;
+    bool is_another_person = false;     ///< see SessionPlace
     std::optional<ResumePolicy> resume; ///< take up an interrupted session: this one, or the last there is
     std::optional<std::uint64_t> seed;
     std::optional<std::uint64_t> simulate_observer;

@@ -4,6 +4,7 @@
 #include <random>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include "app/inputs/protocol_file.h"
@@ -32,25 +33,47 @@ Schedule new_schedule(const RunOptions& options, const Protocol& protocol, const
     return schedule;
 }
 
-/// A new session may have been meant to go on with the last one.
-void mention_interrupted(const SessionPlace& place) {
-    for (const int number : session_numbers(place)) {
-        try {
-            const std::filesystem::path folder = session_path(place, number);
-            const SessionRecord record(folder);
-            const bool is_imported = record.header().stimuli.empty();
-            if (record.is_complete() || is_imported || observer_declined(record) ||
-                FolderLock(folder, FolderLock::Patience::none).is_refused())
-                continue;
-            fmt::print(
-                stderr,
-                "observer {}: session {} was interrupted, and this is a new one: --resume --session {} "
-                "goes on with that\n",
-                place.observer_label, number, number);
-        } catch (const Error&) {
-            continue; // what cannot be read is nothing to go on with
-        }
+/// What became of a session, in words that follow its number.
+std::string state_of_session(const std::filesystem::path& folder, bool& was_interrupted) {
+    try {
+        const SessionRecord record(folder);
+        if (record.header().stimuli.empty())
+            return "was imported";
+        if (record.is_complete())
+            return "is complete";
+        if (observer_declined(record))
+            return "was declined";
+        if (FolderLock(folder, FolderLock::Patience::none).is_refused())
+            return "is running now";
+        was_interrupted = true;
+        return "was interrupted";
+    } catch (const Error&) {
+        return "cannot be read"; // and is nothing to go on with
     }
+}
+
+/// A further session may have been meant to go on with the last one, or to be another observer's.
+std::string say_earlier_sessions(const SessionPlace& place, std::optional<int> wanted) {
+    std::vector<std::string> states;
+    std::vector<int> interrupted;
+    for (const int number : session_numbers(place)) {
+        bool was_interrupted = false;
+        states.push_back(fmt::format("session {} {}", number,
+                                     state_of_session(session_path(place, number), was_interrupted)));
+        if (was_interrupted)
+            interrupted.push_back(number);
+    }
+    if (states.empty())
+        return {};
+    const int number = wanted.value_or(next_session_number(place));
+    const std::string which =
+        fmt::format("session {} of observer {}; {}", number, place.observer_label, fmt::join(states, ", "));
+    const std::string remedy =
+        interrupted.empty()
+            ? "--resume would go on with an interrupted one, and there is none"
+            : fmt::format("--resume --session {} goes on with that", fmt::join(interrupted, " or "));
+    fmt::print(stderr, "this is {}: {}\n", which, remedy);
+    return which;
 }
 
 /// The faults of --faults, or none. What is wrong with the file is printed, with its places.
@@ -91,7 +114,7 @@ SessionPlan plan_session(const RunOptions& options, const SessionPlace& place, c
         plan.resumed = take_up_session(options, place, protocol);
     else {
         check_session_place(place, options.session_number);
-        mention_interrupted(place);
+        plan.earlier_sessions = say_earlier_sessions(place, options.session_number);
     }
     plan.faults = read_faults_or_report(options.faults);
     // The observer of a resumed session has filled in the form already.

@@ -15,11 +15,13 @@ struct SessionPlan {
     SimulatedFaults faults;
     FieldValues fields; ///< of the observer's form, as far as it is filled in outside of the window
     Schedule schedule;
+    /// Of a new session of an observer who has others: which one it is, and what became of those; else empty.
+    std::string earlier_sessions;
 };
 
-/// Finds the session that is taken up, or sees that a new one has a place; reads the faults; asks for the
-/// observer's form at the terminal if it is to be asked there. Throws InputError, or FindingsPrinted when all
-/// is said.
+/// Finds the session that is taken up, or sees that a new one has a place and says which one it is; reads the
+/// faults; asks for the observer's form at the terminal if it is to be asked there. Throws InputError, or
+/// FindingsPrinted when all is said.
 SessionPlan plan_session(const RunOptions& options, const SessionPlace& place, const Protocol& protocol,
                          const Observer& observer);
 

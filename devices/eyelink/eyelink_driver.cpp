@@ -184,6 +184,8 @@ SetupOutcome EyelinkDriver::set_up(SetupScreen& setup_screen) {
     const std::int16_t result = library_->eyelink_cal_result();
     outcome.message = sentence_of_calibration();
     outcome.validation = eyelink_validation(outcome.message);
+    if (const std::optional<int> targets = eyelink_targets(outcome.message))
+        outcome.method = fmt::format("tracker, {} points", *targets);
     if (setup_screen.is_cancelled() || result == aborted_by_escape) {
         outcome.kind = SetupOutcome::Kind::cancelled;
     } else if (result == 1) {

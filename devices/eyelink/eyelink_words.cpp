@@ -164,6 +164,11 @@ std::optional<ValidationResult> eyelink_validation(std::string_view sentence) {
     return ValidationResult{{*mean}, {*max}};
 }
 
+std::optional<int> eyelink_targets(std::string_view sentence) {
+    const auto targets = number_after(sentence, " HV");
+    return targets && *targets >= 1.0 ? std::optional(static_cast<int>(*targets)) : std::nullopt;
+}
+
 std::optional<Degrees> eyelink_drift(std::string_view sentence) {
     const auto offset = number_after(sentence, "OFFSET");
     if (!offset || *offset < 0.0)

@@ -70,6 +70,9 @@ std::string_view eyelink_message(std::string_view text, SessionDuration age, std
 /// From the tracker's sentence on a validation, such as "… ERROR 0.45 avg. 0.76 max OFFSET 0.02 deg. …".
 std::optional<ValidationResult> eyelink_validation(std::string_view sentence);
 
+/// How many targets its calibration had, from the same: 9 of "VALIDATION HV9 …".
+std::optional<int> eyelink_targets(std::string_view sentence);
+
 /// Degrees from the tracker's sentence on a check of drift, "… OFFSET 0.35 deg. 11.4,-4.5 pix.".
 std::optional<Degrees> eyelink_drift(std::string_view sentence);
 

@@ -8,6 +8,8 @@
 namespace overt {
 
 // Steps of a session that have no rows of their own; each change of phase is a phase_event (session_phase.h).
+/// Which session of this observer begins, and what became of those before. Not in one that is run again.
+inline constexpr std::string_view earlier_sessions_event = "earlier sessions";
 inline constexpr std::string_view text_shown_event = "text shown"; ///< to the observer; which
 inline constexpr std::string_view practice_event = "practice";     ///< begins: number and condition
 inline constexpr std::string_view practice_answered_event = "practice answered";
@@ -63,7 +65,8 @@ inline constexpr std::string_view display_box_event = "display box";
 inline constexpr std::string_view display_box_lost_event = "display box lost";
 inline constexpr std::string_view display_box_left_event = "display box left";
 inline constexpr std::string_view display_fault_event = "display fault"; ///< a simulated one that struck
-/// The text of the faults that a display was made to have.
+/// The text of the faults that a display was made to have, and an eye tracker.
 inline constexpr std::string_view simulated_faults_event = "simulated display faults";
+inline constexpr std::string_view simulated_tracker_faults_event = "simulated eye tracker faults";
 
 } // namespace overt

@@ -5,12 +5,15 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <set>
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include "experiment/base/error.h"
+#include "experiment/observer_label.h"
 #include "experiment/record/session_schema.h"
 
 namespace fs = std::filesystem;
@@ -90,6 +93,37 @@ void remove_remnants(const SessionPlace& place, std::optional<int> wanted) {
     }
 }
 
+/// Of this protocol, with a session that is there.
+std::set<std::string> observers_alike(const SessionPlace& place) {
+    constexpr std::string_view begin = "sub-", middle = "_ses-";
+    std::set<std::string> labels;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(place.root / place.protocol_name, none)) {
+        const std::string name = entry.path().filename().string();
+        const std::size_t end = name.find(middle);
+        if (!name.starts_with(begin) || end == std::string::npos)
+            continue;
+        const std::string label = name.substr(begin.size(), end - begin.size());
+        if (are_alike(label, place.observer_label))
+            labels.insert(label);
+    }
+    return labels;
+}
+
+/// An observer who has sessions already keeps them, whoever else has come since.
+void refuse_likely_same_person(const SessionPlace& place) {
+    if (place.is_another_person || !session_numbers(place).empty())
+        return;
+    const std::set<std::string> labels = observers_alike(place);
+    if (!labels.empty())
+        throw InputError(fmt::format(
+            "Observer {0}: {1} has sessions of observer {2}, and the two labels differ in case or leading "
+            "zeros only, so that one person would be counted as two. If this is the same person, give "
+            "--observer {3}; if it is not, give --another-person.",
+            place.observer_label, (place.root / place.protocol_name).string(), fmt::join(labels, ", "),
+            *labels.begin()));
+}
+
 } // namespace
 
 void check_observer_label(const std::string& label) {
@@ -120,6 +154,7 @@ void check_session_place(const SessionPlace& place, std::optional<int> session_n
         throw InputError(fmt::format("{}: sessions cannot be put there: {}. Name another folder with "
                                      "--sessions, or change its permissions.",
                                      folder.string(), std::strerror(errno)));
+    refuse_likely_same_person(place);
 }
 
 fs::path session_path(const SessionPlace& place, int session_number) {

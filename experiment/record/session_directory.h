@@ -16,6 +16,8 @@ struct SessionPlace {
     std::filesystem::path root; ///< folder of all sessions; made if it is not there
     std::string protocol_name;  ///< letters, digits, "_", "-" and ".", not beginning with "."
     std::string observer_label; ///< letters and digits only, as BIDS wants it
+    /// Not the one whose label differs from this in case or leading zeros only.
+    bool is_another_person = false;
 };
 
 /// Directory of one session, whether or not it exists. Throws InputError if a name cannot be a directory's.
@@ -25,7 +27,9 @@ std::filesystem::path session_path(const SessionPlace& place, int session_number
 void check_observer_label(const std::string& label);
 
 /// Finds out whether a session can be put there, without making anything. Throws InputError if a name cannot
-/// be a directory's, if a number is asked for that exists, or if nothing can be written there.
+/// be a directory's, if a number is asked for that exists, if nothing can be written there, or if the
+/// protocol has sessions of an observer whose label differs in case or leading zeros only (observer_label.h),
+/// who is not said to be another person.
 void check_session_place(const SessionPlace& place, std::optional<int> session_number);
 
 /// One more than the highest number that this observer has in this protocol, from 1; sessions that other

@@ -5,7 +5,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -25,6 +24,7 @@
 #include "experiment/study/methods/methods_text.h"
 #include "experiment/study/methods/reporting.h"
 #include "experiment/study/point_distributions.h"
+#include "experiment/study/results/study_observers.h"
 #include "experiment/study/study_maps.h"
 #include "experiment/study/study_pairs.h"
 
@@ -34,22 +34,24 @@ namespace {
 
 void glance_at(StudyResults& results, const ExclusionRules& rules) {
     StudyGlance& glance = results.glance;
-    std::set<std::string> observers;
     std::vector<std::string> protocols;
     for (const StudySession& session : results.sessions) {
-        observers.insert(session.observer);
         if (std::find(protocols.begin(), protocols.end(), session.protocol) == protocols.end())
             protocols.push_back(session.protocol);
         glance.any_simulated |= session.is_simulated();
     }
     glance.title = fmt::format("{}", fmt::join(protocols, "; "));
-    glance.observers = static_cast<int>(observers.size());
+    results.observers = study_observers(results);
+    glance.observers = static_cast<int>(std::ranges::count_if(results.observers, &StudyObserver::counts));
     glance.sessions = static_cast<int>(results.sessions.size());
     glance.trials = static_cast<int>(results.trials.size());
     std::map<ExclusionRule, int> excluded_by;
     for (const StudyTrial& trial : results.trials) {
         glance.excluded_trials += trial.excluded;
-        if (const std::optional<ExclusionRule> rule = broken_rule(trial.quality, rules))
+        const std::optional<ExclusionRule> rule = broken_rule(trial.quality, rules);
+        if (!trial.has_gaze)
+            ++glance.without_gaze;
+        else if (rule)
             ++excluded_by[*rule];
     }
     glance.excluded_by.assign(excluded_by.begin(), excluded_by.end());
@@ -72,6 +74,8 @@ void glance_at(StudyResults& results, const ExclusionRules& rules) {
             "The sessions are of {} protocols: {}. Groups with the same words are pooled; a sculpture "
             "with another mesh or camera is one of its own.",
             protocols.size(), fmt::join(protocols, "; ")));
+    for (std::string& remark : remarks_on_observers(results.observers))
+        remarks.push_back(std::move(remark));
     if (glance.observers < 3)
         remarks.push_back(fmt::format("There {} only {}: intervals over observers need three.",
                                       glance.observers == 1 ? "is" : "are",

@@ -20,6 +20,7 @@
 #include "experiment/record/asc/asc_words.h"
 #include "experiment/record/asc/recording_date.h"
 #include "experiment/record/read/recorded_validation.h"
+#include "experiment/record/read/tracker_facts.h"
 #include "experiment/record/tables/sample_rows.h"
 
 namespace fs = std::filesystem;
@@ -78,7 +79,7 @@ void write_header(AscWriter& writer, const SessionRecord& record, int sitting) {
         writer.line("** VERSION: EYELINK II 1");
         writer.line("** SOURCE: EYELINK CL");
         writer.line("** EYELINK II CL v4.56 Aug 18 2010");
-        writer.line("** REMARK: overt recorded this with the tracker: " + ascii_of(header.tracker.name));
+        writer.line(std::string(own_tracker_remark) + ascii_of(header.tracker.name));
         writer.line("** REMARK: VERSION and the line that begins with EYELINK are there for readers of "
                     "EyeLink files");
         if (const std::string origin = record.event_origins(); !origin.empty())
@@ -121,6 +122,7 @@ class SittingExport {
     bool is_imported_;
     AscWriter& writer_;
     AscRecordings recordings_;
+    std::optional<TrackerTime> last_; ///< line of the attempt before, of a session recorded here
 };
 
 void SittingExport::write_beginning(std::int64_t ms) {
@@ -181,7 +183,9 @@ void SittingExport::write_validation(const RecordedCalibration& calibration, Eye
     const char* const word = eye == Eye::left ? "LEFT" : "RIGHT";
     const std::size_t count = found.targets.size();
     writer_.message(at, "!CAL ");
-    writer_.line(fmt::format(">>>>>>> CALIBRATION (HV{},{}) FOR {}: <<<<<<<<<", count,
+    // 0: how many targets the calibration had is not known. It may have had others than the validation.
+    writer_.line(fmt::format(">>>>>>> CALIBRATION (HV{},{}) FOR {}: <<<<<<<<<",
+                             calibration_points(calibration.method).value_or(0),
                              ascii_of(record_.header().tracker.name), word));
     writer_.message(at, fmt::format("!CAL VALIDATION HV{} {} {}  ERROR {:.2f} avg. {:.2f} max", count, letter,
                                     word, found.mean_error.value, found.max_error.value));
@@ -224,7 +228,8 @@ void SittingExport::write(AscTrial& lines, const ReadSamples& read, AscExportCou
 }
 
 void SittingExport::write_trial(const TrialRecord& trial, AscExportCounts& counts) {
-    AscTrial lines(record_, trial, clock_map_, writer_.layout(), messages_);
+    AscTrial lines(record_, trial, clock_map_, writer_.layout(), messages_, last_);
+    last_ = lines.last();
     write(
         lines, [&](std::size_t most, const auto& take) { record_.read_samples(trial, most, take); }, counts);
     ++counts.trials;

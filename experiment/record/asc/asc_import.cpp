@@ -38,8 +38,10 @@ SessionHeader header_of(const AscFiles& files, const AscSurvey& survey, const As
         header.schedule.trials.push_back({trial, 0, {0, 0}, 0});
     header.started_utc = iso_date(header_line(survey, "** DATE: ")).value_or(options.now_utc);
     header.program = options.program;
-    const std::string model = header_line(survey, "** EYELINK II ");
-    header.tracker.name = model.empty() ? "EyeLink" : "EyeLink " + model;
+    // An export of a session of ours names the tracker that was there, beside what readers want to find.
+    const std::string model = header_line(survey, "** EYELINK II "),
+                      own = header_line(survey, own_tracker_remark);
+    header.tracker.name = !own.empty() ? own : model.empty() ? "EyeLink" : "EyeLink " + model;
     header.tracker.sample_rate_hz = survey.rate_hz;
     header.tracker.eye = survey.has_left ? Eye::left : Eye::right;
     header.tracker.both_eyes = survey.has_left && survey.has_right;

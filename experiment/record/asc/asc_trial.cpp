@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/base/utf8_text.h"
 #include "experiment/record/asc/asc_survey.h"
 #include "experiment/record/asc/asc_words.h"
 #include "experiment/record/preview_file.h"
@@ -59,6 +60,10 @@ bool AscTrial::has(std::string_view word) const {
     return std::any_of(lines_.begin(), lines_.end(), [&](const Line& line) {
         return line.event.kind == Kind::message && Words(line.event.text).next() == word;
     });
+}
+
+std::optional<TrackerTime> AscTrial::last() const {
+    return lines_.empty() ? std::nullopt : std::optional(rounded(latest(lines_.front().at)));
 }
 
 /// No line stands among samples that are later than a line after it: the file's order is kept.
@@ -147,6 +152,16 @@ void AscTrial::insert_detected(std::vector<GazeEvent> events) {
         insert(line_of(event));
 }
 
+/// What the program took down of a tracker besides, such as a loss of data: as messages, for a line without a
+/// time is none of this format.
+void AscTrial::insert_told(std::vector<GazeEvent> events) {
+    for (GazeEvent& event : events) {
+        if (event.kind == Kind::note)
+            event.kind = Kind::message;
+        insert(line_of(std::move(event)));
+    }
+}
+
 std::vector<std::pair<std::string_view, SessionTime>> screens_of(const TrialRecord& attempt) {
     const TrialOutcome& outcome = attempt.outcome;
     std::vector<std::pair<std::string_view, SessionTime>> screens{
@@ -190,11 +205,36 @@ std::string answer_text(const TrialRecord& trial) {
                        outcome.answer.empty() ? "" : " answer=" + outcome.answer);
 }
 
+/// When the attempt after this one begins, of the same sitting.
+std::optional<SessionTime> next_begin(const SessionRecord& record, const TrialRecord& trial) {
+    std::optional<SessionTime> begin;
+    for (const TrialRecord& other : record.trials())
+        if (other.sitting == trial.sitting && other.id > trial.id && (!begin || other.started < *begin))
+            begin = other.started;
+    return begin;
+}
+
+/// How an attempt ended, and what was answered, for a reader who has a row for each attempt.
+std::vector<std::pair<std::string_view, std::string>> outcomes_of(const TrialRecord& trial) {
+    std::vector<std::pair<std::string_view, std::string>> outcomes{
+        {"attempt", fmt::format("{}", trial.attempt)},
+        {"status", std::string(name_of(trial.status))},
+        {"counts", trial.counts ? "yes" : "no"}};
+    const TrialOutcome& outcome = trial.outcome;
+    if (trial.reached(outcome.responded_at) && trial.reached(outcome.response_screen_onset))
+        outcomes.emplace_back(
+            "response_time_ms",
+            fmt::format("{:.3f}", 1e3 * to_seconds(outcome.responded_at - outcome.response_screen_onset)));
+    if (!outcome.answer.empty())
+        outcomes.emplace_back("answer", outcome.answer);
+    return outcomes;
+}
+
 } // namespace
 
 /// A trial that the session recorded itself.
 void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
-                          const std::optional<ClockMap>& clock_map) {
+                          const std::optional<ClockMap>& clock_map, std::optional<TrackerTime> after) {
     const auto span = record.sample_span(trial);
     if (!clock_map && !span)
         return; // nothing says when it was
@@ -211,6 +251,11 @@ void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
         if (const std::string answer = answer_text(trial); !answer.empty())
             add(span->second, answer);
     }
+    // Of response boxes there are lines BUTTON.
+    if (clock_map)
+        for (const RecordedKeyPress& press : record.key_presses())
+            if (press.attempt_id == trial.id && !is_of_box(press))
+                add(at(press.at), "KEY " + press.name);
     if (clock_map)
         for (const RecordedButton& button : record.button_changes())
             if (button.attempt_id == trial.id) {
@@ -225,8 +270,11 @@ void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
 
     // Before START what came before the first sample, and within START and END all the rest, even what came
     // when the tracker had stopped, for readers leave out what stands outside.
-    std::vector<Line> before{message_at(clock_map ? std::min(at(trial.started), first) : first,
-                                        fmt::format("TRIALID {}", trial.trial.index + 1))};
+    constexpr auto step = std::chrono::milliseconds(1);
+    TrackerTime begin = clock_map ? std::min(at(trial.started), first) : first;
+    if (after && rounded(begin) <= *after)
+        begin = *after + step;
+    std::vector<Line> before{message_at(begin, fmt::format("TRIALID {}", trial.trial.index + 1))};
     std::vector<Line> within;
     for (Line& line : lines_)
         (span && line.place.at >= rounded(first) ? within : before).push_back(std::move(line));
@@ -257,7 +305,11 @@ void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
                                              TrackerClock::duration(interval_us));
         lines_.push_back(line_of(std::move(end)));
     }
-    add(latest(first) + std::chrono::milliseconds(1), result_text(trial));
+    // Before the next attempt begins, if that leaves time.
+    TrackerTime result = latest(first) + step;
+    if (const auto next = clock_map ? next_begin(record, trial) : std::nullopt)
+        result = std::min(result, std::max(latest(first), at(*next) - step));
+    add(result, result_text(trial));
     settle_places();
 }
 
@@ -310,19 +362,30 @@ void AscTrial::frame_for_opensesame(const SessionRecord& record, const TrialReco
         if (found != lines_.end())
             lines_.insert(found + 1, message_at(found->at, phase));
     }
-    lines_.push_back(message_at(latest(begin), "end_trial"));
+    const TrackerTime end = latest(begin);
+    if (!record.header().stimuli.empty())
+        for (const auto& [name, value] : outcomes_of(trial))
+            lines_.push_back(message_at(end, fmt::format("var {} {}", name, value)));
+    lines_.push_back(message_at(end, "end_trial"));
     settle_places();
 }
 
 AscTrial::AscTrial(const SessionRecord& record, const TrialRecord& trial,
-                   const std::optional<ClockMap>& clock_map, const AscLayout& layout, Messages messages)
+                   const std::optional<ClockMap>& clock_map, const AscLayout& layout, Messages messages,
+                   std::optional<TrackerTime> after)
     : layout_(layout) {
     if (record.gaze_source(trial.sitting)) {
         keep(events_of(record, trial), record.event_origin(trial.sitting));
         add_missing(record, trial, clock_map);
     } else {
-        write_down(record, trial, clock_map);
-        insert_detected(events_of(record, trial));
+        write_down(record, trial, clock_map, after);
+        std::vector<GazeEvent> told = events_of(record, trial), detected;
+        const auto of_eye = std::stable_partition(
+            told.begin(), told.end(), [](const GazeEvent& event) { return !is_eye_event(event.kind); });
+        detected.assign(of_eye, told.end());
+        told.erase(of_eye, told.end());
+        insert_told(std::move(told));
+        insert_detected(std::move(detected));
     }
     if (messages.of_opensesame)
         frame_for_opensesame(record, trial);

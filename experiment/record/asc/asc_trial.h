@@ -21,9 +21,11 @@ class AscTrial {
     struct Messages {
         bool of_opensesame = false; ///< start_trial, end_trial, phases and variables, too
     };
-    /// `clock_map`: of the trial's sitting; without one its screens have no times. Throws RecordError.
+    /// `clock_map`: of the trial's sitting; without one its screens have no times. `after`: the last line of
+    /// the attempt before it, than which its TRIALID is later, so that no order by times mixes them. Throws
+    /// RecordError.
     AscTrial(const SessionRecord& record, const TrialRecord& trial, const std::optional<ClockMap>& clock_map,
-             const AscLayout& layout, Messages messages);
+             const AscLayout& layout, Messages messages, std::optional<TrackerTime> after);
 
     /// The tracker's own lines outside of trials, in their order; `origin`: of the fixations, saccades and
     /// blinks among them.
@@ -34,6 +36,8 @@ class AscTrial {
     void write_until(AscRecordings& to, std::span<const GazeSample> instant);
     /// Writes the rest.
     void finish(AscRecordings& to);
+    /// The latest time of its lines, as it is written; nothing without any.
+    std::optional<TrackerTime> last() const;
 
   private:
     /// Where a line stands among samples.
@@ -59,7 +63,8 @@ class AscTrial {
     void add_missing(const SessionRecord& record, const TrialRecord& trial,
                      const std::optional<ClockMap>& clock_map);
     void write_down(const SessionRecord& record, const TrialRecord& trial,
-                    const std::optional<ClockMap>& clock_map);
+                    const std::optional<ClockMap>& clock_map, std::optional<TrackerTime> after);
+    void insert_told(std::vector<GazeEvent> events);
     void frame_for_opensesame(const SessionRecord& record, const TrialRecord& trial);
     bool has(std::string_view word) const;
     /// The latest time of the lines, or this if they are earlier.
@@ -76,6 +81,8 @@ inline constexpr std::string_view task_screen_message = "TASK_SCREEN_ONSET",
                                   onset_message = "PRESENTATION_ONSET", end_message = "PRESENTATION_OFFSET",
                                   response_screen_message = "RESPONSE_SCREEN_ONSET",
                                   response_message = "RESPONSE";
+/// In the header of a session's own export, before the name of the tracker that was there.
+inline constexpr std::string_view own_tracker_remark = "** REMARK: overt recorded this with the tracker: ";
 /// In exports of earlier programs. Readers that look for END anywhere in a line took it for a recording's.
 inline constexpr std::string_view earlier_end_message = "PRESENTATION_END";
 

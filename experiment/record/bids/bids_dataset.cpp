@@ -62,26 +62,29 @@ void write_if_missing(const fs::path& file, const std::string& text) {
         write_text_file(file, text);
 }
 
+/// Sessions of all kinds may join the dataset later: it says of each kind what it has.
 constexpr const char* readme =
-    "# Eye tracking on animated sculptures\n\n"
-    "Written by overt in the layout of BIDS with eye tracking. Each sitting of a "
-    "session is a run. Gaze is raw, as the\n"
-    "tracker gave it, in pixels and in the time of the tracker's own clock "
-    "(`timestamp`). `onset` of the\n"
-    "events is by the clock of the session, from the first gaze sample of the run: "
-    "the two clocks run apart, by\n"
-    "milliseconds in some minutes. `tracker_onset` gives the same instant by the "
+    "# Eye tracking\n\n"
+    "Put into the layout of BIDS with eye tracking by overt. Each sitting of a session is a run. Gaze is "
+    "raw, "
+    "as the tracker gave it, in pixels and in\n"
+    "the time of the tracker's own clock (`timestamp`). `onset` of the events is by the clock of the "
+    "session, "
+    "from the first gaze sample of the run:\n"
+    "the two clocks run apart, by milliseconds in some minutes. `tracker_onset` gives the same instant by "
+    "the "
     "tracker's clock, to go with `timestamp`.\n"
-    "Where each sample was on the surface of the sculpture stands in "
-    "`derivatives/overt`, row by row as the samples.\n"
-    "In texts, tab, newline, carriage return and backslash are written as \\t, "
-    "\\n, \\r and \\\\.\n";
+    "Of recordings that were made with other programs, and imported, the session's clock is the tracker's, "
+    "and there is what the recording says.\n"
+    "Of sessions whose stimuli overt showed, `derivatives/overt` has where each sample was on the surface of "
+    "the object, row by row as the samples.\n"
+    "In texts, tab, newline, carriage return and backslash are written as \\t, \\n, \\r and \\\\.\n";
 
 constexpr const char* derivative_readme =
     "# Places on the surface\n\n"
     "For each row of a recording the time by the session's clock with a bound on its error, the animation "
     "frame that\n"
-    "was lit at the gaze's row at that time, and the place on the sculpture that it showed there.\n";
+    "was lit at the gaze's row at that time, and the place on the object that it showed there.\n";
 
 /// Files of the session and task, in the dataset and its derivative.
 std::vector<fs::path> files_of(const fs::path& dataset, const BidsNames& names) {
@@ -131,7 +134,7 @@ void check_bids_dataset(const fs::path& dataset, const BidsNames& names, bool ov
 void describe_bids_dataset(const fs::path& dataset, const SessionHeader& header) {
     std::string title = said_of(header, "name");
     if (title.empty())
-        title = header.protocol.title.empty() ? header.protocol.name : header.protocol.title;
+        title = bids_task_name(header);
     std::string doi = said_of(header, "doi");
     if (doi.starts_with("10."))
         doi = "doi:" + doi;

@@ -73,15 +73,15 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
               "",
               {{"trial", "an attempt at a trial, from its begin to the answer"},
                {"question", "the screen with the question"},
-               {"presentation", "the animated stimulus"},
+               {"presentation", "the stimulus"},
                {"response", "the screen during the answer"},
                {"button", "a button of a response box was pressed"},
+               {"key", "a key of a keyboard was pressed"},
                {"marker", "another device was told of an event"}}},
              &BidsEvent::what},
             {{"response_time", "From the onset of the response screen to the end of the answer", "s"},
              &BidsEvent::response_time},
-            {{"stim_file", "First frame of the animated stimulus, in the folder stimuli"},
-             &BidsEvent::stimulus_file},
+            {{"stim_file", "First frame of the stimulus, in the folder stimuli"}, &BidsEvent::stimulus_file},
             {{"tracker_onset",
               "Begin of the event by the tracker's own clock, as the timestamps of the samples; by the line "
               "through the readings of both clocks. The two clocks run apart: onsets are by the session's",
@@ -123,9 +123,10 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
               "Refreshes of the display that went by with an old picture; n/a also where timing is unproven"},
              of_ended(missed_refreshes_of(header))},
             {{"drift_deg", "Gaze error at the drift check", "deg"}, of_ended(attempt_drift)},
-            {{"value", "Of a button, its name; of a marker, its code, or its text where it has none"},
+            {{"value",
+              "Of a button or a key, its name; of a marker, its code, or its text where it has none"},
              [](auto& row) { return when(!row.device.empty(), row.value); }},
-            {{"device", "The response box, or the output of markers, as the protocol calls it"},
+            {{"device", "The response box, or the output of markers, as the protocol calls it; or keyboard"},
              &BidsEvent::device},
             {{"answer", "The answer, where it was taken down"},
              of_ended([](auto& attempt) { return attempt.outcome.answer; })},
@@ -177,9 +178,18 @@ void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTim
     }
 }
 
-/// Presses of buttons in an attempt, and markers of it that were sent.
+/// Presses of buttons and keys in an attempt, and markers of it that were sent.
 void add_devices(std::vector<BidsEvent>& to, const TrialRecord& trial,
-                 const std::vector<RecordedButton>& buttons, const std::vector<RecordedMarker>& markers) {
+                 const std::vector<RecordedButton>& buttons, const std::vector<RecordedKeyPress>& presses,
+                 const std::vector<RecordedMarker>& markers) {
+    for (const RecordedKeyPress& press : presses)
+        if (press.attempt_id == trial.id && !is_of_box(press))
+            to.push_back({.attempt = &trial,
+                          .what = "key",
+                          .from = press.at,
+                          .to = press.at,
+                          .value = press.name,
+                          .device = press.device});
     for (const RecordedButton& button : buttons)
         if (button.attempt_id == trial.id && button.is_down)
             to.push_back({.attempt = &trial,
@@ -212,9 +222,12 @@ Json screen_of(const SessionRecord& record) {
     Json json{{"ScreenDistance", metres(screen.viewing_distance_mm)},
               {"ScreenOrigin", {"top", "left"}},
               {"ScreenResolution", {screen.screen_px.x, screen.screen_px.y}},
-              {"ScreenSize", {metres(screen.screen_mm.x), metres(screen.screen_mm.y)}},
-              {"SoftwareName", "overt"},
-              {"SoftwareVersion", record.header().program.version}};
+              {"ScreenSize", {metres(screen.screen_mm.x), metres(screen.screen_mm.y)}}};
+    // By which the stimuli were shown: nobody knows of a recording made elsewhere.
+    if (!was_recorded_elsewhere(record.header())) {
+        json["SoftwareName"] = "overt";
+        json["SoftwareVersion"] = record.header().program.version;
+    }
     if (display.refresh_hz > 0.0)
         json["ScreenRefreshRate"] = display.refresh_hz;
     return json;
@@ -232,12 +245,13 @@ void write_bids_events(const SessionRecord& record, int run, std::optional<Sessi
                        TableWriter::Header::names);
     std::vector<BidsEvent> events;
     const std::vector<RecordedButton> buttons = record.button_changes();
+    const std::vector<RecordedKeyPress> presses = record.key_presses();
     const std::vector<RecordedMarker> markers = record.markers();
     for (const TrialRecord& trial : record.trials()) {
         if (trial.sitting != run)
             continue;
         add_events(events, trial, end_of(record, trial, clock_map), stimulus_file);
-        add_devices(events, trial, buttons, markers);
+        add_devices(events, trial, buttons, presses, markers);
     }
     std::stable_sort(events.begin(), events.end(),
                      [](const BidsEvent& a, const BidsEvent& b) { return a.from < b.from; });
@@ -250,9 +264,14 @@ void write_bids_events(const SessionRecord& record, int run, std::optional<Sessi
         questions += (questions.empty() ? "" : "\n") + plain_line_of(task.question);
     Json json;
     json["TaskName"] = bids_task_name(header);
-    json["TaskDescription"] = "Questions about animated sculptures, each asked before its presentation and "
-                              "answered after it";
-    json["Instructions"] = questions.empty() ? "none" : questions;
+    if (was_recorded_elsewhere(header)) {
+        json["TaskDescription"] = "Not known: the recording was made with another program, and imported";
+        json["Instructions"] = "n/a";
+    } else {
+        json["TaskDescription"] = "Animated objects are looked at; what is asked of each is asked before its "
+                                  "presentation and answered after it";
+        json["Instructions"] = questions.empty() ? "none" : questions;
+    }
     constexpr std::pair<std::string_view, const char*> institution[] = {
         {"institution_name", "InstitutionName"},
         {"institution_address", "InstitutionAddress"},

@@ -12,7 +12,7 @@
 #include "experiment/record/bids/bids_tracker.h"
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/record/tables/joined_cells.h"
-#include "experiment/record/tables/pupil_words.h"
+#include "experiment/record/read/tracker_facts.h"
 #include "experiment/record/tables/sample_rows.h"
 
 namespace fs = std::filesystem;
@@ -34,10 +34,13 @@ JoinedColumns first_columns() {
     };
 }
 
-RowLayout<JoinedRow> physio_layout(const std::string& pupil) {
+/// BIDS has one name for it, and wants the words area or diameter.
+RowLayout<JoinedRow> physio_layout(const PupilWords& words) {
     RowLayout<JoinedRow> layout("", "", first_columns());
     layout.add<JoinedRow>({
-        {{"pupil_size", pupil + ", in the tracker's own unit", "arbitrary"}, pupil_size},
+        {{"pupil_size", words.meaning + (words.unit == "mm" ? "" : ", in the tracker's own unit"),
+          words.unit == "mm" ? "mm" : "arbitrary"},
+         pupil_size},
     });
     return layout;
 }
@@ -52,7 +55,7 @@ RowLayout<JoinedRow> surface_layout(const SessionHeader& header) {
 /// The files of one eye.
 class EyeFiles {
   public:
-    EyeFiles(const SessionRecord& record, Eye eye, int number, int run, const std::string& pupil,
+    EyeFiles(const SessionRecord& record, Eye eye, int number, int run, const PupilWords& pupil,
              const fs::path& raw, const fs::path& derived)
         : record_(record), eye_(eye), stem_(BidsNames(record.header()).eye_stem(run, number)),
           surface_stem_(BidsNames(record.header()).surface_stem(run, number)), raw_(raw), derived_(derived),
@@ -142,7 +145,7 @@ std::optional<SessionTime> bids_zero(const SessionRecord& record, int run) {
 BidsGazeCounts write_bids_gaze(const SessionRecord& record, int run, const LookupFor& lookup_for,
                                const fs::path& raw, const fs::path& derived) {
     const SessionRecord::Eyes eyes = record.eyes(run);
-    const std::string pupil = pupil_words(record);
+    const PupilWords pupil = pupil_words(record, run);
     std::vector<std::unique_ptr<EyeFiles>> files;
     for (const Eye eye : {Eye::left, Eye::right})
         if (eye == Eye::left ? eyes.left : eyes.right)

@@ -10,6 +10,7 @@
 #include "experiment/record/asc/asc_trial.h"
 #include "experiment/record/bids/bids_names.h"
 #include "experiment/record/tables/export_tables.h"
+#include "experiment/record/read/tracker_facts.h"
 #include "experiment/record/tables/gaze_event_rows.h"
 #include "experiment/record/tables/joined_cells.h"
 #include "experiment/record/tables/table_writer.h"
@@ -39,7 +40,7 @@ std::string message_of(const GazeEvent& event) {
     }
 }
 
-RowLayout<PhysioEvent> physio_events_layout() {
+RowLayout<PhysioEvent> physio_events_layout(const PupilWords& pupil) {
     RowLayout<PhysioEvent> layout{
         "",
         "",
@@ -64,7 +65,8 @@ RowLayout<PhysioEvent> physio_events_layout() {
             {{"message", "Text sent to the tracker or by it; BUTTON and INPUT are its own ports"},
              [](auto& row) { return when(!row.is_of_eye, message_of(row.event)); }},
         }};
-    layout.add<TrackerEventRow>(event_value_columns("pixel", "arbitrary"));
+    layout.add<TrackerEventRow>(
+        event_value_columns("pixel", pupil.unit == "mm" ? "mm" : "arbitrary", pupil.meaning));
     return layout;
 }
 
@@ -110,7 +112,7 @@ void write_events(TableWriter& to, const RowLayout<PhysioEvent>& layout, std::ve
 
 void write_bids_gaze_events(const SessionRecord& record, int run, Eye eye,
                             const std::filesystem::path& stem) {
-    const RowLayout<PhysioEvent> layout = physio_events_layout();
+    const RowLayout<PhysioEvent> layout = physio_events_layout(pupil_words(record, run));
     TableWriter writer(stem.string() + ".tsv.gz", layout.table(), TableFormat::tsv, Packing::gzip,
                        TableWriter::Header::none);
     const bool is_imported = record.gaze_source(run).has_value();

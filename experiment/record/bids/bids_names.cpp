@@ -6,8 +6,11 @@
 
 namespace overt {
 
+bool was_recorded_elsewhere(const SessionHeader& header) { return header.stimuli.empty(); }
+
 std::string bids_task_name(const SessionHeader& header) {
-    return header.protocol.title.empty() ? header.protocol.name : header.protocol.title;
+    return header.protocol.title.empty() || was_recorded_elsewhere(header) ? header.protocol.name
+                                                                           : header.protocol.title;
 }
 
 BidsNames::BidsNames(const SessionHeader& header)

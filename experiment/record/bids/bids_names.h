@@ -11,7 +11,11 @@ namespace overt {
 
 inline constexpr std::string_view bids_version = "1.11.1";
 
-/// What was done, in words.
+/// Whether a session is nothing but a recording made elsewhere: the program showed nothing in it.
+bool was_recorded_elsewhere(const SessionHeader& header);
+
+/// What was done, in words: the protocol's title. Of an imported recording, whose title says which file it
+/// was, the task that it was imported as.
 std::string bids_task_name(const SessionHeader& header);
 
 /// One sitting of a session: a run, for the tracker's clock may have begun anew with it.

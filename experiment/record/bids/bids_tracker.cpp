@@ -1,5 +1,6 @@
 #include "experiment/record/bids/bids_tracker.h"
 
+#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "experiment/record/asc/asc_words.h"
 #include "experiment/record/bids/bids_names.h"
 #include "experiment/record/read/recorded_validation.h"
+#include "experiment/record/read/tracker_facts.h"
 
 namespace overt {
 namespace {
@@ -16,8 +18,9 @@ namespace {
 struct Calibrations {
     int count = 0;
     std::optional<ValidationResult> validation; ///< the last
-    std::string type;                           ///< such as HV9
-    std::vector<ScreenPoint> targets;           ///< of the last validation
+    std::string type;                           ///< of the last calibration, such as HV9; empty: not known
+    std::string method;                 ///< of tracking, as an imported recording has it; empty: not known
+    std::vector<ScreenPoint> validated; ///< targets of the last validation, which may be others
 };
 
 /// The number before a word: 0.31 of "ERROR 0.31 avg.".
@@ -30,25 +33,43 @@ std::optional<double> number_before(std::string_view text, std::string_view word
     return blank == std::string_view::npos ? std::nullopt : number_of(text.substr(blank + 1, last - blank));
 }
 
-/// ">>>>>>> CALIBRATION (HV9,P-CR) FOR LEFT: <<<<<<<<<" and
+/// Of "(HV9,P-CR)" in ">>>>>>> CALIBRATION (HV9,P-CR) FOR LEFT: <<<<<<<<<".
+void take_calibration(Calibrations& calibrations, std::string_view text) {
+    const std::size_t begin = text.find('(') + 1, end = text.find(')', begin);
+    const std::string_view inside = text.substr(begin, std::min(end, text.size()) - begin);
+    const std::string_view type = inside.substr(0, inside.find(','));
+    // HV0: a program before this one wrote it of a calibration whose targets it did not know.
+    calibrations.type = type == "HV0" ? "" : type;
+}
+
+/// The word by which the tracker says whether it takes the reflection on the cornea into account.
+std::string_view method_called(std::string_view word) {
+    return word == "CR" || word == "P-CR" ? "P-CR" : word == "P" ? "pupil alone" : "";
+}
+
+/// ">>>>>>> CALIBRATION (HV9,P-CR) FOR LEFT: <<<<<<<<<", "RECCFG CR 1000 2 1 L" and
 /// "!CAL VALIDATION HV9 L LEFT  GOOD ERROR 0.31 avg. 0.75 max ..."
 void take_line(Calibrations& calibrations, const GazeEvent& event, std::string_view eye) {
     const std::string_view text = event.text;
     if (event.kind == GazeEvent::Kind::note && text.starts_with(">>>") &&
-        text.find(" CALIBRATION (") != std::string_view::npos)
-        calibrations.count +=
-            text.find(eye) != std::string_view::npos || text.find("BINOCULAR") != std::string_view::npos;
+        text.find(" CALIBRATION (") != std::string_view::npos &&
+        (text.find(eye) != std::string_view::npos || text.find("BINOCULAR") != std::string_view::npos)) {
+        ++calibrations.count;
+        take_calibration(calibrations, text);
+    }
     Words words(text);
-    if (event.kind != GazeEvent::Kind::message || words.next() != "!CAL" || words.next() != "VALIDATION")
+    if (event.kind != GazeEvent::Kind::message)
         return;
-    const std::string_view type = words.next();
+    const std::string_view first = words.next();
+    if (first == "RECCFG")
+        calibrations.method = method_called(words.next());
+    if (first != "!CAL" || words.next() != "VALIDATION")
+        return;
+    words.next();
     words.next();
     const auto mean_deg = number_before(text, "avg."), max_deg = number_before(text, "max");
-    if (words.next() != eye || !mean_deg || !max_deg)
-        return;
-    calibrations.validation = {Degrees{*mean_deg}, Degrees{*max_deg}};
-    // No targets are named where a session of our own was exported.
-    calibrations.type = type == "HV0" ? "" : type;
+    if (words.next() == eye && mean_deg && max_deg)
+        calibrations.validation = {Degrees{*mean_deg}, Degrees{*max_deg}};
 }
 
 Calibrations calibrations_of(const SessionRecord& record, int run, Eye eye, bool is_imported) {
@@ -58,9 +79,9 @@ Calibrations calibrations_of(const SessionRecord& record, int run, Eye eye, bool
         const ValidationOfEye last = validation_of_eye(all.back().validation, eye);
         calibrations.validation = {last.mean_error, last.max_error};
         for (const ValidatedTarget& target : last.targets)
-            calibrations.targets.push_back(target.target);
-        if (!last.targets.empty())
-            calibrations.type = fmt::format("HV{}", last.targets.size());
+            calibrations.validated.push_back(target.target);
+        if (const std::optional<int> points = calibration_points(all.back().method))
+            calibrations.type = fmt::format("HV{}", *points);
         return calibrations;
     }
     if (!is_imported) {
@@ -93,11 +114,13 @@ nlohmann::ordered_json bids_tracker(const SessionRecord& record, int run, Eye ey
     json["SamplingFrequency"] =
         source && source->rate_hz > 0.0 ? source->rate_hz : header.tracker.sample_rate_hz;
     json["ManufacturersModelName"] = header.tracker.name;
-    if (header.tracker.name.starts_with("EyeLink") || source) {
-        json["Manufacturer"] = "SR Research";
-        json["EyeTrackingMethod"] = "P-CR";
-    }
+    const TrackerFacts facts = tracker_facts(record, run);
+    if (!facts.manufacturer.empty())
+        json["Manufacturer"] = facts.manufacturer;
     const Calibrations calibrations = calibrations_of(record, run, eye, source.has_value());
+    if (const std::string method = facts.method.empty() ? calibrations.method : std::string(facts.method);
+        !method.empty())
+        json["EyeTrackingMethod"] = method;
     if (calibrations.count > 0)
         json["CalibrationCount"] = calibrations.count;
     if (calibrations.validation) {
@@ -106,11 +129,12 @@ nlohmann::ordered_json bids_tracker(const SessionRecord& record, int run, Eye ey
     }
     if (!calibrations.type.empty())
         json["CalibrationType"] = calibrations.type;
-    if (!calibrations.targets.empty()) {
-        json["CalibrationUnit"] = "pixel";
-        json["CalibrationPosition"] = nlohmann::ordered_json::array();
-        for (const ScreenPoint target : calibrations.targets)
-            json["CalibrationPosition"].push_back({target.x_px, target.y_px});
+    // BIDS has no words for them: where the calibration's own targets were is not on record.
+    if (!calibrations.validated.empty()) {
+        json["ValidationUnit"] = "pixel";
+        json["ValidationPosition"] = nlohmann::ordered_json::array();
+        for (const ScreenPoint target : calibrations.validated)
+            json["ValidationPosition"].push_back({target.x_px, target.y_px});
     }
     json["TaskName"] = bids_task_name(header);
     return json;

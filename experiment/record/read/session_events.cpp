@@ -77,10 +77,8 @@ std::string sentence_on(const SessionRecord::EventOrigin& origin) {
     if (origin.from == From::tracker)
         return "Fixations, saccades and blinks are those of the eye tracker itself.";
     if (origin.from == From::no_angles)
-        return "Fixations, saccades and blinks were not looked for, because angles are unknown: the session "
-               "says "
-               "neither how large its screen is and how far away it was, nor the tracker's pixels per "
-               "degree. "
+        return "Fixations, saccades and blinks were not looked for, because angles are unknown: the session says "
+               "neither how large its screen is and how far away it was, nor the tracker's pixels per degree. "
                "Import the recording again with --screen-mm and --distance-mm.";
     return fmt::format("Fixations, saccades and blinks were found {}, by the detector of {}, version {}: {}.",
                        origin.from == From::recording ? "while the session was recorded"

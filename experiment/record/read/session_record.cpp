@@ -85,6 +85,10 @@ SessionTime SessionRecord::last_time() const {
                  *database_, "box_clock_pair", "SELECT COALESCE(MAX(after_ns), 0) FROM box_clock_pair",
                  [](Query& box) { return box.session_time(); }))
             last = std::max(last, of_box);
+        for (const SessionTime of_key :
+             read_later_rows(*database_, "key_press", "SELECT COALESCE(MAX(at_ns), 0) FROM key_press",
+                             [](Query& key) { return key.session_time(); }))
+            last = std::max(last, of_key);
         return last;
     });
 }

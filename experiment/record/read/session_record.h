@@ -21,6 +21,7 @@
 #include "experiment/ports/recorded_button.h"
 #include "experiment/ports/recorded_calibration.h"
 #include "experiment/ports/recorded_consent.h"
+#include "experiment/ports/recorded_key_press.h"
 #include "experiment/ports/recorded_marker.h"
 #include "experiment/ports/session_history.h"
 #include "experiment/ports/trial_outcome.h"
@@ -58,6 +59,9 @@ struct TrialRecord {
     /// empty and nothing of a keyboard, and of sessions of earlier programs.
     std::string response_box = {};
     std::optional<SessionDuration> response_uncertainty = {};
+    /// What was pressed to end the response screen; empty if time ended it, and of sessions of earlier
+    /// programs.
+    std::string response_key = {};
 
     /// It came to its end, in order or not.
     bool has_outcome() const { return status == Status::completed || status == Status::aborted; }
@@ -178,6 +182,9 @@ class SessionRecord {
     /// they were written. Sessions of earlier programs have none.
     std::vector<RecordedButton> button_changes() const;
     std::vector<RecordedMarker> markers() const;
+
+    /// Keys and buttons that were pressed in trials, and on the screens between them, likewise.
+    std::vector<RecordedKeyPress> key_presses() const;
 
     /// Each time that somebody agreed to take part, or did not.
     std::vector<RecordedConsent> consents() const;

@@ -26,8 +26,11 @@ std::vector<std::string> words_of(const std::string& list) {
 } // namespace
 
 std::string ComparedTable::select() const {
-    return fmt::format("SELECT {} FROM {}{} ORDER BY {}", fmt::join(columns, ", "), name,
-                       name == "event" ? fmt::format(" WHERE kind <> '{}'", thread_event) : "", order);
+    return fmt::format(
+        "SELECT {} FROM {}{} ORDER BY {}", fmt::join(columns, ", "), name,
+        name == "event" ? fmt::format(" WHERE kind NOT IN ('{}', '{}')", thread_event, earlier_sessions_event)
+                        : "",
+        order);
 }
 
 std::vector<ComparedTable> tables_to_compare(const SQLite::Database& recorded,

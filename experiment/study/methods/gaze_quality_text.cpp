@@ -94,12 +94,12 @@ std::string gaze_quality_text(const StudyResults& results) {
         add_sentence(text, "the precision of gaze is not known");
     if (!rms.empty())
         add_sentence(text,
-                     fmt::format("precision within fixations was, from sample to sample (RMS-S2S), {}", rms));
+                     fmt::format("precision within fixations was {} from sample to sample (RMS-S2S)", rms));
     if (!sd.empty())
-        add_sentence(text,
-                     fmt::format("as standard deviation within fixations (SD), around the eye's own motion "
-                                 "(a line through each 0.2 s), it was {}",
-                                 sd));
+        add_sentence(
+            text,
+            fmt::format("as standard deviation around the eye's own motion within fixations (SD) it was {}",
+                        sd));
     if (!rate.empty())
         add_sentence(text, fmt::format("the sampling rate by the time stamps was {}", rate));
     add_losses(text, results);

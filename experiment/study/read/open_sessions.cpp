@@ -1,13 +1,14 @@
 #include "experiment/study/read/open_sessions.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <thread>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
-#include "experiment/record/read/recorded_validation.h"
 #include "experiment/study/read/session_setup.h"
 
 namespace overt {
@@ -21,6 +22,49 @@ std::string folder_name(const std::filesystem::path& session) {
     return path.filename().string();
 }
 
+/// What two records of one session have in common, wherever they lie, and however far each has got.
+std::string identity_of(const SessionHeader& header) {
+    return fmt::format("{} {} {} {} {} {}", header.schedule.observer.label, header.session_number,
+                       header.started_utc, header.schedule.seed, header.protocol.name,
+                       header.protocol.sha256);
+}
+
+/// The file that a session was imported from, by its bytes; empty: it was recorded.
+std::string recording_of(const SessionRecord& record) {
+    const std::optional<GazeSource> source =
+        record.header().stimuli.empty() ? record.gaze_source(1) : std::nullopt;
+    return source ? source->sha256 : "";
+}
+
+/// Everything that would count twice, each with the one that it is the same as.
+class Doubles {
+  public:
+    void add(const SessionRecord& record) {
+        const SessionHeader& header = record.header();
+        const std::string path = record.directory().string();
+        const std::string recording = recording_of(record);
+        if (const auto [same, is_new] = sessions_.emplace(identity_of(header), path); !is_new)
+            found_.push_back(fmt::format("{} is the same session as {} (observer {}, session {}, begun {})",
+                                         path, same->second, header.schedule.observer.label,
+                                         header.session_number, header.started_utc));
+        else if (!recording.empty())
+            if (const auto [other, is_first] = recordings_.emplace(recording, path); !is_first)
+                found_.push_back(
+                    fmt::format("{} was imported from the same recording as {}", path, other->second));
+    }
+
+    /// Throws InputError if there are any.
+    void refuse() const {
+        if (!found_.empty())
+            throw InputError(
+                fmt::format("{}. Its gaze would count twice: give one of them.", fmt::join(found_, ";\n")));
+    }
+
+  private:
+    std::map<std::string, std::string> sessions_, recordings_;
+    std::vector<std::string> found_;
+};
+
 } // namespace
 
 std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> sessions,
@@ -28,6 +72,7 @@ std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> se
     std::vector<OpenSession> open;
     const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
     const std::size_t readers = (processors + sessions.size() - 1) / sessions.size();
+    Doubles doubles;
     std::set<std::filesystem::path> seen;
     for (const std::filesystem::path& session : sessions) {
         if (!seen.insert(std::filesystem::weakly_canonical(session)).second)
@@ -44,11 +89,10 @@ std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> se
                 one.readers.front()->detect_events_of_imports();
             one.keys.push_back(std::make_unique<TrialKeys>(*one.readers.back()));
         }
-        one.record().read_events([&](const RecordedEvent& event) {
-            if (const std::optional<ValidationResult> result = validation_of(event))
-                one.validations.push_back({event.at, result->mean_error.value, result->max_error.value});
-        });
+        doubles.add(one.record());
+        one.validations = validations_of(one.record());
     }
+    doubles.refuse();
     return open;
 }
 

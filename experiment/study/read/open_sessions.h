@@ -26,8 +26,8 @@ struct OpenSession {
 };
 
 /// Each with so many readers that all of them together keep the processors busy. `detect_events`: as in
-/// StudyOptions. Throws InputError if a folder is no session or is given twice, RecordError for a damaged
-/// one.
+/// StudyOptions. Throws InputError if a folder is no session, or if any session is given twice: by its path,
+/// as a copy, which its record tells, or as two imports of one recording; RecordError for a damaged one.
 std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> sessions,
                                        const std::optional<ChosenThresholds>& detect_events);
 

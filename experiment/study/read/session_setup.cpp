@@ -6,6 +6,7 @@
 #include <set>
 
 #include "experiment/base/plain_text.h"
+#include "experiment/record/no_stimulus.h"
 
 namespace overt {
 
@@ -134,11 +135,7 @@ SessionSetup setup_of(const SessionRecord& record) {
     if (source)
         setup.imported_file = source->file;
     setup.display = display_of(header);
-    // An imported recording's session has frames and sculptures that stand for nothing. A recording that was
-    // imported into a session of overt's own has that one's.
-    const bool shows_nothing_known =
-        setup.gaze.origin == GazeOrigin::imported && header.protocol.text.empty();
-    if (!shows_nothing_known) {
+    if (!knows_no_stimulus(header)) {
         setup.stimuli = stimuli_of(header);
         for (const RecordedMaterial& material : header.materials)
             setup.materials.push_back({material.id, plain_line_of(material.title)});

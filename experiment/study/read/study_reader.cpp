@@ -30,6 +30,7 @@ class StudyReader {
           open_(open_sessions(sessions, options.detect_events)) {
         for (std::size_t i = 0; i < open_.size(); ++i)
             add_session(i, sessions[i]);
+        name_same_observers();
         study_.surfaces.resize(results().sculptures.size());
     }
 
@@ -101,6 +102,24 @@ class StudyReader {
         results().sessions.push_back(describe_session(open_[index], path));
     }
 
+    /// Gives sessions the observer that the options take theirs for.
+    void name_same_observers() {
+        for (const auto& [label, other] : options_.same_observer) {
+            const auto is_there = [&](const std::string& wanted) {
+                return std::ranges::any_of(open_, [&](const OpenSession& one) {
+                    return one.record().header().schedule.observer.label == wanted;
+                });
+            };
+            for (const std::string& wanted : {label, other})
+                if (!is_there(wanted))
+                    throw InputError(fmt::format("--same-observer {}={}: no session is of observer {}.",
+                                                 label, other, wanted));
+            for (StudySession& session : results().sessions)
+                if (session.observer == label)
+                    session.observer = other;
+        }
+    }
+
     /// The study's index of a session's sculpture, which is new or was in a session before.
     int sculpture_of(std::size_t session, int own) {
         const SessionHeader& header = open_[session].record().header();
@@ -135,19 +154,19 @@ class StudyReader {
         parallel_for(static_cast<int>(jobs.size()), [&](int i) {
             const auto [session, reader] = jobs[static_cast<std::size_t>(i)];
             OpenSession& open = open_[session];
-            std::optional<GeodesicField> field;
+            std::optional<SurfaceWays> ways;
             if (surface.coarse)
-                field.emplace(*surface.coarse_geometry);
+                ways.emplace(*surface.geometry, *surface.coarse, *surface.coarse_geometry);
             const SessionRecord& record = *open.readers[reader];
             for (std::size_t t = reader; t < record.trials().size(); t += open.readers.size()) {
                 const TrialRecord& trial = record.trials()[t];
                 if (!is_of(session, trial, index))
                     continue;
-                read_[session].trials[t] = read_trial(record, trial, *open.keys[reader], open.validations,
-                                                      {lookup, surface.geometry.get(), surface.coarse.get(),
-                                                       field ? &*field : nullptr, surface.scale,
-                                                       light_of(light, record.header(), trial)},
-                                                      options_, t < 1);
+                read_[session].trials[t] =
+                    read_trial(record, trial, *open.keys[reader], open.validations,
+                               {lookup, surface.geometry != nullptr, ways ? &*ways : nullptr, surface.scale,
+                                light_of(light, record.header(), trial)},
+                               options_);
                 const std::scoped_lock lock(progress_mutex);
                 progress_(what, ++done, trials);
             }
@@ -293,6 +312,9 @@ class StudyReader {
                 ReadTrial& read = read_[session].trials[t];
                 const int index = static_cast<int>(results().trials.size());
                 read.trial.session = static_cast<int>(session);
+                for (StudyKey& key : read.trial.keys)
+                    if (key.column == "observer")
+                        key.value = results().sessions[session].observer;
                 read.trial.sculpture =
                     open_[session].sculptures[static_cast<std::size_t>(trials[t].trial.condition.sculpture)];
                 read.trial.first_fixation = results().fixations.size();

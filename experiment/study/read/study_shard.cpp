@@ -17,7 +17,7 @@ namespace overt {
 namespace {
 
 /// Another one for each change of what follows it.
-constexpr std::string_view shard_magic = "overt shard of a study, version 2\n";
+constexpr std::string_view shard_magic = "overt shard of a study, version 3\n";
 constexpr std::size_t hash_length = 64;
 
 // What is in a shard, once for writing and reading. A member that is added breaks the build here.
@@ -53,8 +53,8 @@ template <class Archive> void fields(Archive& archive, StudyTracePoint& point) {
     archive(time_s, gaze, pupil);
 }
 template <class Archive> void fields(Archive& archive, StudyTraceEvent& event) {
-    auto& [kind, onset_s, duration_s] = event;
-    archive(kind, onset_s, duration_s);
+    auto& [kind, onset_s, duration_s, amplitude_deg, peak_velocity_deg_s] = event;
+    archive(kind, onset_s, duration_s, amplitude_deg, peak_velocity_deg_s);
 }
 template <class Archive> void fields(Archive& archive, StudyTrace& trace) {
     auto& [trial, points, events] = trace;
@@ -68,9 +68,9 @@ template <class Archive> void fields(Archive& archive, StudyQuality& quality) {
 }
 template <class Archive> void fields(Archive& archive, StudyTrial& trial) {
     auto& [session, sculpture, label, number, keys, presentation_s, excluded, why, first_fixation, fixations,
-           turns, clock_uncertainty_s, quality] = trial;
+           turns, clock_uncertainty_s, quality, has_gaze] = trial;
     archive(session, sculpture, label, number, keys, presentation_s, excluded, why, first_fixation, fixations,
-            turns, clock_uncertainty_s, quality);
+            turns, clock_uncertainty_s, quality, has_gaze);
 }
 template <class Archive> void fields(Archive& archive, FixationLight& light) {
     auto& [met, at_place, at_point] = light;

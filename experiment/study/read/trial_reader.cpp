@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "experiment/record/no_stimulus.h"
 #include "experiment/study/read/gaze_quality.h"
 
 namespace overt {
@@ -44,7 +43,7 @@ StudyTrace trace_of(std::span<const PlacedSample> samples, std::span<const GazeE
                     const std::optional<ClockMap>& clock_map, SessionTime onset, double presentation_s,
                     double rate_hz) {
     StudyTrace trace;
-    const auto step = static_cast<std::size_t>(std::max(1.0, std::ceil(rate_hz / 250.0 - 1e-6)));
+    const auto step = static_cast<std::size_t>(std::max(1.0, std::ceil(rate_hz / most_trace_hz - 1e-6)));
     bool had_gaze = true;
     std::size_t since = step;
     for (const PlacedSample& sample : samples) {
@@ -63,7 +62,8 @@ StudyTrace trace_of(std::span<const PlacedSample> samples, std::span<const GazeE
             const double begin = to_seconds(clock_map->to_session(event.start).time - onset);
             const double duration = std::chrono::duration<double>(event.duration).count();
             if (begin + duration > 0.0 && begin < presentation_s)
-                trace.events.push_back({event.kind, begin, duration});
+                trace.events.push_back(
+                    {event.kind, begin, duration, event.amplitude_deg, event.peak_velocity_deg_s});
         }
     }
     return trace;
@@ -89,18 +89,18 @@ std::string exclusion_of(const StudyQuality& quality, const ExclusionRules& rule
 
 ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, const TrialKeys& keys,
                      std::span<const RecordedAccuracy> validations, const TrialSurface& surface,
-                     const StudyOptions& options, bool with_trace) {
+                     const StudyOptions& options) {
     const SessionHeader& header = record.header();
     const std::optional<TrialLedger> ledger = record.ledger(trial);
-    const bool has_onset = trial.reached(trial.outcome.presentation_onset);
-    const SessionTime onset = has_onset ? trial.outcome.presentation_onset : trial.started;
+    const TrialPresentation presentation = presentation_of(header, trial, ledger.has_value(), validations);
+    const SessionTime onset = presentation.onset;
     ReadTrial read;
     StudyTrial& of = read.trial;
     of.number = trial.trial.index + 1;
     of.label = fmt::format("observer {}, trial {}", header.schedule.observer.label, of.number);
-    const auto validation = std::find_if(validations.rbegin(), validations.rend(),
-                                         [&](const auto& one) { return one.at <= trial.started; });
-    const double accuracy_deg = validation != validations.rend() ? validation->mean_deg : 0.0;
+    of.presentation_s = presentation.duration_s.value_or(0.0);
+
+    const double accuracy_deg = presentation.validation ? presentation.validation->mean_deg : 0.0;
     const PlacedSamples placed =
         placed_samples(record, trial, ledger, surface.lookup, onset, header.tracker.eye,
                        Degrees{options.reach_deg.value_or(accuracy_deg)});
@@ -116,21 +116,14 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
     std::stable_sort(events.begin(), events.end(),
                      [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
 
-    const bool has_stimulus = ledger || !knows_no_stimulus(header);
     const std::optional<ClockMap> clock_map = record.clock_map(trial);
-    if (has_onset && trial.reached(trial.outcome.presentation_end))
-        of.presentation_s = to_seconds(trial.outcome.presentation_end - onset);
-    else if (trial.has_outcome() && trial.outcome.responded_at > onset)
-        of.presentation_s = to_seconds(trial.outcome.responded_at - onset);
-    else if (has_stimulus)
-        of.presentation_s = header.animation.duration_s;
-    else
+    if (!presentation.duration_s)
         of.presentation_s = recorded_s(placed.samples, events, clock_map, onset);
 
     of.quality = gaze_quality(placed.samples, events, header.display.screen);
-    if (validation != validations.rend()) {
-        of.quality.accuracy_deg = validation->mean_deg;
-        of.quality.worst_accuracy_deg = validation->worst_deg;
+    if (presentation.validation) {
+        of.quality.accuracy_deg = presentation.validation->mean_deg;
+        of.quality.worst_accuracy_deg = presentation.validation->worst_deg;
     }
     if (trial.outcome.drift)
         of.quality.drift_deg = trial.outcome.drift->value;
@@ -140,14 +133,17 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
         of.quality.missed_refreshes = trial.outcome.missed_refreshes;
     of.quality.refreshes = trial.outcome.shown_refreshes + trial.outcome.missed_refreshes;
     of.quality.off_plan = static_cast<double>(placed.counts.off_plan);
-    of.why_excluded = exclusion_of(of.quality, options.exclude);
+    const auto is_fixation = [](const GazeEvent& event) { return event.kind == GazeEvent::Kind::fixation; };
+    of.has_gaze = std::ranges::any_of(placed.samples, &PlacedSample::has_gaze) ||
+                  std::ranges::any_of(events, is_fixation);
+    // Means over trials would be too low with a trial in which nobody was measured.
+    of.why_excluded = of.has_gaze ? exclusion_of(of.quality, options.exclude) : "No gaze was recorded in it.";
     of.excluded = !of.why_excluded.empty();
 
     if (ledger)
         of.turns = turns_of(*ledger, onset, header.poses.angles);
-    if (with_trace)
-        read.trace = trace_of(placed.samples, events, clock_map, onset, of.presentation_s,
-                              of.quality.rate_hz.value_or(0.0));
+    read.trace = trace_of(placed.samples, events, clock_map, onset, of.presentation_s,
+                          of.quality.rate_hz.value_or(0.0));
 
     // The cone is as wide as the validation says; few directions do for a share of some per cent.
     constexpr int cone_directions = 64;
@@ -165,10 +161,9 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                                   header.poses.angles,
                                   surface.scale,
                                   surface.lookup != nullptr,
-                                  has_stimulus,
-                                  surface.fine,
-                                  surface.coarse,
-                                  surface.field,
+                                  presentation.has_stimulus,
+                                  surface.has_mesh,
+                                  surface.ways,
                                   surface.lookup,
                                   cone ? &*cone : nullptr,
                                   &header.display.screen,

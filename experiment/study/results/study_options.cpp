@@ -7,6 +7,13 @@ namespace overt {
 
 namespace {
 
+std::string same_observers(const StudyOptions& options) {
+    std::string text;
+    for (const auto& [label, other] : options.same_observer)
+        text += fmt::format("{}{}={}", text.empty() ? "" : ",", label, other);
+    return text.empty() ? "none" : text;
+}
+
 std::string number_or_none(const auto& limit) { return limit ? fmt::format("{}", *limit) : "none"; }
 
 std::string words_of(const std::optional<ChosenThresholds>& detect_events) {
@@ -87,6 +94,9 @@ std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
          "Whether fixations, saccades and blinks were found anew in the samples of all sessions, and the "
          "thresholds that were chosen for it; others go with each recording's rate and noise. no: those on "
          "record, and found where an imported recording has none."},
+        {"same-observer", same_observers(options), "",
+         "Labels of observers that stand for another observer's, whose sessions are then counted as one "
+         "person's."},
         {"time-step", fmt::format("{}", options.time_step_s), "s", "Stretches of the time course."},
         {"confidence", fmt::format("{}", options.confidence), "", "Level of all intervals."},
         {"resamples", fmt::format("{}", options.resamples), "",

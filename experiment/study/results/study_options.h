@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiment/base/enum_names.h"
@@ -55,6 +56,8 @@ struct StudyOptions {
     /// Fixations, saccades and blinks are found anew in all sessions, by these thresholds. Nothing: those on
     /// record, and found in imports that have none.
     std::optional<ChosenThresholds> detect_events;
+    /// Labels that stand for the same observer as another, and that one's.
+    std::vector<std::pair<std::string, std::string>> same_observer;
     double time_step_s = 1.0; ///< of the time course
     double confidence = 0.95;
     int resamples = 2000;    ///< of the bootstrap

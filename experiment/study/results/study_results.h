@@ -55,6 +55,16 @@ struct StudySession {
     bool is_simulated() const { return setup.gaze.is_simulated(); }
 };
 
+/// An observer of the sessions that were given, and whether N has them. One counts whose gaze there is in a
+/// trial that counts and is not excluded.
+struct StudyObserver {
+    std::string label;
+    bool counts = false;
+    std::string why; ///< a clause, such as "no gaze was recorded in any trial"; empty if counted
+    std::vector<std::string> alike; ///< labels of others that differ in case or leading zeros only
+    int sessions = 0, trials = 0, fixations = 0; ///< trials not excluded; counted fixations
+};
+
 /// What an article has to report: see reporting.h.
 struct ReportingItem {
     std::string topic, item, value;
@@ -153,6 +163,9 @@ struct StudyFixation {
     bool counted() const { return why == NotCounted::counted; }
 };
 
+/// Samples a second of a trace: enough to see a saccade.
+inline constexpr double most_trace_hz = 125.0;
+
 /// One gaze sample of a trace.
 struct StudyTracePoint {
     double time_s = 0.0;             ///< since the presentation's onset
@@ -163,9 +176,10 @@ struct StudyTracePoint {
 struct StudyTraceEvent {
     GazeEvent::Kind kind = GazeEvent::Kind::fixation; ///< fixation, saccade or blink
     double onset_s = 0.0, duration_s = 0.0;
+    std::optional<double> amplitude_deg{}, peak_velocity_deg_s{}; ///< of a saccade, where its event has them
 };
 
-/// Gaze of a trial, thinned to at most 250 samples a second.
+/// Gaze of a trial, thinned to at most `most_trace_hz`.
 struct StudyTrace {
     int trial = 0; ///< index into StudyResults::trials
     std::vector<StudyTracePoint> points;
@@ -212,6 +226,7 @@ struct StudyTrial {
     std::vector<StudyTurn> turns;
     double clock_uncertainty_s = 0.0; ///< bound on the error of its samples' times by the session's clock
     StudyQuality quality;
+    bool has_gaze = true; ///< any, or a fixation that the tracker told; a trial without it is excluded
     /// The value in a column; n/a if there is no such column.
     const std::string& key(const std::string& column) const;
 };
@@ -415,7 +430,8 @@ struct TimeCourseRow {
 
 struct StudyGlance {
     std::string title; ///< of the protocol, or of several
-    int observers = 0, sessions = 0, trials = 0, excluded_trials = 0;
+    int observers = 0; ///< N: those who count, see StudyObserver
+    int sessions = 0, trials = 0, excluded_trials = 0;
     std::int64_t samples = 0;
     int fixations = 0; ///< all
     int counted = 0;
@@ -423,7 +439,8 @@ struct StudyGlance {
     std::vector<std::pair<NotCounted, int>> not_counted; ///< reasons that occur, and how often
     double counted_s = 0.0;                              ///< of fixation
     bool any_simulated = false;
-    std::vector<std::pair<ExclusionRule, int>> excluded_by{}; ///< trials by the first rule that they break
+    int without_gaze = 0;                                     ///< excluded trials in which none was recorded
+    std::vector<std::pair<ExclusionRule, int>> excluded_by{}; ///< others, by the first rule that they break
 };
 
 struct StudyResults {
@@ -434,6 +451,7 @@ struct StudyResults {
     std::vector<std::string> by; ///< columns that make the groups
     double confidence = 0.95;
     std::vector<StudySession> sessions;
+    std::vector<StudyObserver> observers; ///< in the order of the sessions
     std::vector<StudySculpture> sculptures;
     std::vector<StudyTrial> trials;
     std::vector<StudyFixation> fixations; ///< by trial, in the order of their onsets
@@ -453,7 +471,7 @@ struct StudyResults {
     std::vector<StudyQuality> session_quality; ///< by session
     std::vector<ReportingItem> reporting;
     std::vector<MethodsParagraph> methods;
-    std::vector<StudyTrace> traces;
+    std::vector<StudyTrace> traces; ///< of each trial with samples, in the order of the trials
 };
 
 /// A few words for tables and sentences.

@@ -143,6 +143,8 @@ FactsJson study_facts_json(const StudyResults& results) {
     json["refreshes"] = refreshes.refreshes;
     if (refreshes.missed)
         json["missed_refreshes"] = *refreshes.missed;
+    json["observers_who_took_part"] = observer_counts(results).all;
+    json["trials_without_gaze"] = results.glance.without_gaze;
     json["simulated_observers"] = observer_counts(results).simulated;
     json["incomplete_sessions"] = incomplete_sessions(results);
     json["exclusions"] = FactsJson::object();

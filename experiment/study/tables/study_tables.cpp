@@ -78,6 +78,7 @@ std::string study_json(const StudyResults& results) {
     const StudyGlance& glance = results.glance;
     Json json{{"title", glance.title},
               {"observers", glance.observers},
+              {"observers_given", Json::array()},
               {"sessions", Json::array()},
               {"trials", glance.trials},
               {"excluded_trials", glance.excluded_trials},
@@ -99,6 +100,13 @@ std::string study_json(const StudyResults& results) {
         json["methods"].push_back({{"topic", paragraph.topic}, {"text", paragraph.text}});
     for (const auto& [why, count] : glance.not_counted)
         json["not_counted"][std::string(name_of(why))] = count;
+    for (const StudyObserver& one : results.observers) {
+        Json given{{"observer", one.label}, {"counts", one.counts}};
+        if (!one.counts)
+            given["why"] = one.why;
+        given.update({{"sessions", one.sessions}, {"trials", one.trials}, {"fixations", one.fixations}});
+        json["observers_given"].push_back(std::move(given));
+    }
     for (const StudySession& session : results.sessions) {
         json["sessions"].push_back({{"folder", session.folder},
                                     {"observer", session.observer},

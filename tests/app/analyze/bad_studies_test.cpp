@@ -142,7 +142,7 @@ TEST_CASE("a study says what it lacks and reckons what it can", "[session]") {
         }
         CHECK(compared > 10);
     }
-    SECTION("a folder that is no session, or one that is named twice, is an error") {
+    SECTION("a folder without a session is an error; a session that is named twice is taken once") {
         const auto refused = [&](const std::vector<std::string>& sessions) {
             std::vector<std::string> arguments{"analyze", "--out", (folder / "x").string()};
             arguments.insert(arguments.end(), sessions.begin(), sessions.end());
@@ -150,8 +150,18 @@ TEST_CASE("a study says what it lacks and reckons what it can", "[session]") {
             CHECK(run.exit_code == 2);
             return run.err;
         };
-        CHECK(refused({folder.string()}).find(folder.filename().string()) != std::string::npos);
-        CHECK(refused({study.sessions[0], study.sessions[0] + "/"}).find("twice") != std::string::npos);
+        fs::create_directory(folder / "empty");
+        const std::string said = refused({(folder / "empty").string()});
+        CHECK(said.find("empty: this folder holds no session") != std::string::npos);
+        CHECK(said.find("session.sqlite") != std::string::npos);
+        const ProgramRun once = study.experiment.overt({"analyze", study.sessions[0], study.sessions[0] + "/",
+                                                        "--json", "--out", (folder / "once").string()});
+        CHECK(once.exit_code == 0);
+        CHECK(once.err.find("taken once") != std::string::npos);
+        const auto number = [](const ProgramRun& run) {
+            return nlohmann::json::parse(run.out).at("sessions").size();
+        };
+        CHECK(number(once) == 1);
     }
 }
 
@@ -199,4 +209,78 @@ TEST_CASE("sculptures without a head have no head fraction, and all else", "[ses
     for (std::size_t row = 0; row < fractions.size(); ++row)
         CHECK_FALSE(fractions.has(row, "by_count"));
     CHECK(TsvFile(out / "maps.tsv").size() > 0);
+}
+
+TEST_CASE("a session given twice is refused, as a copy too, and every pair is named", "[session]") {
+    const SmallStudy study;
+    const fs::path folder = study.experiment.folder().path();
+    const fs::path copy = folder / "backup/of_the_first", other = folder / "backup/sub-P09_ses-01";
+    fs::create_directories(folder / "backup");
+    fs::copy(study.sessions[0], copy, fs::copy_options::recursive);
+    fs::copy(study.sessions[1], other, fs::copy_options::recursive);
+    std::vector<std::string> arguments{"analyze", "--out", (folder / "twice").string(), copy.string(),
+                                       other.string()};
+    arguments.insert(arguments.end(), study.sessions.begin(), study.sessions.end());
+    const ProgramRun run = study.experiment.overt(arguments);
+    CHECK(run.exit_code == 2);
+    for (const std::string& named : {copy.string(), other.string(), study.sessions[0], study.sessions[1]}) {
+        INFO(named);
+        CHECK(run.err.find(named) != std::string::npos);
+    }
+    CHECK(run.err.find("the same session as") != std::string::npos);
+    CHECK(run.err.find(study.sessions[2]) == std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "twice"));
+}
+
+TEST_CASE("N has those whose gaze there is, and the study says who is not counted and why", "[session]") {
+    const SmallStudy study;
+    const fs::path folder = study.experiment.folder().path();
+    REQUIRE(study.experiment.run({"--observer", "P04", "--tracker", "none"}).exit_code == 0);
+    std::vector<std::string> sessions = study.sessions;
+    sessions.push_back(study.experiment.session(1, "P04").string());
+    const ProgramRun with_it = analysis_of(study.experiment, sessions, folder / "with");
+    CHECK(with_it.out.find("3 observers, 4 sessions") != std::string::npos);
+    CHECK(with_it.out.find(
+              "N is 3 of 4 observers who were given. Not counted: P04 (no gaze was recorded in any "
+              "trial).") != std::string::npos);
+    const auto json = nlohmann::json::parse(text_of(folder / "with/study.json"));
+    CHECK(json.at("observers") == 3);
+    REQUIRE(json.at("observers_given").size() == 4);
+    CHECK(json.at("observers_given").at(0).at("counts") == true);
+    CHECK(json.at("observers_given").at(3).at("counts") == false);
+    CHECK(text_of(folder / "with/report.html").find("Not counted: P04") != std::string::npos);
+    // Trials without gaze do not thin the maps out: all that is reckoned of the others stays.
+    analysis_of(study.experiment, study.sessions, folder / "without");
+    for (const char* const table : {"maps.tsv", "figure4_head_fraction.tsv", "figure5_distribution.tsv"})
+        CHECK(text_of(folder / "with" / table) == text_of(folder / "without" / table));
+}
+
+TEST_CASE("observers whose labels are nearly the same are doubted, and can be made one", "[session]") {
+    const SmallStudy study;
+    const fs::path folder = study.experiment.folder().path();
+    REQUIRE(study.experiment.run({"--observer", "p1", "--another-person"}).exit_code == 0);
+    std::vector<std::string> sessions = study.sessions;
+    sessions.push_back(study.experiment.session(1, "p1").string());
+    const ProgramRun doubted = analysis_of(study.experiment, sessions, folder / "two");
+    CHECK(doubted.out.find("4 observers, 4 sessions") != std::string::npos);
+    CHECK(doubted.out.find("Observers P01 and p1 count as different people") != std::string::npos);
+    CHECK(doubted.out.find("--same-observer p1=P01") != std::string::npos);
+    CHECK(text_of(folder / "two/report.html").find("count as different people") != std::string::npos);
+    const ProgramRun one =
+        analysis_of(study.experiment, sessions, folder / "one", {"--same-observer", "p1=P01"});
+    CHECK(one.out.find("3 observers, 4 sessions") != std::string::npos);
+    CHECK(one.out.find("different people") == std::string::npos);
+    const TsvFile trials(folder / "one/trials.tsv");
+    CHECK(trials.size() == 4 * small_trials);
+    for (std::size_t row = 0; row < trials.size(); ++row)
+        CHECK(trials.text(row, "observer") != "p1");
+    for (const auto& [given, said] :
+         {std::pair{"x=P01", "no session is of observer x"}, {"p1", "LABEL=LABEL"}}) {
+        std::vector<std::string> arguments{"analyze", "--out", (folder / "no").string(), "--same-observer",
+                                           given};
+        arguments.insert(arguments.end(), sessions.begin(), sessions.end());
+        const ProgramRun refused = study.experiment.overt(arguments);
+        CHECK(refused.exit_code == 2);
+        CHECK(refused.err.find(said) != std::string::npos);
+    }
 }

@@ -107,6 +107,36 @@ TEST_CASE("a new session names those that were interrupted", "[session]") {
     const ProgramRun third = resume(experiment, {"--trials", "1"});
     CHECK(third.exit_code == 0);
     CHECK_THAT(third.err, !Contains("was interrupted"));
+    CHECK_THAT(third.err,
+               Contains("this is session 3 of observer P01; session 1 is complete, session 2 is complete") &&
+                   Contains("--resume"));
+    // It is on record, and a replay, whose session is the only one there, is the same without it.
+    const SessionRecord record(experiment.session(3));
+    CHECK(count_of(record, earlier_sessions_event) == 1);
+    CHECK(count_of(SessionRecord(experiment.session(1)), earlier_sessions_event) == 0);
+    const ProgramRun replay = experiment.overt({"replay", experiment.session(3).string()});
+    INFO(replay.out << replay.err);
+    CHECK(replay.exit_code == 0);
+}
+
+TEST_CASE("an observer whose label is nearly another's is asked after before a session begins", "[session]") {
+    const SmallExperiment experiment;
+    const auto run_as = [&](const std::string& label, std::vector<std::string> more) {
+        more.insert(more.end(), {"--trials", "1", "--no-pictures", "--observer", label});
+        return experiment.run(more);
+    };
+    REQUIRE(run_as("1", {}).exit_code == 0);
+    const ProgramRun refused = run_as("01", {});
+    CHECK(refused.exit_code == 2);
+    CHECK_THAT(refused.err, Contains("--observer 1") && Contains("--another-person"));
+    CHECK_FALSE(std::filesystem::exists(experiment.session(1, "01")));
+    const ProgramRun other = run_as("01", {"--another-person"});
+    INFO(other.err);
+    CHECK(other.exit_code == 0);
+    CHECK(std::filesystem::exists(experiment.session(1, "01")));
+    // Nothing is asked of who has sessions, nor of anybody else.
+    CHECK(run_as("01", {}).exit_code == 0);
+    CHECK(run_as("2", {}).exit_code == 0);
 }
 
 TEST_CASE("an interrupted trial can be skipped, which is recorded", "[session]") {

@@ -41,7 +41,7 @@ TEST_CASE("an EyeLink is set up on the set-up screen: targets, camera, sounds, w
                                key_of(SetupKey::Kind::escape)};
     const SetupOutcome outcome = bench.driver.set_up(bench.setup_screen);
     CHECK(outcome.kind == SetupOutcome::Kind::done);
-    CHECK(outcome.method == "tracker");
+    CHECK(outcome.method == "tracker, 9 points");
     REQUIRE(outcome.validation);
     CHECK(outcome.validation->mean_error.value == 0.45);
     CHECK(bench.setup_screen.showed("target 960 540 of 0.6"));

@@ -120,7 +120,8 @@ TEST_CASE("gaze that is far off before a calibration is right after it", "[unit]
         CHECK(outcome.validation->targets.size() == 5);
         CHECK(outcome.validation->mean_error.value < 0.3);
         CHECK(outcome.validation->max_error.value < 0.6);
-        CHECK(outcome.method == "polynomial of second order, " + std::to_string(points) + " targets");
+        CHECK(outcome.method == "polynomial of second order, " + std::to_string(points) + " targets of " +
+                                    std::to_string(points) + " points");
         CHECK(error_at(sitting, *tracker, place) < 0.5);
         CHECK(error_at(sitting, *tracker, {700.0, 600.0}) < 0.4);
         CHECK(setup_screen.beeps.back() == SetupBeep::calibration_good);

@@ -160,11 +160,17 @@ TEST_CASE("ASC and BIDS tell of each eye's validation and its targets", "[unit]"
     CHECK_THAT(text, Contains("VALIDATE L 2POINT 0 LEFT  at 100,200  OFFSET 0.25 deg.  4.0,-3.0 pix.\n"));
     CHECK_THAT(text, Contains("VALIDATE R 2POINT 1 RIGHT  at 900,800  MISSING\n"));
     CHECK(read_as_mne(text).failure == "");
+    // What the program took down of the tracker is a message, once: a line without a time is no ASC.
+    CHECK_THAT(text, Contains("MSG\t2030 data lost (queue overflow): 12 samples\n"));
+    CHECK(text.find("data lost") == text.rfind("data lost"));
     const nlohmann::ordered_json left = bids_tracker(record, 1, Eye::left);
     CHECK(left["CalibrationCount"] == 1);
-    CHECK(left["CalibrationType"] == "HV2");
-    CHECK(left["CalibrationUnit"] == "pixel");
-    CHECK(left["CalibrationPosition"] == nlohmann::ordered_json::parse("[[100.0, 200.0], [900.0, 800.0]]"));
+    // The calibration had nine targets, and where they were is not on record; the validation had these two.
+    CHECK(left["CalibrationType"] == "HV9");
+    CHECK_FALSE(left.contains("CalibrationPosition"));
+    CHECK(left["ValidationUnit"] == "pixel");
+    CHECK(left["ValidationPosition"] == nlohmann::ordered_json::parse("[[100.0, 200.0], [900.0, 800.0]]"));
+    CHECK_THAT(text, Contains(">>>>>>> CALIBRATION (HV9,"));
     CHECK(left["AverageCalibrationError"] == 0.5);
     CHECK(left["MaximalCalibrationError"] == 0.75);
     CHECK(bids_tracker(record, 1, Eye::right)["MaximalCalibrationError"] == 0.5);

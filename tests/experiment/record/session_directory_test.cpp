@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "experiment/base/error.h"
+#include "experiment/observer_label.h"
 #include "experiment/record/read/session_record.h"
 #include "tests/experiment/record/session_fixture.h"
 
@@ -23,6 +24,38 @@ TEST_CASE("sessions of an observer are numbered on, and none is overwritten", "[
     CHECK_THROWS_AS(SessionDirectory(place, 2), InputError);
     CHECK_THROWS_AS(SessionDirectory(place, 0), InputError);
     CHECK(SessionDirectory(place, 12).session_number() == 12);
+}
+
+TEST_CASE("labels that differ in case or leading zeros only are alike, and no others", "[unit]") {
+    for (const auto& [a, b] :
+         {std::pair{"1", "01"}, {"7", "007"}, {"P07", "p7"}, {"a01b2", "A1B002"}, {"0", "00"}}) {
+        INFO(a << " " << b);
+        CHECK(are_alike(a, b));
+        CHECK(are_alike(b, a));
+        CHECK_FALSE(are_alike(a, a));
+    }
+    for (const auto& [a, b] :
+         {std::pair{"1", "10"}, {"P1", "Q1"}, {"100", "1"}, {"P10", "P1"}, {"a0", "a"}, {"1a", "a1"}})
+        CHECK_FALSE(are_alike(a, b));
+}
+
+TEST_CASE("an observer whose label is nearly another's has no place unless that is another person",
+          "[unit]") {
+    const TemporaryFolder root;
+    make_session(root.path(), example_header()); // of AB7
+    SessionPlace place{root.path(), "tiny", "ab07"};
+    CHECK_THROWS_WITH(check_session_place(place, {}),
+                      Contains("--observer AB7") && Contains("--another-person") && Contains("tiny"));
+    place.is_another_person = true;
+    CHECK_NOTHROW(check_session_place(place, {}));
+    // Who has a session already goes on under this label.
+    SessionHeader header = example_header();
+    header.schedule.observer.label = "ab07";
+    make_session(root.path(), header);
+    place.is_another_person = false;
+    CHECK_NOTHROW(check_session_place(place, {}));
+    CHECK_NOTHROW(check_session_place({root.path(), "tiny", "AB8"}, {}));
+    CHECK_NOTHROW(check_session_place({root.path(), "other", "ab07"}, {}));
 }
 
 TEST_CASE("names that would not make one folder are refused", "[unit]") {

@@ -91,7 +91,8 @@ inline void add_trial(StudyResults& study, int number) {
         if (i % 7 == 3)
             fixation.why = NotCounted::too_short;
         trace.events.push_back({GazeEvent::Kind::fixation, fixation.onset_s, fixation.duration_s});
-        trace.events.push_back({GazeEvent::Kind::saccade, fixation.onset_s + fixation.duration_s, 0.04});
+        trace.events.push_back({GazeEvent::Kind::saccade, fixation.onset_s + fixation.duration_s, 0.04,
+                                2.0 + i, 100.0 + 20.0 * i});
         study.fixations.push_back(fixation);
         for (int k = 0; k < 100; ++k) {
             const double moved = std::clamp((0.004 * k - fixation.duration_s) / 0.04, 0.0, 1.0);

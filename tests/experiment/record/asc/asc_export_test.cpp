@@ -6,6 +6,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/number_text.h"
+#include "experiment/base/whole_file.h"
 #include "experiment/record/asc/asc_import.h"
 #include "tests/experiment/record/eye_session.h"
 #include "tests/support/asc_readers.h"
@@ -211,6 +212,58 @@ TEST_CASE("an exported session holds its trials, aborted ones too, and nothing b
                       [](char c) { return c == '\n' || c == '\t' || (c >= ' ' && c < 127); }));
     // The tracker's time of a screen is that of the session, by the clocks.
     CHECK_THAT(text, Contains(fmt::format("MSG\t{} PRESENTATION_ONSET\n", 7'000'000 + 11'000)));
+}
+
+namespace {
+
+/// Times in milliseconds of the messages that begin with a word, in the file's order.
+std::vector<long long> times_of(const std::string& text, const std::string& word) {
+    std::vector<long long> times;
+    for (std::size_t at = text.find("MSG\t"); at != std::string::npos; at = text.find("MSG\t", at + 1)) {
+        const std::size_t blank = text.find(' ', at);
+        if (text.compare(blank + 1, word.size(), word) == 0)
+            times.push_back(std::stoll(text.substr(at + 4, blank - at - 4)));
+    }
+    return times;
+}
+
+} // namespace
+
+TEST_CASE("attempts that follow at once stand one after the other by their times, too", "[unit]") {
+    const test::TemporaryFolder root;
+    SessionHeader header = eye_session_header();
+    const fs::path session = make_session(root.path(), header);
+    {
+        SessionStore store(session / session_file_name, patient());
+        for (const std::int64_t second : {0, 100})
+            store.clock_pair(
+                {at_ms(1000 * second), TrackerTime(std::chrono::seconds(second)), at_ms(1000 * second)});
+        // The first is broken off, and comes again in the same millisecond.
+        const Trial& trial = header.schedule.trials[0];
+        record_attempt(store, 0, trial, 1000, 200, TrialOutcome::Status::aborted);
+        record_attempt(store, 0, trial, 2000, 200, TrialOutcome::Status::aborted);
+        record_attempt(store, 0, header.schedule.trials[1], 2999, 200, TrialOutcome::Status::completed);
+    }
+    const SessionRecord record(session);
+    export_asc(record, root.path() / "asc", {.opensesame_messages = true});
+    const std::string text = read_whole_file(root.path() / "asc/sub-AB7_ses-01_run-01.asc");
+    INFO(text.substr(0, 3000));
+    for (const auto& [first, last] :
+         {std::pair{"TRIALID ", "TRIAL_RESULT "}, {"start_trial ", "end_trial"}}) {
+        const std::vector<long long> begins = times_of(text, first), ends = times_of(text, last);
+        REQUIRE(begins.size() == 3);
+        REQUIRE(ends.size() == 3);
+        for (std::size_t i = 0; i < 3; ++i) {
+            CHECK(begins[i] < ends[i]);
+            CHECK((i == 2 || ends[i] < begins[i + 1]));
+        }
+    }
+    // Of each attempt how it ended, inside of it.
+    CHECK_THAT(text, Contains("var attempt 2\n") && Contains("var counts no\n") &&
+                         Contains("var counts yes\n") && Contains("var status aborted\n") &&
+                         Contains("var status completed\n") && Contains("var response_time_ms "));
+    for (const std::string name : {"attempt", "status", "counts"})
+        CHECK(times_of(text, "var " + name + " ").size() == 3);
 }
 
 TEST_CASE("what was exported as ASC and imported has the same samples, and its export the same bytes",

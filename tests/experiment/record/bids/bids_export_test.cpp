@@ -8,6 +8,7 @@
 #include "experiment/base/error.h"
 #include "experiment/base/number_text.h"
 #include "experiment/record/asc/asc_import.h"
+#include "experiment/record/bids/bids_tracker.h"
 #include "tests/experiment/record/eye_session.h"
 #include "tests/support/asc_text.h"
 #include "tests/support/bids_rules.h"
@@ -60,7 +61,7 @@ void write_packed(const fs::path& file, const std::string& text, bool with_name 
     out.close();
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
+std::string with_replaced(std::string text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
     REQUIRE(at != std::string::npos);
     return text.replace(at, from.size(), to);
@@ -127,8 +128,8 @@ TEST_CASE("the checker of the rules finds each of them broken", "[unit]") {
         {"COLUMN_UNDESCRIBED", physio + ".json", json_without(physio + ".json", {"pupil_size"})},
         {"HEADER_LINE_OR_BAD_TIME", physio + ".tsv.gz",
          "timestamp\tx_coordinate\ty_coordinate\tpupil_size\n" + samples},
-        {"NOT_A_NUMBER", physio + ".tsv.gz", replaced(samples, "\tn/a\t", "\tNaN\t")},
-        {"NOT_A_NUMBER", physio + ".tsv.gz", replaced(samples, "\tn/a\t", "\t.\t")},
+        {"NOT_A_NUMBER", physio + ".tsv.gz", with_replaced(samples, "\tn/a\t", "\tNaN\t")},
+        {"NOT_A_NUMBER", physio + ".tsv.gz", with_replaced(samples, "\tn/a\t", "\t.\t")},
         {"ROW_LENGTH", physio + ".tsv.gz", samples + "99999999999\t1.0\n"},
         {"TIMESTAMPS_UNSORTED", physio + ".tsv.gz", second_line + samples},
         {"ONSET_SOURCE", gaze_events + ".json", json_with(gaze_events + ".json", "OnsetSource", "n/a")},
@@ -149,12 +150,12 @@ TEST_CASE("the checker of the rules finds each of them broken", "[unit]") {
         {"SCREEN_SIZE", events_file + ".json",
          json_without(events_file + ".json", {"StimulusPresentation", "ScreenSize"})},
         {"COLUMN_UNDESCRIBED", events_file + ".json", json_without(events_file + ".json", {"status"})},
-        {"VALUE_NOT_IN_LEVELS", events_file + ".tsv", replaced(rows, "\tpresentation\t", "\tshow\t")},
-        {"ONSET_DURATION_FIRST", events_file + ".tsv", replaced(rows, "onset\tduration", "duration\tonset")},
+        {"VALUE_NOT_IN_LEVELS", events_file + ".tsv", with_replaced(rows, "\tpresentation\t", "\tshow\t")},
+        {"ONSET_DURATION_FIRST", events_file + ".tsv", with_replaced(rows, "onset\tduration", "duration\tonset")},
         {"EVENTS_UNSORTED", events_file + ".tsv", rows + rows.substr(rows.find('\n') + 1)},
         {"STIMULUS_MISSING", events_file + ".tsv",
-         replaced(rows, "tiny/bust_silver.png", "tiny/nothing.png")},
-        {"EMPTY_CELL", events_file + ".tsv", replaced(rows, "\tn/a\t", "\t\t")}};
+         with_replaced(rows, "tiny/bust_silver.png", "tiny/nothing.png")},
+        {"EMPTY_CELL", events_file + ".tsv", with_replaced(rows, "\tn/a\t", "\t\t")}};
     for (const Case& broken : cases) {
         CAPTURE(broken.rule, broken.file);
         const fs::path file = dataset.beh(broken.file);
@@ -418,4 +419,69 @@ TEST_CASE("an imported recording becomes a dataset with the tracker's own events
     CHECK(json["AverageCalibrationError"] == 0.31);
     CHECK(json["CalibrationType"] == "HV3");
     CHECK(json["Manufacturer"] == "SR Research");
+    CHECK(json["EyeTrackingMethod"] == "P-CR");
+    // The task is what it was imported as, and not the file; and nobody says what was shown, nor by what.
+    CHECK(json["TaskName"] == "reading");
+    for (const auto& [name, text] : content_of(root.path() / "dataset")) {
+        INFO(name);
+        CHECK(text.find("sculpture\"s") == std::string::npos);
+        CHECK(text.find("animated") == std::string::npos);
+        CHECK(text.find("a.asc") == std::string::npos);
+        CHECK((name.find("_events.json") == std::string::npos ||
+               text.find("SoftwareName") == std::string::npos));
+    }
+}
+
+TEST_CASE("how an imported recording tracked is what it says itself", "[unit]") {
+    const auto method_of = [](const std::string& from, const std::string& to) {
+        const test::TemporaryFolder root;
+        AscImportOptions options;
+        options.place = {root.path(), "reading", "P1"};
+        std::string text = asc_text({});
+        for (std::size_t at = text.find(from); !from.empty() && at != std::string::npos;
+             at = text.find(from, at + to.size()))
+            text.replace(at, from.size(), to);
+        const SessionRecord record(import_asc(write_asc(root.path() / "a.asc", text), options).session);
+        return bids_tracker(record, 1, Eye::left).value("EyeTrackingMethod", "");
+    };
+    CHECK(method_of("", "") == "P-CR");
+    CHECK(method_of("RECCFG CR", "RECCFG P") == "pupil alone");
+    CHECK(method_of(" RECCFG ", " OTHER ") == "");
+}
+
+TEST_CASE("a dataset says of the pupil and the tracker what each tracker measures", "[unit]") {
+    struct Case {
+        std::string name, model, pupil, unit, manufacturer, method;
+    };
+    const Case cases[] = {
+        {"eyelink", "", "Pupil area", "arbitrary", "SR Research", "P-CR"},
+        {"tobii", "", "Pupil diameter", "mm", "Tobii", "P-CR"},
+        {"Open Gaze", "", "Pupil diameter", "mm", "Gazepoint", "P-CR"},
+        {"Pupil Core", "", "Pupil diameter", "mm", "Pupil Labs", "pupil alone, by a model of the eye"},
+        {"replay", "gaze of sub-07_ses-01, by tobii", "Pupil diameter", "mm", "Tobii", "P-CR"},
+        {"Lab Streaming Layer", "", "whether it is an area or a diameter", "arbitrary", "", ""},
+    };
+    for (const Case& of : cases) {
+        CAPTURE(of.name);
+        const test::TemporaryFolder root;
+        SessionHeader header = eye_session_header();
+        header.tracker.name = of.name;
+        header.tracker.model = of.model;
+        const fs::path session = make_session(root.path(), header);
+        {
+            SessionStore store(session / session_file_name, patient());
+            for (const std::int64_t second : {0, 100})
+                store.clock_pair(
+                    {at_ms(1000 * second), TrackerTime(std::chrono::seconds(second)), at_ms(1000 * second)});
+            record_attempt(store, 0, header.schedule.trials[0], 1000, 200, TrialOutcome::Status::completed);
+        }
+        export_bids(SessionRecord(session), no_surface, root.path() / "dataset", {});
+        const auto json =
+            nlohmann::json::parse(bytes_of(root.path() / "dataset/sub-AB7/ses-01/beh" / (physio + ".json")));
+        CHECK_THAT(json["pupil_size"]["Description"].get<std::string>(), Contains(of.pupil));
+        CHECK(json["pupil_size"]["Units"] == of.unit);
+        CHECK(json.value("Manufacturer", "") == of.manufacturer);
+        CHECK(json.value("EyeTrackingMethod", "") == of.method);
+        CHECK(BidsRules(root.path() / "dataset").text() == "");
+    }
 }
