@@ -117,7 +117,7 @@ std::vector<SessionSetup::Calibrations> calibrations_of(const SessionRecord& rec
         for (const RecordedCalibration& one : record.calibrations(sitting)) {
             auto found = std::ranges::find(all, one.method, &SessionSetup::Calibrations::method);
             if (found == all.end())
-                found = all.insert(all.end(), {one.method, 0, 0});
+                found = all.insert(all.end(), {one.method, 0, 0, false});
             ++found->times;
             found->beyond_limits += !one.is_within_limits;
         }
@@ -143,6 +143,8 @@ SessionSetup setup_of(const SessionRecord& record) {
             setup.tasks.push_back({task.id, plain_line_of(task.question)});
     }
     setup.calibrations = calibrations_of(record);
+    for (SessionSetup::Calibrations& one : setup.calibrations)
+        one.is_simulated = setup.gaze.is_simulated();
     setup.program_version = header.program.version;
     return setup;
 }

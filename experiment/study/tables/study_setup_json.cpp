@@ -100,8 +100,10 @@ FactsJson setup_json(const StudyResults& results) {
     FactsJson calibrations = FactsJson::array();
     int times = 0;
     for (const SessionSetup::Calibrations& one : calibrations_of(results)) {
-        calibrations.push_back(
-            {{"method", one.method}, {"times", one.times}, {"beyond_limits", one.beyond_limits}});
+        calibrations.push_back({{"method", one.method},
+                                {"times", one.times},
+                                {"beyond_limits", one.beyond_limits},
+                                {"simulated", one.is_simulated}});
         times += one.times;
     }
     return {{"gaze", shared_json(results, of_setup(&SessionSetup::gaze), gaze_json)},

@@ -31,7 +31,7 @@ SessionSetup measured_setup() {
     setup.stimuli.duration_s = 8.0;
     setup.materials = {{"gold", "Smooth gold"}, {"clay", ""}, {"unseen", "Unseen"}};
     setup.tasks = {{"free", "Look as you like."}, {"age", "How old is it?"}};
-    setup.calibrations = {{"tracker, 9 points", 3, 1}, {"polynomial, 13 points", 1, 0}};
+    setup.calibrations = {{"tracker, 9 points", 3, 1, false}, {"polynomial, 13 points", 1, 0, false}};
     setup.program_version = "0.9.1";
     return setup;
 }
@@ -107,7 +107,7 @@ TEST_CASE("methods of measured gaze are told with every value", "[unit]") {
         "which the left is analysed, was measured at 1000 Hz with an eye tracker, EyeLink (EYELINK CL 5.15). "
         "How the head was held, how the eye tracker works and what its software filters, and the room and "
         "its "
-        "light, are not on record. Sessions were run with overt 0.9.1.");
+        "light, are not on record. Presentation and recording were by overt 0.9.1.");
     CHECK(
         study.text("Stimuli") ==
         "1 sculpture (A vase) was shown, in 2 materials (Smooth gold and clay). Pictures had 1024 x 768 "
@@ -124,8 +124,9 @@ TEST_CASE("methods of measured gaze are told with every value", "[unit]") {
         "protocol. The mean error of the validation before a trial was 0.550 deg (median over 4 trials; "
         "0.400 "
         "to 0.700 deg). Precision within fixations was 0.0213 deg (the same in 4 trials) "
-        "from sample to sample (RMS-S2S). As standard deviation around the eye's own motion "
-        "within fixations (SD) it was below 0.0001 deg (the same in 4 "
+        "from sample to sample (RMS-S2S). As standard deviation within fixations (SD), around the eye's own "
+        "motion (a line through "
+        "each fifth of a second), it was below 0.0001 deg (the same in 4 "
         "trials). The sampling rate by the time stamps was 1000 Hz (the same in 4 trials). Of the samples of "
         "a "
         "trial, 1.50 % (the same in 4 trials) had no gaze outside of blinks, and 0 % (the same in 4 trials) "
