@@ -36,7 +36,7 @@ EventSettings ChosenThresholds::over(EventSettings usual) const {
 }
 
 void GazeNoiseMeter::Counts::add(double value) {
-    const double step = std::clamp(value / step_, 0.0, static_cast<double>(counts_.size() - 1));
+    const double step = std::clamp(std::round(value / step_), 0.0, static_cast<double>(counts_.size() - 1));
     ++counts_[static_cast<std::size_t>(step)];
     ++all_;
 }
@@ -48,7 +48,7 @@ std::optional<double> GazeNoiseMeter::Counts::median() const {
     std::size_t i = 0;
     while (2 * (before + counts_[i]) < all_)
         before += counts_[i++];
-    return step_ * (static_cast<double>(i) + 0.5);
+    return step_ * static_cast<double>(i);
 }
 
 GazeNoiseMeter::GazeNoiseMeter(const GazeAngles& angles)
