@@ -11,8 +11,11 @@
 #include "app/bench/bench_commands.h"
 #include "app/check/check_commands.h"
 #include "app/cli/command_options.h"
+#include "app/cli/line_faults.h"
+#include "app/cli/old_spellings.h"
 #include "app/cli/this_program.h"
 #include "app/display/display_commands.h"
+#include "app/manual/known_words.h"
 #include "app/manual/manual_commands.h"
 #include "app/power/power_command.h"
 #include "app/record/record_commands.h"
@@ -61,8 +64,11 @@ std::optional<int> answer_to_no_command(const CLI::App& app, int argc, char** ar
 } // namespace
 
 int run_command_line(int argc, char** argv) {
+    const std::vector<std::string> given(argv + std::min(argc, 1), argv + argc);
+    if (answer_shell(given))
+        return 0;
     CLI::App app(synopsis, "overt");
-    app.set_version_flag("--version", version_text());
+    app.set_version_flag("-V,--version", version_text(), "Print the version of the program and end");
     app.require_subcommand(1);
     app.footer(exit_codes);
     app.get_formatter()->column_width(34);
@@ -76,11 +82,17 @@ int run_command_line(int argc, char** argv) {
 
     if (const std::optional<int> answer = answer_to_no_command(app, argc, argv))
         return *answer;
+    std::vector<std::string> words = with_new_spellings(given);
+    std::ranges::reverse(words); // as CLI11 takes them
     try {
-        app.parse(argc, argv);
+        app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
-        // Help and version arrive here too, with code 0; all else is bad input.
-        return app.exit(error) == 0 ? 0 : 2;
+        // Help and version arrive here too; all else is bad input.
+        if (error.get_exit_code() == 0)
+            return app.exit(error);
+        for (const std::string& fault : line_faults(app, error))
+            fmt::print(stderr, "{}\n", fault);
+        return 2;
     }
     return chosen();
 }

@@ -183,8 +183,8 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
            shown_default);
     option(command, "--kernel", options.kernel, "",
            "How maps are blurred: geodesic along the surface, euclidean in space, voxel as in the paper",
-           CLI::IsMember({"geodesic", "euclidean", "voxel"}), shown_default);
-    option(command, "--seed", study.seed, "N", "Of the bootstrap, the permutations and the halves",
+           one_of({"geodesic", "euclidean", "voxel"}), shown_default);
+    option(command, "--seed", study.seed, "SEED", "Of the bootstrap, the permutations and the halves",
            seed_number(), shown_default);
     option(command, "--shortest-fixation", study.shortest_fixation_s, "S", "Fixations below are not counted",
            not_negative(), shown_default);
@@ -236,14 +236,14 @@ void add_analyze_command(CLI::App& app, ChosenCommand& chosen) {
            "Only read the part of machine I of N, I from 1, of these sessions; giving all shards in place of "
            "the sessions joins them");
     add_study_options(command, options);
-    option(command, "--format", options.format, "", "Of the tables", CLI::IsMember({"csv", "tsv", "jsonl"}),
+    option(command, "--format", options.format, "", "Of the tables", one_of({"csv", "tsv", "jsonl"}),
            shown_default);
     command.add_flag("--meshes", options.extras.meshes,
                      "Write each map as a coloured mesh, too (GLB and PLY)");
     command.add_flag("--volumes", options.extras.volumes,
                      "Write each map in space, too, as voxels (NRRD) and as a table of coordinates (.cube)");
     command.add_flag("--overwrite", options.overwrite, "Replace an analysis that is there");
-    command.add_flag("--json", options.json, "Print the study as JSON");
+    add_json_flag(command, options.json);
 }
 
 } // namespace overt

@@ -277,14 +277,14 @@ void add_replicate_command(CLI::App& app, ChosenCommand& chosen) {
     option(command, "--observers", options.observers, "N", "How many observers", CLI::Range(1, 999),
            shown_default);
     option(command, "--out", options.out, "DIR", "Folder for sessions and analysis", shown_default);
-    option(command, "--seed", options.seed, "N",
+    option(command, "--seed", options.seed, "SEED",
            "Of the first observer, and of the analysis; the others' follow", seed_number(), shown_default);
     option(command, "--trials", options.trials, "N",
            "Only the first N trials of each observer, to try a protocol", above_zero());
     option(command, "--jobs", options.jobs, "N", "Sessions at once", above_zero(), shown_default);
     add_context_option(command, options.context);
     command.add_flag("--overwrite", options.overwrite, "Replace an analysis that is there");
-    command.add_flag("--json", options.json, "Print the study as JSON");
+    add_json_flag(command, options.json);
 }
 
 } // namespace overt

@@ -56,7 +56,7 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
     }
     command.add_option("WHICH", options.what, fmt::format("{}", fmt::join(lines, "; ")))
         ->required()
-        ->check(CLI::IsMember(names));
+        ->check(one_of(names));
     command.add_option(
         "FILE", options.files,
         "events: EyeLink recordings (.asc) with the tracker's own events, tables of samples that "
@@ -67,7 +67,7 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
                     "Measure on this mesh (PLY, OBJ, STL) instead of the shipped sculptures")
         ->type_name("FILE");
     command.add_option("--up", options.up, "Axis of the mesh file that points up")
-        ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
+        ->check(one_of({"x", "y", "z", "-x", "-y", "-z"}))
         ->capture_default_str();
     command.add_option("--size", options.size_px, "Width and height of the picture")
         ->type_name("PX")
@@ -92,10 +92,11 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
     command
         .add_option("--seconds", options.seconds,
                     "tracker, watch: of real time, for each of two measurements")
+        ->type_name("S")
         ->check(CLI::Range(0.5, 3600.0))
         ->capture_default_str();
     add_context_option(command, options.context);
-    command.add_flag("--json", options.json, "Print JSON");
+    add_json_flag(command, options.json);
     run_when_chosen(command, chosen, [given] { return run_bench(*given); });
 }
 

@@ -24,7 +24,7 @@ void add_check(CLI::App& app, ChosenCommand& chosen) {
                      "Read every frame, and say how much of its light the display cannot show");
     option(command, "--screens", options.screens, "DIR",
            "Write a picture of each screen that a session shows between stimuli into this folder");
-    command.add_flag("--json", options.json, "Print JSON");
+    add_json_flag(command, options.json);
 }
 
 void add_new(CLI::App& app, ChosenCommand& chosen) {

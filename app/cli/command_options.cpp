@@ -5,7 +5,9 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "experiment/base/diagnostics.h"
 #include "experiment/base/text_number.h"
 
 namespace overt {
@@ -47,8 +49,39 @@ CLI::Validator seconds_up_to_an_hour() {
                         [](double value) { return value >= 0.0 && value <= 3600.0; });
 }
 
+CLI::Validator one_of(std::vector<std::string> words) {
+    std::string type = fmt::format("{{{}}}", fmt::join(words, ","));
+    return {[words = std::move(words)](const std::string& given) {
+                if (std::ranges::find(words, given) != words.end())
+                    return std::string();
+                const std::vector<std::string_view> known(words.begin(), words.end());
+                return fmt::format("there is no \"{}\": {}", given, suggest_name(given, known));
+            },
+            std::move(type)};
+}
+
 CLI::Validator one_of_names(std::span<const std::string_view> names) {
-    return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
+    return one_of({names.begin(), names.end()});
+}
+
+void add_json_flag(CLI::App& command, bool& json) { command.add_flag("--json", json, "Print JSON"); }
+
+void add_screen_options(CLI::App& command, bool& windowed, std::string& monitor,
+                        const std::string& standard) {
+    command.add_flag("--windowed", windowed, "A window instead of the whole screen");
+    add_monitor_option(command, monitor, standard);
+}
+
+CLI::Option* add_monitor_option(CLI::App& command, std::string& monitor, const std::string& standard) {
+    return option(
+        command, "--monitor", monitor, "WHICH",
+        fmt::format("The screen to take: its number as `overt doctor` lists them, or the name of its output "
+                    "or of its EDID (default: {})",
+                    standard));
+}
+
+void add_sessions_option(CLI::App& command, std::filesystem::path& sessions) {
+    option(command, "--sessions", sessions, "DIR", "Folder of all sessions", shown_default);
 }
 
 void add_quality_option(CLI::App& command, std::optional<BakeQuality>& quality, const std::string& what,

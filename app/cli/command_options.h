@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -60,6 +61,9 @@ CLI::Option* option(CLI::App& command, const std::string& name, Value& value, co
     return added;
 }
 
+/// A check for words of which one is to be given; what is none of them is told with what was probably meant.
+CLI::Validator one_of(std::vector<std::string> words);
+
 /// An option that is one of `choices`, by its name.
 template <class Choice, class Value>
 CLI::Option* choice(CLI::App& command, const std::string& name, Value& value, const std::string& type,
@@ -74,7 +78,7 @@ CLI::Option* choice(CLI::App& command, const std::string& name, Value& value, co
                 value = std::ranges::find(choices, given, &std::pair<std::string, Choice>::first)->second;
             },
             text)
-        ->check(CLI::IsMember(names))
+        ->check(one_of(names))
         ->type_name(type);
 }
 
@@ -84,6 +88,19 @@ CLI::Validator not_negative();
 
 /// A check for the names of a table or an enumeration.
 CLI::Validator one_of_names(std::span<const std::string_view> names);
+
+// Options that several commands have, each with one name and one text.
+
+/// --json
+void add_json_flag(CLI::App& command, bool& json);
+
+/// --windowed, --monitor; `standard`: what is taken if none is named.
+void add_screen_options(CLI::App& command, bool& windowed, std::string& monitor,
+                        const std::string& standard = "the only one");
+CLI::Option* add_monitor_option(CLI::App& command, std::string& monitor, const std::string& standard);
+
+/// --sessions
+void add_sessions_option(CLI::App& command, std::filesystem::path& sessions);
 
 /// --context
 void add_context_option(CLI::App& command, ContextChoice& context);

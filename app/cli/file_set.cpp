@@ -34,7 +34,7 @@ void check_can_write(const std::vector<TextFile>& files, bool force) {
         if (std::filesystem::is_directory(file.path, ignored))
             throw InputError(fmt::format("{}: there is a folder of that name", file.path.string()));
         if (!force && std::filesystem::exists(file.path, ignored))
-            throw InputError(fmt::format("{}: there already; --force replaces it, or give another --out",
+            throw InputError(fmt::format("{}: there already; --overwrite replaces it, or give another --out",
                                          file.path.string()));
     }
 }

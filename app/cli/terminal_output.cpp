@@ -12,7 +12,7 @@ namespace overt {
 
 namespace {
 
-std::atomic<bool> is_output_lost = false, is_only_told = false;
+std::atomic<bool> is_output_lost = false, is_only_told = false, has_reader_gone = false;
 
 /// The write function of a stream on the file descriptor that `cookie` points to: all is taken, and what does
 /// not arrive is remembered if it was standard output.
@@ -23,8 +23,9 @@ ssize_t write_or_forget(void* cookie, const char* bytes, std::size_t count) {
         if (now > 0) {
             written += static_cast<std::size_t>(now);
         } else if (errno != EINTR) {
+            // A reader that has read enough, such as head, has not lost anything.
             if (descriptor == STDOUT_FILENO)
-                is_output_lost = true;
+                (errno == EPIPE ? has_reader_gone : is_output_lost) = true;
             break;
         }
     }
@@ -65,6 +66,8 @@ bool all_output_arrived() {
     std::fflush(stderr);
     return is_only_told || !is_output_lost;
 }
+
+bool output_reader_has_gone() { return has_reader_gone; }
 
 void output_is_only_told() { is_only_told = true; }
 

@@ -88,7 +88,7 @@ class ReadingsJournal {
         std::error_code ignored;
         if (!force && std::filesystem::exists(file_, ignored))
             throw InputError(fmt::format("{}: holds what was read before a measurement ended early: move it "
-                                         "away, or replace it with --force",
+                                         "away, or replace it with --overwrite",
                                          file_.string()));
     }
     void add(const PatchReading& reading) {

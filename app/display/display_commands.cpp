@@ -7,12 +7,12 @@ namespace overt {
 namespace {
 
 void add_characterise(CLI::App& display, ChosenCommand& chosen) {
-    const auto [command, options] =
-        add_command(display, chosen, run_display_characterise, "characterise",
-                    "Measures the display with a photometer, fits its light and curves, and proves them",
-                    "overt display characterise protocols/overt_2019.toml --out lab3.toml --warm-up 30\n"
-                    "  overt display characterise --readings lab3_readings.csv --out lab3.toml\n"
-                    "  overt display characterise --simulated 1 --context osmesa --out simulated.toml");
+    const auto [command, options] = add_command(
+        display, chosen, run_display_characterise, "characterise",
+        "Measures the display with a photometer, fits its light and curves, and proves them",
+        "overt display characterise protocols/overt_2019.toml --out lab3.toml --warm-up 30\n"
+        "  overt display characterise --readings lab3_readings.csv --out lab3.toml\n"
+        "  overt display characterise --simulate-photometer 1 --context osmesa --out simulated.toml");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML): its screen and output");
     option(command, "--out", options.out, "FILE.toml", "File to write; readings and report go beside it",
            shown_default);
@@ -22,7 +22,7 @@ void add_characterise(CLI::App& display, ChosenCommand& chosen) {
     auto* typed = command.add_flag("--typed", options.typed,
                                    "Ask at the terminal for what an instrument shows, patch by patch");
     CLI::Option* const simulated =
-        option(command, "--simulated", options.simulated, "SEED",
+        option(command, "--simulate-photometer", options.simulated, "SEED",
                "A simulated photometer before a simulated display: to learn the procedure");
     readings->excludes(typed)->excludes(simulated);
     typed->excludes(simulated);
@@ -33,18 +33,17 @@ void add_characterise(CLI::App& display, ChosenCommand& chosen) {
     option(command, "--name", options.name, "", "Which display it is, for the file", shown_default);
     option(command, "--instrument", options.instrument, "", "What the readings were taken with, in words");
     option(command, "--mode", options.mode, "MODE", "Output mode (default: the protocol's, else native-8bit)",
-           CLI::IsMember(
-               names_of_modes([](const OutputModeRow& row) { return row.shows == ShownLight::colours; })));
+           one_of(names_of_modes([](const OutputModeRow& row) { return row.shows == ShownLight::colours; })));
     option(command, "--model", options.model, "",
            "Curves of the file: the measured table, or the power that was fitted to it",
-           CLI::IsMember({"table", "power"}), shown_default);
+           one_of({"table", "power"}), shown_default);
     option(command, "--levels", options.levels, "", "Levels of each channel, black among them",
            CLI::Range(6, 256), shown_default);
     option(command, "--mixed", options.mixed, "", "Random patches for validation", CLI::Range(0, 1000),
            shown_default);
     option(command, "--repeats", options.repeats, "", "Readings of each patch, each time in another order",
            CLI::Range(1, 100), shown_default);
-    option(command, "--seed", options.seed, "", "Of the order and the random patches", shown_default);
+    option(command, "--seed", options.seed, "SEED", "Of the order and the random patches", shown_default);
     option(command, "--settle", options.settle_s, "S", "Time from a patch's onset to its reading",
            CLI::Range(0.0, 600.0), shown_default);
     option(command, "--warm-up", options.warm_up_min, "MIN", "White before the first reading",
@@ -57,12 +56,10 @@ void add_characterise(CLI::App& display, ChosenCommand& chosen) {
            "By how much a channel of the simulated display sinks when the others are lit",
            CLI::Range(0.0, 0.5))
         ->needs(simulated);
-    command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
-    option(command, "--monitor", options.monitor, "WHICH",
-           "The screen to take: its number as `overt doctor` lists them, or the name of its output or EDID");
+    add_screen_options(command, options.windowed, options.monitor, "the protocol's, or the only one");
     add_context_option(command, options.context);
-    command.add_flag("--force", options.force, "Replace files that are there");
-    command.add_flag("--json", options.json, "Print JSON");
+    command.add_flag("--overwrite", options.force, "Replace files that are there");
+    add_json_flag(command, options.json);
 }
 
 void add_colour(CLI::App& display, ChosenCommand& chosen) {
@@ -81,10 +78,10 @@ void add_colour(CLI::App& display, ChosenCommand& chosen) {
     option(colours, "--spectra", options.spectra, "FILE.csv",
            "Radiances in W/(sr m2 nm): a column wavelength_nm, and one for each colour");
     colours.require_option(1);
-    option(command, "--observer", options.observer, "",
+    option(command, "--standard-observer", options.observer, "",
            "For whom --xyz and --spectra are matched; all but cie1931 need the spectra of the display",
-           CLI::IsMember({"cie1931", "cie2006", "cie2006-cones"}), shown_default);
-    command.add_flag("--json", options.json, "Print JSON");
+           one_of({"cie1931", "cie2006", "cie2006-cones"}), shown_default);
+    add_json_flag(command, options.json);
 }
 
 void add_status(CLI::App& display, ChosenCommand& chosen) {
@@ -94,7 +91,7 @@ void add_status(CLI::App& display, ChosenCommand& chosen) {
                                                 "overt display status\n"
                                                 "  overt display status --port /dev/ttyACM0 --json");
     option(command, "--port", options.port, "PORT", "Ask at this serial port only");
-    command.add_flag("--json", options.json, "Print JSON");
+    add_json_flag(command, options.json);
 }
 
 void add_mode(CLI::App& display, ChosenCommand& chosen) {
@@ -104,9 +101,9 @@ void add_mode(CLI::App& display, ChosenCommand& chosen) {
                                                 "  overt display mode color++ --port /dev/ttyACM0");
     command.add_option("MODE", options.mode, "bits++ (in which a desktop can be read), mono++ or color++")
         ->required()
-        ->check(CLI::IsMember({"bits++", "mono++", "color++"}));
+        ->check(one_of({"bits++", "mono++", "color++"}));
     option(command, "--port", options.port, "PORT", "Serial port of the box (default: look for it)");
-    command.add_flag("--json", options.json, "Print JSON");
+    add_json_flag(command, options.json);
 }
 
 /// Two commands by one name: what is drawn, and what arrives at the box.
@@ -126,22 +123,19 @@ void add_verify(CLI::App& display, ChosenCommand& chosen) {
         "  overt display verify protocols/overt_2019.toml --stimulus muse/smooth --mode color++");
     command.add_option("PROTOCOL", given->on_screen.protocol,
                        "Protocol file (TOML): its screen, and its stimuli as it sends them");
-    option(command, "--stimulus", given->on_screen.stimulus, "ID",
+    option(command, "--stimulus", given->on_screen.stimulus, "STIMULUS",
            "SCULPTURE/MATERIAL by their ids (default: all)");
     option(command, "--mode", given->on_screen.modes, "MODE", "Output mode, as in a protocol (default: all)",
-           CLI::IsMember(names_of_modes([](const OutputModeRow&) { return true; })));
+           one_of(names_of_modes([](const OutputModeRow&) { return true; })));
     add_context_option(command, given->on_screen.context);
-    command.add_flag("--json", given->on_screen.json, "Print JSON");
+    add_json_flag(command, given->on_screen.json);
     auto& on_hardware_flag = *command.add_flag(
         "--hardware", given->on_hardware,
         "Draw known lines on the display instead, have its box send back what it received, three times, and "
         "say line by line what the way there changed");
     option(command, "--port", given->hardware.port, "PORT", "Serial port of the box (default: look for it)")
         ->needs(&on_hardware_flag);
-    option(command, "--monitor", given->hardware.monitor, "WHICH",
-           "The screen behind the box: its number as `overt doctor` lists them, or the name of its output or "
-           "EDID (default: the only one)")
-        ->needs(&on_hardware_flag);
+    add_monitor_option(command, given->hardware.monitor, "the only one")->needs(&on_hardware_flag);
     for (const char* other : {"PROTOCOL", "--stimulus", "--mode", "--context"})
         on_hardware_flag.excludes(command.get_option(other));
     run_when_chosen(command, chosen, [given] {
@@ -155,27 +149,26 @@ void add_doctor(CLI::App& app, ChosenCommand& chosen) {
     const auto [command, options] = add_command(
         app, chosen, run_doctor, "doctor", "What this machine offers for a session, and what is missing",
         "overt doctor --json\n"
-        "  overt doctor --photodiode --protocol protocols/overt_2019.toml --sensor simulated "
+        "  overt doctor protocols/overt_2019.toml --photodiode --sensor simulated "
         "--context osmesa\n"
         "  overt doctor --window --monitor 1 --seconds 30 --report rig.md");
-    command.add_flag("--json", options.json, "Print JSON");
+    command.add_option("PROTOCOL", options.protocol,
+                       "Protocol file (TOML): show the square of --photodiode as its sessions would, on its "
+                       "screen, in its mode, through its display box and in its corner");
+    add_json_flag(command, options.json);
     command.add_flag("--window", options.window,
                      "Show a dark screen, measure its refreshes, and say what may disturb their times");
     command.add_flag("--photodiode", options.photodiode,
                      "Show a square in a corner that changes, and compare what a sensor sees with the times "
                      "of the flips");
-    option(command, "--protocol", options.protocol, "FILE",
-           "Show the square as a session of this protocol would: its screen, mode, display box and corner");
     option(command, "--sensor", options.sensor, "PORT",
            "Serial port of a light sensor that sends 1 and 0, or `simulated` (5 ms late, 0.2 ms jitter)");
     option(command, "--report", options.report, "FILE.md",
            "Write all that is found as a page to keep, with what --window and --photodiode measure and "
            "pictures of it");
     add_context_option(command, options.context);
-    command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
-    option(command, "--monitor", options.monitor, "WHICH",
-           "The screen to take: its number as this command lists them, or the name of its output or EDID");
-    option(command, "--seconds", options.seconds, "SECONDS", "How long to measure", CLI::Range(0.1, 3600.0),
+    add_screen_options(command, options.windowed, options.monitor);
+    option(command, "--seconds", options.seconds, "S", "How long to measure", CLI::Range(0.1, 3600.0),
            shown_default);
 }
 

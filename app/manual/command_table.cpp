@@ -10,12 +10,20 @@ namespace overt {
 
 namespace {
 
+constexpr std::pair<WordKind, std::string_view> asked_kinds[] = {{WordKind::stimulus, "STIMULUS"},
+                                                                 {WordKind::sculpture, "SCULPTURE"},
+                                                                 {WordKind::further_tracker, "FURTHER"},
+                                                                 {WordKind::trial, "TRIAL"}};
+
 /// By the name under which a word stands in the help.
 WordKind kind_called(const std::string& name) {
     if (name == "PROTOCOL")
         return WordKind::protocol;
     if (name == "SESSION")
         return WordKind::session;
+    for (const auto& [kind, value] : asked_kinds)
+        if (name == value)
+            return kind;
     if (name == "DIR")
         return WordKind::folder;
     return name.starts_with("FILE") || name == "MESH" ? WordKind::file : WordKind::other;
@@ -92,6 +100,20 @@ CommandEntry entry_of(const CLI::App& app, const std::string& path) {
 }
 
 } // namespace
+
+bool is_asked_for(WordKind kind) { return !name_of(kind).empty(); }
+
+std::string_view name_of(WordKind kind) {
+    const auto* const found =
+        std::ranges::find(asked_kinds, kind, &std::pair<WordKind, std::string_view>::first);
+    return found == std::end(asked_kinds) ? "" : found->second;
+}
+
+WordKind kind_named(std::string_view name) {
+    const auto* const found =
+        std::ranges::find(asked_kinds, name, &std::pair<WordKind, std::string_view>::second);
+    return found == std::end(asked_kinds) ? WordKind::other : found->first;
+}
 
 CommandEntry command_table(const CLI::App& app) { return entry_of(app, ""); }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace CLI {
@@ -12,7 +13,24 @@ class App;
 namespace overt {
 
 /// What a shell offers for a word.
-enum class WordKind { other, choice, file, folder, protocol, session };
+enum class WordKind {
+    other,
+    choice,
+    file,
+    folder,
+    protocol,
+    session,
+    // By what stands in the protocol, or the session, that the line names: see known_words().
+    stimulus,
+    sculpture,
+    further_tracker,
+    trial
+};
+
+/// Whether a shell has to ask for the words, and by which name it asks; `other` for a name that is none.
+bool is_asked_for(WordKind kind);
+std::string_view name_of(WordKind kind);
+WordKind kind_named(std::string_view name);
 
 /// An option, or a word without a name (a positional).
 struct CommandWord {

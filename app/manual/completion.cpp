@@ -31,8 +31,10 @@ std::string above(const CommandEntry& entry) {
     return space == std::string::npos ? "" : entry.path.substr(0, space);
 }
 
-/// Sets `words` and `files` of the bash script.
+/// Sets `words`, `files` or `asked` of the bash script.
 std::string bash_offer(const CommandWord& word) {
+    if (is_asked_for(word.kind))
+        return fmt::format("asked={}", name_of(word.kind));
     switch (word.kind) {
     case WordKind::choice:
         return fmt::format("words='{}'", fmt::join(word.choices, " "));
@@ -43,7 +45,7 @@ std::string bash_offer(const CommandWord& word) {
     case WordKind::folder:
     case WordKind::session:
         return "files=folders";
-    case WordKind::other:
+    default:
         break;
     }
     return "words=''";
@@ -51,6 +53,8 @@ std::string bash_offer(const CommandWord& word) {
 
 /// The action of zsh's _arguments for a word's value.
 std::string zsh_action(const CommandWord& word) {
+    if (is_asked_for(word.kind))
+        return fmt::format(" _overt_asked {}", name_of(word.kind));
     switch (word.kind) {
     case WordKind::choice:
         return fmt::format("({})", fmt::join(word.choices, " "));
@@ -61,7 +65,7 @@ std::string zsh_action(const CommandWord& word) {
     case WordKind::folder:
     case WordKind::session:
         return "_files -/";
-    case WordKind::other:
+    default:
         break;
     }
     return " ";
@@ -106,7 +110,7 @@ std::string bash_completion(const CommandEntry& program) {
     return fmt::format(R"(# Completion of overt for bash. Written by `overt completion bash`.
 _overt() {{
     local current=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}}
-    local command='' at=0 i options='' words='' files=''
+    local command='' at=0 i options='' words='' files='' asked=''
     # bash takes "--option=value" for three words.
     if [[ $current == '=' ]]; then
         current=''
@@ -124,6 +128,8 @@ _overt() {{
 {}        esac
         [[ $current == -* ]] && words=$options files='' ;;
     esac
+    # The protocol or the session on the line knows.
+    [[ -n $asked ]] && words=$("${{COMP_WORDS[0]/#\~/$HOME}}" completion-words "$asked" "${{COMP_WORDS[@]:1}}" 2>/dev/null)
     COMPREPLY=()
     local IFS=$' \t\n' found
     [[ -n $words ]] && COMPREPLY=($(compgen -W "$words" -- "$current"))
@@ -167,10 +173,14 @@ std::string zsh_completion(const CommandEntry& program) {
                                                  "'\\''"));
         cases += fmt::format("        ('{}') _arguments{} ;;\n", entry->path, specifications);
     }
-    return fmt::format(R"(#compdef overt
+    return fmt::format(R"script(#compdef overt
 # Completion of overt for zsh. Written by `overt completion zsh`.
+# The protocol or the session on the line knows.
+_overt_asked() {{
+    compadd -- ${{(f)"$($overt_program completion-words $1 "${{(@)words}}" 2>/dev/null)"}}
+}}
 _overt() {{
-    local command='' at=1 i
+    local command='' at=1 i overt_program=${{~words[1]}}
     for ((i = 2; i < CURRENT; ++i)); do
         ((i == at + 1)) || break
         case "$command ${{words[i]}}" in
@@ -183,7 +193,7 @@ _overt() {{
 {}    esac
 }}
 _overt "$@"
-)",
+)script",
                        steps, cases);
 }
 
@@ -209,9 +219,13 @@ std::string fish_completion(const CommandEntry& program) {
                 script += name.starts_with("--") ? fmt::format(" -l {}", name.substr(2))
                                                  : fmt::format(" -s {}", name.substr(1));
             if (!option.value.empty())
-                script += option.kind == WordKind::other ? " -x" : " -r";
+                script += option.kind == WordKind::other || is_asked_for(option.kind) ? " -x" : " -r";
             if (!option.choices.empty())
                 script += fmt::format(" -f -a '{}'", fmt::join(option.choices, " "));
+            else if (is_asked_for(option.kind))
+                script += fmt::format(
+                    " -f -a '(overt completion-words {} (commandline -opc)[2..-1] 2>/dev/null)'",
+                    name_of(option.kind));
             else if (!option.value.empty() && option.kind != WordKind::other)
                 script += " -F";
             script += fmt::format(" -d {}\n", quoted(option.what, "\\'"));

@@ -40,9 +40,7 @@ void add_manual_commands(CLI::App& app, ChosenCommand& chosen) {
     CLI::App& completion =
         add_command(app, "completion", "Prints a script by which a shell completes command lines",
                     "overt completion bash > ~/.local/share/bash-completion/completions/overt");
-    completion.add_option("SHELL", *shell, "Shell")
-        ->required()
-        ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+    completion.add_option("SHELL", *shell, "Shell")->required()->check(one_of({"bash", "zsh", "fish"}));
     run_when_chosen(completion, chosen, [&app, shell] { return print_completion(app, *shell); });
 
     const auto folder = std::make_shared<std::filesystem::path>();

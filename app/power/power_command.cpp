@@ -129,15 +129,15 @@ void add_power_command(CLI::App& app, ChosenCommand& chosen) {
            "Standard deviation of the maps' kernel, such as 1deg or 30mm", shown_default);
     option(command, "--permutations", settings.permutations, "",
            "Random ones, where there are too many for all", CLI::Range(100, 1000000), shown_default);
-    option(command, "--seed", settings.seed, "N", "Of all that is drawn at random", seed_number(),
+    option(command, "--seed", settings.seed, "SEED", "Of all that is drawn at random", seed_number(),
            shown_default);
     option(command, "--jobs", settings.jobs, "N", "Threads; the result is the same with any number",
            above_zero(), shown_default);
     option(command, "--out", options.out, "DIR", "Folder to write to", shown_default);
-    option(command, "--format", options.format, "", "Of the tables", CLI::IsMember({"csv", "tsv", "jsonl"}),
+    option(command, "--format", options.format, "", "Of the tables", one_of({"csv", "tsv", "jsonl"}),
            shown_default);
     command.add_flag("--overwrite", options.overwrite, "Replace results that are there");
-    command.add_flag("--json", options.json, "Print the results as JSON");
+    add_json_flag(command, options.json);
 }
 
 } // namespace overt

@@ -104,7 +104,7 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
         }
     }
     option(command, "--format", options.format, "", fmt::format("{}", fmt::join(explained, "; ")),
-           CLI::IsMember(names), shown_default);
+           one_of(names), shown_default);
     option(command, "--out", options.out, "DIR",
            fmt::format("Folder to write to (default: export_FORMAT in the session; for several "
                        "sessions a folder each is made in it, but one dataset of all with {})",

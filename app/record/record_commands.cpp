@@ -27,8 +27,8 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
     option(command, "--out", options.out, "DIR",
            "The new session's folder (default: by task and observer in --sessions; with --into the session's "
            "name in a folder FOLDER_imports beside the FOLDER that holds it)");
-    option(command, "--sessions", options.sessions, "DIR", "Folder of all sessions", shown_default);
-    option(command, "--observer", options.observer, "LABEL",
+    add_sessions_option(command, options.sessions);
+    option(command, "--observer", options.observer, "ID",
            "Label of the observer (default: letters and digits of the file's name)");
     command.add_flag("--another-person", options.is_another_person,
                      "This observer is not the one whose label differs in case or leading zeros only");
@@ -50,8 +50,8 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
     command.add_flag("--as-gaze", options.as_gaze,
                      "Samples that mostly lie off the screen are gaze, though the file does not say so");
     option(command, "--print-session-to", options.print_session_to, "FILE",
-           "Write the new session's path into a file");
-    command.add_flag("--json", options.json, "Print JSON");
+           "Write the session's path to this file, for scripts");
+    add_json_flag(command, options.json);
 }
 
 void add_verify(CLI::App& app, ChosenCommand& chosen) {
@@ -64,7 +64,7 @@ void add_verify(CLI::App& app, ChosenCommand& chosen) {
                     "session, or of a "
                     "newer overt.");
     command.add_option("SESSION", options.sessions, "Folders of sessions")->required();
-    command.add_flag("--json", options.json, "Print JSON");
+    add_json_flag(command, options.json);
 }
 
 void add_show(CLI::App& app, ChosenCommand& chosen) {
@@ -72,8 +72,8 @@ void add_show(CLI::App& app, ChosenCommand& chosen) {
         add_command(app, chosen, run_show, "show", "What a session holds, and one trial as a picture",
                     "overt show sessions/overt_2019/sub-07_ses-01 --trial 3 --picture trial.png");
     command.add_option("SESSION", options.session, "Folder of a session")->required();
-    option(command, "--trial", options.trial, "N", "Trial for --picture, counted from 1 (default: the first)",
-           above_zero());
+    option(command, "--trial", options.trial, "TRIAL",
+           "Trial for --picture, counted from 1 (default: the first)", above_zero());
     option(command, "--picture", options.picture, "FILE",
            "Write a PNG: a frame, its map, and the gaze on the surface");
     option(command, "--plot", options.plot, "FILE",
@@ -82,7 +82,7 @@ void add_show(CLI::App& app, ChosenCommand& chosen) {
         "--order", options.order,
         "The planned order of trials, made again from the recorded protocol and seed; exit code 1 "
         "if that gives another");
-    command.add_flag("--json", options.json, "Print JSON");
+    add_json_flag(command, options.json);
 }
 
 } // namespace

@@ -17,7 +17,7 @@ void add_replay_commands(CLI::App& app, ChosenCommand& chosen) {
            "Folder from which the paths in the protocol start (default: where its file lay, as seen from the "
            "session's folder)");
     CLI::Option* const trial = option(
-        command, "--trial", options.trial, "N",
+        command, "--trial", options.trial, "TRIAL",
         "Instead, draw of this trial, counted from 1, what --picture or --movie asks for", above_zero());
     CLI::Option* const frame = option(
         command, "--frame", options.frame, "K",
@@ -32,7 +32,7 @@ void add_replay_commands(CLI::App& app, ChosenCommand& chosen) {
     movie->needs(trial)->excludes(frame);
     frame->needs(picture);
     command.add_flag("--overwrite", options.overwrite, "Replace a picture or movie that is there");
-    command.add_flag("--json", options.json, "Print JSON");
+    add_json_flag(command, options.json);
     add_context_option(command, options.context);
 }
 

@@ -54,7 +54,7 @@ std::vector<RecordedOption> recorded_options(const RunOptions& options, const fs
     if (!options.tracker.empty())
         add("tracker", options.tracker);
     if (!options.tracker_address.empty())
-        add("tracker-address", options.tracker_address);
+        add("address", options.tracker_address);
     if (options.virtual_time)
         add("virtual-time");
     if (!options.draws_stimuli)
@@ -81,7 +81,7 @@ void take_recorded_options(const std::vector<RecordedOption>& recorded, RunOptio
             options.operator_keys.push_back(option.value);
         else if (name == "tracker")
             options.tracker = option.value;
-        else if (name == "tracker-address")
+        else if (name == "address" || name == "tracker-address") // as earlier programs call it
             options.tracker_address = option.value;
         else if (name == "virtual-time")
             options.virtual_time = true;

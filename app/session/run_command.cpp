@@ -103,7 +103,7 @@ void open_view(std::optional<OperatorEquipment>& view, const RunOptions& options
         options.operator_socket->empty() ? folder.path / operator_socket_name : *options.operator_socket;
     wished.tell = [](const std::string& sentence) { fmt::print(stderr, "{}\n", sentence); };
     view.emplace(std::move(wished), rig.clock(), rig.tracker(), store, keys);
-    fmt::print("operator's view: overt watch --socket {}\n", view->socket().string());
+    fmt::print("operator's view: overt watch --operator-socket {}\n", view->socket().string());
 }
 
 /// `again`: null for a session that is recorded for the first time.

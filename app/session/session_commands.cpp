@@ -17,7 +17,7 @@ void add_session_commands(CLI::App& app, ChosenCommand& chosen) {
            "Who sits there: letters and digits; the digits at the end are the observer's number",
            must_be_given);
     option(command, "--session", options.session_number, "N",
-           "Number of this sitting (default: the next free one)", above_zero());
+           "Number of the session (default: the next free one)", above_zero());
     command.add_flag("--another-person", options.is_another_person,
                      "This observer is not the one whose label differs in case or leading zeros only");
     choice<ResumePolicy>(command, "--resume", options.resume, "POLICY",
@@ -29,7 +29,7 @@ void add_session_commands(CLI::App& app, ChosenCommand& chosen) {
                           {"restart-block", ResumePolicy::restart_block}})
         ->expected(0, 1)
         ->default_str("redo");
-    option(command, "--seed", options.seed, "N",
+    option(command, "--seed", options.seed, "SEED",
            "Seed of the order and of all that is simulated (default: the protocol's, or a new one)",
            seed_number());
     option(command, "--simulate-observer", options.simulate_observer, "SEED",
@@ -50,19 +50,17 @@ void add_session_commands(CLI::App& app, ChosenCommand& chosen) {
     option(command, "--tracker", options.tracker, "KIND",
            "Kind of eye tracker, instead of the protocol's [tracker] kind",
            one_of_names(names_of<TrackerKind>));
-    option(command, "--tracker-address", options.tracker_address, "TEXT",
-           "Where it is, instead of [tracker] address; of \"replay\", the recording");
+    option(command, "--address", options.tracker_address, "TEXT",
+           "Where the tracker is, instead of [tracker] address; of \"replay\", the recording");
     command.add_flag("--virtual-time", options.virtual_time,
                      "Run as fast as the machine can, on a clock of its own");
     command.add_flag(
         "!--no-pictures", options.draws_stimuli,
         "Neither read nor draw the stimuli, in a session without a screen: the record is the same, "
         "and says so");
-    command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
-    option(command, "--monitor", options.monitor, "WHICH",
-           "The screen to take: its number as `overt doctor` lists them, or the name of its output or of its "
-           "EDID (default: [display] monitor, or the only one with the protocol's resolution and rate)");
-    option(command, "--sessions", options.sessions, "DIR", "Folder for sessions", shown_default);
+    add_screen_options(command, options.windowed, options.monitor,
+                       "[display] monitor, or the only one with the protocol's resolution and rate");
+    add_sessions_option(command, options.sessions);
     option(command, "--trials", options.trials, "N", "Only the first N trials, to try a protocol",
            above_zero());
     option(command, "--print-session-to", options.print_session_to, "FILE",
@@ -94,7 +92,7 @@ void add_session_commands(CLI::App& app, ChosenCommand& chosen) {
                      "Ask for real-time priority and locked memory; goes on if they are refused");
     option(command, "--pin", options.processor, "CPU", "Run the session's thread on this processor only",
            not_negative());
-    option(command, "--refresh-check", options.refresh_check_s, "SECONDS",
+    option(command, "--refresh-check", options.refresh_check_s, "S",
            "How long the refresh of a real screen is measured before the session; less for a trial run, 0 "
            "not at all",
            CLI::Range(0.0, 600.0), shown_default);

@@ -53,8 +53,8 @@ std::vector<Condition> stimuli_asked_for(const BakeOptions& options, const Proto
     for (const std::string& name : options.only) {
         const Condition condition = stimulus_called(protocol, name);
         if (library.cache().is_ready_made(condition))
-            throw InputError(
-                fmt::format("--only {}: the protocol gives its [[frames]]; there is nothing to bake", name));
+            throw InputError(fmt::format(
+                "--stimulus {}: the protocol gives its [[frames]]; there is nothing to bake", name));
         if (std::find(stimuli.begin(), stimuli.end(), condition) == stimuli.end())
             stimuli.push_back(condition);
     }
@@ -71,7 +71,8 @@ std::vector<Condition> stimuli_asked_for(const BakeOptions& options, const Proto
 void check_combinations(const BakeOptions& options) {
     const bool exports = !options.out.empty();
     if (!exports && (options.as != "display" || options.png16 || options.half || options.force))
-        throw InputError("--as, --png16, --half and --force are about files: say with --out where they go");
+        throw InputError(
+            "--as, --png16, --half and --overwrite are about files: say with --out where they go");
     if (options.png16 && options.as != "display")
         throw InputError(fmt::format("--png16 holds display light; {} needs the range of EXR", options.as));
     if (options.png16 && options.half)
@@ -248,7 +249,7 @@ void say_outcome(const BakeOptions& options, const BakeJob& job, const BakeOutco
 /// The stimulus of a strip: the only one, or the one that is asked for.
 Condition stimulus_of_strip(const BakeJob& job) {
     if (job.stimuli.size() != 1)
-        throw InputError("--strip shows one stimulus: choose it with --only");
+        throw InputError("--strip shows one stimulus: choose it with --stimulus");
     return job.stimuli.front();
 }
 
@@ -278,7 +279,7 @@ int run_bake(const BakeOptions& options) {
     if (!options.strip.empty())
         stimulus_of_strip(job);
     if (!options.sheet.empty() && job.stimuli.size() != library.cache().rendered_stimuli().size())
-        throw InputError("--sheet shows all stimuli: leave out --only");
+        throw InputError("--sheet shows all stimuli: leave out --stimulus");
     const FrameExport output(job.output, protocol, experiment.sculptures, library, job.quality);
     if (job.exports())
         output.refuse_to_replace(job.units);

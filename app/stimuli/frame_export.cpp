@@ -140,7 +140,7 @@ void FrameExport::refuse_to_replace(const std::vector<BakeUnit>& units) const {
             if (std::filesystem::exists(file) && key_in(file) != key_of(unit)) {
                 throw InputError(
                     fmt::format("{}: is there already and was made otherwise: give another --out, "
-                                "or --force to replace it",
+                                "or --overwrite to replace it",
                                 file.string()));
             }
         }

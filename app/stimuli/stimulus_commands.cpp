@@ -11,11 +11,12 @@ void add_play(CLI::App& app, ChosenCommand& chosen) {
         app, chosen, run_play, "play", "Shows one animation, or one of its frames as a picture",
         "overt play protocols/overt_2019.toml --stimulus muse/smooth --frame 15 --picture frame.png");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
-    option(command, "--stimulus", options.stimulus, "ID", "SCULPTURE/MATERIAL by their ids", must_be_given);
+    option(command, "--stimulus", options.stimulus, "STIMULUS", "SCULPTURE/MATERIAL by their ids",
+           must_be_given);
     option(command, "--frame", options.frame, "K", "Animation frame for --picture (default: 0)",
            not_negative());
     option(command, "--picture", options.picture, "FILE", "Write a PNG instead of opening a window");
-    option(command, "--duration", options.repeat_s, "S", "How long to play", shown_default);
+    option(command, "--seconds", options.repeat_s, "S", "How long to play", shown_default);
     command.add_flag("--live", options.live,
                      "Draw it now, as an approximation, to be turned with the mouse: drag to turn and tilt, "
                      "wheel to go nearer, left and right for the material, up and down for the sculpture, "
@@ -31,9 +32,9 @@ void add_pick_head(CLI::App& app, ChosenCommand& chosen) {
         "  overt pick-head scan.ply --sphere 0 -15 310 60 --plane 0 0 262 0 0 1 --picture head.png");
     command.add_option("MESH", options.mesh, "PLY, OBJ or STL")->required();
     option(command, "--up", options.up, "", "Axis of the file that points up",
-           CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}), shown_default);
+           one_of({"x", "y", "z", "-x", "-y", "-z"}), shown_default);
     option(command, "--unit", options.unit, "", "Unit of the file: mm, cm, m, in or own",
-           CLI::IsMember({"mm", "cm", "m", "in", "own"}), shown_default);
+           one_of({"mm", "cm", "m", "in", "own"}), shown_default);
     option(command, "--sphere", options.spheres, "X Y Z R",
            "A head to begin with, in the file's coordinates: inside this sphere, or another one");
     option(command, "--plane", options.planes, "X Y Z TO_X TO_Y TO_Z",
@@ -48,7 +49,8 @@ void add_bake(CLI::App& app, ChosenCommand& chosen) {
     const auto [command, options] = add_command(
         app, chosen, run_bake, "bake", "Renders the stimuli by spectral path tracing, and keeps each frame",
         "overt bake protocols/overt_2019.toml --quality standard\n"
-        "  overt bake protocols/overt_2019.toml --only muse/rough --frames 0-30 --out frames --as spectra\n"
+        "  overt bake protocols/overt_2019.toml --stimulus muse/rough --frames 0-30 --out frames --as "
+        "spectra\n"
         "  overt bake protocols/overt_2019.toml --shard 3/16");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
     add_quality_option(command, options.quality,
@@ -59,8 +61,8 @@ void add_bake(CLI::App& app, ChosenCommand& chosen) {
            CLI::Range(1, 65536));
     option(command, "--target-error", options.target_error_de, "DE",
            "Leave a pixel when its standard error is below this colour difference", CLI::Range(0.01, 100.0));
-    option(command, "--only", options.only, "ID",
-           "This stimulus, SCULPTURE/MATERIAL by their ids; may be given several times");
+    option(command, "--stimulus", options.only, "STIMULUS",
+           "Only this stimulus, SCULPTURE/MATERIAL by their ids; may be given several times");
     option(command, "--frames", options.frames, "RANGE", "Frames of the animation: K, A-B or all",
            shown_default);
     option(command, "--shard", options.shard, "I/N",
@@ -69,20 +71,20 @@ void add_bake(CLI::App& app, ChosenCommand& chosen) {
            "Also write numbered frames: DIR/SCULPTURE_MATERIAL/frame_0000.exr, floats of 24 bits");
     option(command, "--as", options.as, "",
            "What is in those files: the display's linear light, XYZ, or 31 bins of radiance",
-           CLI::IsMember({"display", "xyz", "spectra"}), shown_default);
+           one_of({"display", "xyz", "spectra"}), shown_default);
     command.add_flag(
         "--png16", options.png16,
         "16-bit PNG of linear display light over the background, clipped, each with a JSON file, "
         "instead of EXR");
     command.add_flag("--half", options.half,
                      "EXR of half floats: smaller, but of 65,536 levels 7,169 are left");
-    command.add_flag("--force", options.force, "Replace files that are there and were made otherwise");
+    command.add_flag("--overwrite", options.force, "Replace files that are there and were made otherwise");
     option(command, "--sheet", options.sheet, "FILE.png", "Also write a picture of all stimuli side by side");
     option(command, "--strip", options.strip, "FILE.png",
            "Also write a picture of frames of one stimulus side by side");
     command.add_flag("--dry-run", options.dry_run, "Only say what is to be done and how long it will take");
     add_context_option(command, options.context);
-    command.add_flag("--json", options.json, "Print JSON");
+    add_json_flag(command, options.json);
 }
 
 void add_lut(CLI::App& app, ChosenCommand& chosen) {
@@ -92,7 +94,7 @@ void add_lut(CLI::App& app, ChosenCommand& chosen) {
                     "overt lut protocols/overt_2019.toml --stimulus muse --frame 15 --out maps\n"
                     "  overt lut protocols/overt_2019.toml --stimulus muse --frame all --check");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
-    option(command, "--stimulus", options.stimulus, "ID",
+    option(command, "--stimulus", options.stimulus, "SCULPTURE",
            "SCULPTURE or SCULPTURE/MATERIAL by their ids; the map is the same for all materials",
            must_be_given);
     add_frame_option(command, options.frame, "Animation frame, or all");
@@ -100,14 +102,14 @@ void add_lut(CLI::App& app, ChosenCommand& chosen) {
            "Folder to write to (default: luts/SCULPTURE; with --check nothing is written)");
     option(command, "--format", options.format, "",
            "exr: coordinates as floats; png16: 16-bit codes as colours, with a JSON sidecar; both",
-           CLI::IsMember({"exr", "png16", "both"}), shown_default);
+           one_of({"exr", "png16", "both"}), shown_default);
     option(command, "--scale", options.scale, "", "Factor of 16-bit codes: 65535, or 65536 as in the paper",
            CLI::IsMember({65535, 65536}), shown_default);
     command.add_flag("--check", options.check,
                      "Compare with ray casting in double precision; exit code 1 if a target is missed");
     command.add_flag("--overwrite", options.overwrite, "Replace maps that are there");
     add_context_option(command, options.context);
-    command.add_flag("--json", options.json, "Print JSON");
+    add_json_flag(command, options.json);
 }
 
 void add_reconstruct(CLI::App& app, ChosenCommand& chosen) {
@@ -117,7 +119,7 @@ void add_reconstruct(CLI::App& app, ChosenCommand& chosen) {
         "overt reconstruct protocols/overt_2019.toml --stimulus muse --frame 15 --out muse_15.ply\n"
         "  overt reconstruct protocols/overt_2019.toml --stimulus muse --frame all --out muse_cloud.ply");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
-    option(command, "--stimulus", options.stimulus, "ID",
+    option(command, "--stimulus", options.stimulus, "SCULPTURE",
            "SCULPTURE or SCULPTURE/MATERIAL by their ids; the maps are the same for all materials",
            must_be_given);
     add_frame_option(
@@ -132,7 +134,7 @@ void add_reconstruct(CLI::App& app, ChosenCommand& chosen) {
     option(command, "--out", options.out, "FILE", "File to write: .ply or .obj", must_be_given);
     command.add_flag("--overwrite", options.overwrite, "Replace a file that is there");
     add_context_option(command, options.context);
-    command.add_flag("--json", options.json, "Print JSON");
+    add_json_flag(command, options.json);
 }
 
 } // namespace

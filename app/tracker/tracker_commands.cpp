@@ -8,14 +8,15 @@ namespace overt {
 namespace {
 
 void add_further(CLI::App& command, std::string& further) {
-    option(command, "--further", further, "ID", "Id of the protocol's [[further_tracker]] that is meant");
+    option(command, "--further", further, "FURTHER",
+           "Id of the protocol's [[further_tracker]] that is meant");
 }
 
 void add_list(CLI::App& app, ChosenCommand& chosen) {
     const auto [command, options] =
         add_command(app, chosen, run_tracker_list, "list",
                     "The kinds of eye tracker, and what of them is found here", "overt tracker list");
-    command.add_flag("--json", options.json, "Print as JSON");
+    add_json_flag(command, options.json);
 }
 
 void add_test(CLI::App& app, ChosenCommand& chosen) {
@@ -25,14 +26,17 @@ void add_test(CLI::App& app, ChosenCommand& chosen) {
         "overt tracker test --tracker opengaze --address 127.0.0.1:4242 --seconds 30");
     command.add_option("PROTOCOL", options.protocol, "Whose [tracker] is tested (default: a simulated one)");
     add_further(command, options.further);
-    option(command, "--tracker", options.kind, "", "Kind of eye tracker, instead of the protocol's",
+    option(command, "--tracker", options.kind, "KIND",
+           "Kind of eye tracker, instead of the protocol's [tracker] kind",
            one_of_names(names_of<TrackerKind>));
-    option(command, "--address", options.address, "TEXT", "Where it is, as [tracker] address");
-    option(command, "--library", options.library, "FILE", "Of its maker, as [tracker] library");
+    option(command, "--address", options.address, "TEXT",
+           "Where the tracker is, instead of [tracker] address");
+    option(command, "--library", options.library, "FILE",
+           "Library of its maker, instead of [tracker] library");
     option(command, "--rate", options.rate_hz, "HZ", "Wished samples per second", CLI::Range(1.0, 10000.0));
     option(command, "--seconds", options.seconds, "S", "How long to record", seconds_up_to_an_hour(),
            shown_default);
-    command.add_flag("--json", options.json, "Print as JSON");
+    add_json_flag(command, options.json);
 }
 
 void add_calibrate(CLI::App& app, ChosenCommand& chosen) {
@@ -44,7 +48,8 @@ void add_calibrate(CLI::App& app, ChosenCommand& chosen) {
         "--context osmesa --picture validation.png");
     command.add_option("PROTOCOL", options.protocol, "Whose screen and tracker")->required();
     add_further(command, options.further);
-    option(command, "--tracker", options.kind, "", "Kind of eye tracker, instead of the protocol's",
+    option(command, "--tracker", options.kind, "KIND",
+           "Kind of eye tracker, instead of the protocol's [tracker] kind",
            one_of_names(names_of<TrackerKind>));
     command.add_flag("--by-overt", options.by_overt,
                      "Calibrate by the program, as [calibration] by = \"overt\"");
@@ -52,9 +57,7 @@ void add_calibrate(CLI::App& app, ChosenCommand& chosen) {
            "Let a simulated observer look");
     command.add_flag("--virtual-time", options.virtual_time,
                      "Run as fast as the machine can, on a clock of its own");
-    command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
-    option(command, "--monitor", options.monitor, "WHICH",
-           "The screen to take: its number as `overt doctor` lists them, or the name of its output or EDID");
+    add_screen_options(command, options.windowed, options.monitor, "the protocol's");
     option(command, "--picture", options.picture, "FILE.png",
            "Draw the validation: measured gaze beside the targets");
     add_context_option(command, options.context);
@@ -68,7 +71,7 @@ void add_show(CLI::App& app, ChosenCommand& chosen) {
     command.add_option("SESSION", options.session, "Folder of a session")->required();
     option(command, "--picture", options.picture, "FILE.png",
            "Draw the last validation: measured gaze beside the targets");
-    command.add_flag("--json", options.json, "Print as JSON");
+    add_json_flag(command, options.json);
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "app/cli/interruption.h"
+#include "app/cli/terminal_output.h"
 #include "app/watch/watched_session.h"
 #include "experiment/watch/view_text.h"
 
@@ -122,7 +123,7 @@ int watch_in_terminal(OperatorClient& client) {
     std::string last;
     if (draws)
         begin_screen();
-    for (bool goes_on = true; goes_on && !Interruption::requested();) {
+    for (bool goes_on = true; goes_on && !Interruption::requested() && !output_reader_has_gone();) {
         goes_on = watched.read(between_screens);
         while (const std::optional<std::string> line = typed.next()) {
             if (!commands.take(*line))

@@ -63,7 +63,7 @@ bool has_display() {
 
 std::filesystem::path socket_of(const WatchOptions& options) {
     if (!options.socket.empty() && !options.session.empty())
-        throw InputError("SESSION and --socket say the same twice: give one of them");
+        throw InputError("SESSION and --operator-socket say the same twice: give one of them");
     if (!options.socket.empty())
         return options.socket;
     if (!options.session.empty()) {
@@ -80,7 +80,7 @@ std::filesystem::path socket_of(const WatchOptions& options) {
     if (served.empty())
         throw InputError(
             fmt::format("{}: no session that can be watched runs there: begin one with overt run … "
-                        "--operator-socket, or name its folder, or its socket with --socket",
+                        "--operator-socket, or name its folder, or its socket with --operator-socket here",
                         options.sessions.string()));
     throw InputError(fmt::format("{}: {} sessions run there: name the folder of one",
                                  options.sessions.string(), served.size()));

@@ -9,13 +9,13 @@ void add_watch_commands(CLI::App& app, ChosenCommand& chosen) {
         add_command(app, chosen, run_watch, "watch",
                     "The operator's view of a session that runs: progress, gaze, quality, commands",
                     "overt watch sessions/overt_2019/sub-07_ses-01\n"
-                    "  overt watch --terminal --socket /run/user/1000/overt.sock\n"
+                    "  overt watch --terminal --operator-socket /run/user/1000/overt.sock\n"
                     "  overt watch --once --send \"note observer moved the chair\"\n"
                     "The session is begun with overt run … --operator-socket");
     command.add_option("SESSION", options.session,
                        "Folder of the session (default: the one that runs in --sessions)");
-    option(command, "--socket", options.socket, "FILE", "Its socket, if that is not in its folder");
-    option(command, "--sessions", options.sessions, "DIR", "Folder of all sessions", shown_default);
+    option(command, "--operator-socket", options.socket, "FILE", "Its socket, if that is not in its folder");
+    add_sessions_option(command, options.sessions);
     command.add_flag("--terminal", options.in_terminal,
                      "Text instead of a window, as where there is no display; commands are typed. Where "
                      "output is no terminal, a line for each "

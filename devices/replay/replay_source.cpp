@@ -36,7 +36,7 @@ ReplaySource::ReplaySource(const std::filesystem::path& recording) {
     if (recording.empty())
         throw InputError(
             "the eye tracker \"replay\" needs a recording: write [tracker] address = \"…\" with a "
-            "session's folder or an EyeLink recording (.asc), or give --tracker-address");
+            "session's folder or an EyeLink recording (.asc), or give --address");
     if (!std::filesystem::exists(recording))
         throw InputError(
             fmt::format("{}: this recording, which the eye tracker \"replay\" is to play back, is "

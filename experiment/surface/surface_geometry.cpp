@@ -113,7 +113,16 @@ SurfaceGeometry::SurfaceGeometry(const Mesh& mesh, double mm_per_unit)
         neighbours_.push_back(static_cast<std::uint32_t>(edge));
     }
     std::partial_sum(neighbours_begin_.begin(), neighbours_begin_.end(), neighbours_begin_.begin());
-    triangulation_ = IntrinsicTriangulation(positions_mm_, distinct);
+}
+
+const IntrinsicTriangulation& SurfaceGeometry::triangulation() const {
+    std::call_once(triangulated_, [this] {
+        std::vector<glm::uvec3> distinct;
+        for (const std::uint32_t t : distinct_triangles(corners_))
+            distinct.push_back(corners_[t]);
+        triangulation_ = IntrinsicTriangulation(positions_mm_, distinct);
+    });
+    return triangulation_;
 }
 
 std::span<const std::uint32_t> SurfaceGeometry::neighbours(std::uint32_t node) const {

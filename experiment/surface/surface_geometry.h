@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -60,8 +61,9 @@ class SurfaceGeometry {
     /// Triangles of the surface at a node, rising.
     std::span<const std::uint32_t> triangles_at(std::uint32_t node) const;
 
-    /// The same nodes and lengths with edges that suit the solution of equations.
-    const IntrinsicTriangulation& triangulation() const { return triangulation_; }
+    /// The same nodes and lengths with edges that suit the solution of equations: made when it is first asked
+    /// for, by whatever thread, since it takes longer than all else.
+    const IntrinsicTriangulation& triangulation() const;
 
     /// Values of nodes by vertex of the mesh.
     std::vector<double> at_vertices(std::span<const double> of_nodes) const;
@@ -76,7 +78,8 @@ class SurfaceGeometry {
     std::vector<std::uint32_t> neighbours_;
     std::vector<std::size_t> triangles_begin_; ///< by node, one more at the end
     std::vector<std::uint32_t> triangles_;
-    IntrinsicTriangulation triangulation_;
+    mutable std::once_flag triangulated_;
+    mutable IntrinsicTriangulation triangulation_;
 };
 
 } // namespace overt

@@ -36,9 +36,7 @@ constexpr std::array foreign_beginnings{
     ForeignBeginning{"\xfe\xff"sv, "text in UTF-16", "Convert it: iconv -f UTF-16 -t UTF-8 {} > utf8.asc"},
     ForeignBeginning{"\x1f\x8b"sv, "compressed with gzip", "Unpack it: gzip -dc {} > unpacked.asc"},
     ForeignBeginning{"BZh"sv, "compressed with bzip2", "Unpack it: bzip2 -dc {} > unpacked.asc"},
-    ForeignBeginning{"\xfd"
-                     "7zXZ"sv,
-                     "compressed with xz", "Unpack it: xz -dc {} > unpacked.asc"},
+    ForeignBeginning{"\3757zXZ"sv, "compressed with xz", "Unpack it: xz -dc {} > unpacked.asc"},
     ForeignBeginning{"\x28\xb5\x2f\xfd"sv, "compressed with zstd", "Unpack it: zstd -dc {} > unpacked.asc"},
     ForeignBeginning{"PK\x03\x04"sv, "a ZIP archive", "Unpack it: unzip {}"},
     ForeignBeginning{"7z\xbc\xaf"sv, "a 7z archive", "Unpack it: 7z x {}"},

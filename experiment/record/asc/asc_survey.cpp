@@ -6,11 +6,11 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
 #include "experiment/base/utf8_text.h"
 #include "experiment/record/asc/asc_pair_check.h"
+#include "experiment/record/asc/asc_survey_checks.h"
 #include "experiment/record/asc/asc_words.h"
 
 namespace overt {
@@ -51,7 +51,6 @@ class Surveyor final : public AscListener {
         return 1 + (by == AscTrialCutter::By::trial_ids ? by_ids_ : by_recordings_).trial();
     }
     std::string fault_of_pair() const { return pair_.fault(); }
-    double share_off_screen() const;
     std::int64_t shortest_interval_us() const { return shortest_interval_us_; }
     bool clock_began_anew() const { return clock_began_anew_; }
     TrackerTime began_anew_at() const { return began_anew_at_; }
@@ -69,7 +68,6 @@ class Surveyor final : public AscListener {
     std::optional<TrackerTime> last_sample_;
     std::int64_t shortest_interval_us_ = 0;
     AscPairCheck pair_;
-    std::array<std::int64_t, 2> off_screen_{}; ///< places: of negative coordinates, and all
 };
 
 void Surveyor::take_time(TrackerTime time) {
@@ -100,18 +98,13 @@ void Surveyor::samples(std::span<const GazeSample> samples) {
         if (sample.gaze) {
             constexpr double largest_screen_px = 8192.0;
             const auto is_off = [&](double px) { return px < 0.0 || px > largest_screen_px; };
-            off_screen_[0] += is_off(sample.gaze->x_px) || is_off(sample.gaze->y_px);
-            ++off_screen_[1];
+            survey_.places_off_screen += is_off(sample.gaze->x_px) || is_off(sample.gaze->y_px);
+            ++survey_.places;
         }
         (sample.eye == Eye::left ? survey_.has_left : survey_.has_right) = true;
         ++survey_.samples;
         survey_.samples_without_gaze += !sample.gaze;
     }
-}
-
-double Surveyor::share_off_screen() const {
-    return off_screen_[1] > 0 ? static_cast<double>(off_screen_[0]) / static_cast<double>(off_screen_[1])
-                              : 0.0;
 }
 
 void Surveyor::event(const GazeEvent& event) {
@@ -226,91 +219,6 @@ bool AscTrialCutter::take_sample() {
     return begin();
 }
 
-namespace {
-
-/// Throws InputError if the samples are no gaze.
-void check_gaze(const AscSurvey& survey, const Surveyor& surveyor, const std::string& file,
-                const AscSurveyOptions& options) {
-    const bool takes_events_alone = options.least_read <= 0.0;
-    if (2 * survey.raw_samples > survey.samples && !takes_events_alone)
-        throw InputError(fmt::format(
-            "{}: {} of {} samples have pupils of less than 0, EyeLink's sign of raw data (the tracker's "
-            "setting "
-            "file_sample_raw_pcr): places of the pupil and of its corneal reflection in the camera's "
-            "picture, and "
-            "no gaze. Record with that setting off; to import events and messages all the same, give "
-            "--least-read 0.",
-            file, survey.raw_samples, survey.samples));
-    if (survey.samples == 0 && survey.samples_that_are_no_gaze > 0 && !takes_events_alone)
-        throw InputError(fmt::format(
-            "{}: its samples are raw places of the pupil, or in the head's frame (SAMPLES PUPIL or HREF), "
-            "and no "
-            "places on a screen. Convert the recording again with gaze: edf2asc -sg; to import events and "
-            "messages all the same, give --least-read 0.",
-            file));
-    if (!survey.format.kind_is_declared && !options.is_gaze && surveyor.share_off_screen() > 0.5)
-        throw InputError(fmt::format(
-            "{}: nothing says of what its samples are, and {:.0f} % of them lie off the screen: they seem to "
-            "be "
-            "raw places of the pupil, or in the head's frame (edf2asc -sp or -sh), and no gaze. Convert the "
-            "recording again with gaze and with events: edf2asc -sg. If they are gaze, give --as-gaze.",
-            file, 100.0 * surveyor.share_off_screen()));
-}
-
-/// The share of lines that were read of those of one kind.
-struct ReadLines {
-    std::int64_t read = 0, lines = 0;
-    /// A line or two may be broken in a file however short.
-    bool is_too_few(double least) const {
-        constexpr std::int64_t few_lost = 2;
-        return lines - read > few_lost && static_cast<double>(read) < least * static_cast<double>(lines);
-    }
-};
-
-/// All recordings together must be read, and each that has more than a few lines.
-void check_shares(const AscSurvey& survey, const std::string& file, double least) {
-    constexpr std::int64_t few_lines = 20;
-    AscReadShare all;
-    std::vector<std::string> faults;
-    const auto check = [&](const AscReadShare& share, std::string_view of, std::int64_t fewest) {
-        const ReadLines samples{share.samples_read, share.sample_lines},
-            events{share.events_read, share.event_lines};
-        if (samples.lines >= fewest && samples.is_too_few(least))
-            faults.push_back(fmt::format("{} of {} lines of samples{}", samples.read, samples.lines, of));
-        if (events.lines >= fewest && events.is_too_few(least))
-            faults.push_back(fmt::format("{} of {} lines of fixations, saccades and blinks{}", events.read,
-                                         events.lines, of));
-    };
-    for (const AscReadShare& share : survey.recordings) {
-        all.sample_lines += share.sample_lines;
-        all.samples_read += share.samples_read;
-        all.event_lines += share.event_lines;
-        all.events_read += share.events_read;
-    }
-    check(all, "", 1);
-    if (faults.empty())
-        for (const AscReadShare& share : survey.recordings)
-            check(share,
-                  share.start ? fmt::format(" of the recording that began at {} ms",
-                                            share.start->time_since_epoch().count() / 1000)
-                              : std::string(" before the first START"),
-                  few_lines);
-    if (faults.empty())
-        return;
-    constexpr std::size_t shown = 5;
-    const std::size_t more = faults.size() - std::min(faults.size(), shown);
-    faults.resize(std::min(faults.size(), shown));
-    throw InputError(fmt::format(
-        "{}: only {}{} could be imported. {}To import what is there all the same, give --least-read 0.", file,
-        fmt::join(faults, ", and "), more > 0 ? fmt::format(", and {} more", more) : "",
-        survey.samples_that_are_no_gaze > 0
-            ? fmt::format("{} samples are no gaze on a screen (SAMPLES HREF or PUPIL). ",
-                          survey.samples_that_are_no_gaze)
-            : std::string()));
-}
-
-} // namespace
-
 AscSurvey survey_asc(const AscFiles& files, const AscSurveyOptions& options) {
     AscSurvey survey;
     const std::string file = files.path();
@@ -344,7 +252,7 @@ AscSurvey survey_asc(const AscFiles& files, const AscSurveyOptions& options) {
             "{}: is a table of numbers, and nothing in it is as an EyeLink has it: no header, no message, "
             "no event, no status after the values of a sample. Give a file that edf2asc has written.",
             file));
-    check_gaze(survey, surveyor, file, options);
+    check_gaze(survey, file, options);
     if (surveyor.clock_began_anew())
         throw InputError(
             fmt::format("{}: the tracker's clock began anew at time stamp {}: this is two recordings "

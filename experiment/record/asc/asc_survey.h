@@ -52,6 +52,8 @@ struct AscSurvey : AscCounts {
     AscFormat format;                              ///< at the file's end
     std::string header;
     std::int64_t samples = 0, samples_without_gaze = 0, events = 0;
+    std::int64_t places = 0,
+                 places_off_screen = 0;       ///< of samples; beyond the left or upper edge, or far beyond
     bool has_left = false, has_right = false; ///< of all recordings
     TrackerTime first, last;                  ///< of all lines
     double rate_hz = 0.0;                     ///< the highest that the file names, or by its closest samples

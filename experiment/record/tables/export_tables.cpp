@@ -28,7 +28,7 @@ ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& sha
                            const std::vector<ParticipantRow>& participant, const PupilWords& pupil)
     : trials(trials_layout(shared, header)), flips(ledger_layout(shared, header)),
       samples(samples_layout(shared, header, cone_accuracy, pupil)),
-      gaze_events(gaze_events_layout(event_origins, pupil.meaning)), events(events_layout()),
+      gaze_events(gaze_events_layout(header, event_origins, pupil.meaning)), events(events_layout()),
       responses(responses_layout(shared, header)), stimuli(stimuli_layout(shared, header)),
       display_box(display_box_layout()), buttons(buttons_layout()), markers(markers_layout()),
       participants(participants_layout(participant)) {

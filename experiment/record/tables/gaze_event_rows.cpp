@@ -24,6 +24,80 @@ std::string_view detector_of(const GazeEventRow& row) {
                                            : "tracker";
 }
 
+// Of a fixation's place.
+constexpr const char* no_presentation = "outside of the presentation";
+constexpr int share_decimals = 4;
+
+bool has_point(const GazeEventRow& row) { return row.fixation && row.fixation->part; }
+
+/// Where a fixation met the surface, as `overt analyze` finds it.
+std::vector<RowLayout<GazeEventRow>::Column> surface_columns(const SessionHeader& header) {
+    const LengthWords length = length_words(header);
+    const auto axis = [&](const char* name, int which, const char* more) {
+        return RowLayout<GazeEventRow>::Column{
+            {name,
+             fmt::format("Place of a fixation on the unturned surface{}: that of its samples that is nearest "
+                         "to all others; n/a as place says{}",
+                         more, length.remark),
+             length.unit},
+            [which](const GazeEventRow& row) {
+                return when(has_point(row),
+                            surface_coordinate(has_point(row) ? row.fixation->position[which] : 0.0));
+            }};
+    };
+    const auto share = [](double StudyFixation::*of) {
+        return [of](const GazeEventRow& row) {
+            const bool is_known = row.fixation && row.fixation->samples > 0 &&
+                                  row.fixation->why != NotCounted::no_surface &&
+                                  row.fixation->why != NotCounted::no_stimulus;
+            return when(is_known, Fixed{is_known ? (*row.fixation).*of : 0.0, share_decimals});
+        };
+    };
+    TableColumn part = part_column(header);
+    part.meaning = "Part of the figure with most samples of a fixation";
+    TableColumn place{
+        "place",
+        "Whether a fixation counts, by the rules that `overt analyze` has without options, or why not, which "
+        "is also why it has no place; n/a of what is no fixation",
+        "",
+        {{no_presentation, "it ended before the presentation, or began after it"}}};
+    for (const auto& [why, meaning] :
+         {std::pair{NotCounted::counted, "it counts, and has a place"},
+          std::pair{NotCounted::began_before_onset, "it was under way when the presentation began"},
+          std::pair{NotCounted::no_stimulus,
+                    "the session knows of no stimulus, such as an imported recording"},
+          std::pair{NotCounted::no_frame_lit, "no frame is known to have been lit during it"},
+          std::pair{NotCounted::not_on_surface,
+                    "fewer than half of its samples met the sculpture, or missed it "
+                    "by no more than the error that the validation found"},
+          std::pair{NotCounted::no_surface, "the session has no maps of the sculpture"}})
+        place.levels.emplace_back(name_of(why), meaning);
+    return {
+        axis("surface_x", 0, ""),
+        axis("surface_y", 1, ""),
+        axis("surface_z", 2, ", upwards"),
+        {{"triangle",
+          "Index of the mesh's triangle at that place, from 0; n/a where maps were given without a "
+          "mesh"},
+         [](auto& row) { return row.fixation ? row.fixation->triangle : std::optional<std::uint32_t>(); }},
+        {part,
+         [](auto& to, auto& row) {
+             const std::size_t index = has_point(row) ? *row.fixation->part : row.part_cells.size();
+             index < row.part_cells.size() ? to.ready(row.part_cells[index]) : to.missing();
+         }},
+        {{"on_surface", "Share of a fixation's samples that met the sculpture, of those with a lit frame"},
+         share(&StudyFixation::on_surface)},
+        {{"within_reach", "Share that missed it by no more than the error that the validation found"},
+         share(&StudyFixation::within_reach)},
+        {place,
+         [](auto& row) -> std::string_view {
+             return row.event.kind != GazeEvent::Kind::fixation ? ""
+                    : row.fixation                              ? name_of(row.fixation->why)
+                                                                : no_presentation;
+         }},
+    };
+}
+
 } // namespace
 
 std::vector<RowLayout<TrackerEventRow>::Column>
@@ -55,7 +129,8 @@ event_value_columns(const std::string& pixels, const std::string& of_pupil, cons
     };
 }
 
-RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins, const std::string& pupil) {
+RowLayout<GazeEventRow> gaze_events_layout(const SessionHeader& header, const std::string& origins,
+                                           const std::string& pupil) {
     RowLayout<GazeEventRow> layout{
         "gaze_events",
         "Fixations, saccades and blinks in the completed trials, and what the tracker's file said besides "
@@ -99,6 +174,7 @@ RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins, const std
             {{"tracker_end_us", "end_s by the tracker's own clock", "us"}, tracker_us_of(&GazeEvent::end)},
         }};
     layout.add<TrackerEventRow>(event_value_columns("px", "the tracker's own unit", pupil));
+    layout.add<GazeEventRow>(surface_columns(header));
     layout.add<GazeEventRow>({
         {{"text", "Words and numbers of what is no fixation, saccade or blink"},
          [](auto& row) { return row.event.text; }},
@@ -107,12 +183,15 @@ RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins, const std
 }
 
 void write_gaze_events(TableWriter& writer, const RowLayout<GazeEventRow>& layout,
-                       const SessionRecord& record, const TrialRecord& trial) {
+                       const SessionRecord& record, const TrialRecord& trial,
+                       std::span<const GazeEvent> events,
+                       std::span<const std::optional<StudyFixation>> fixations) {
     const std::optional<ClockMap> clock_map = record.clock_map(trial);
     const SessionRecord::EventOrigin::From origin = record.event_origin(trial.sitting).from;
-    record.read_gaze_events(trial, [&](const GazeEvent& event) {
-        layout.write(writer, {{event}, trial.trial.index + 1, clock_map, origin});
-    });
+    const std::vector<std::string> parts =
+        part_cells_of(record.header(), trial.trial.condition.sculpture, writer.format());
+    for (std::size_t i = 0; i < events.size(); ++i)
+        layout.write(writer, {{events[i]}, trial.trial.index + 1, clock_map, origin, fixations[i], parts});
 }
 
 void write_gaze_events_outside(TableWriter& writer, const RowLayout<GazeEventRow>& layout,

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "experiment/record/read/session_record.h"
+#include "experiment/record/tables/joined_cells.h"
 #include "experiment/record/tables/row_layout.h"
+#include "experiment/study/results/study_results.h"
 
 namespace overt {
 
@@ -24,17 +26,23 @@ struct GazeEventRow : TrackerEventRow {
     int trial; ///< from 1; 0: outside of trials
     const std::optional<ClockMap>& clock_map;
     SessionRecord::EventOrigin::From origin; ///< of fixations, saccades and blinks
+    /// Where a fixation of the trial met the surface; empty of all else, and beside the presentation.
+    std::optional<StudyFixation> fixation = {};
+    std::span<const std::string> part_cells = {}; ///< of the trial's sculpture: part_cells_of()
 };
 
 /// One row for each fixation, saccade, blink, message, button, input, begin and end of a recording, and note.
-/// `origins`: whole sentences on where fixations, saccades and blinks come from.
-RowLayout<GazeEventRow> gaze_events_layout(const std::string& origins, const std::string& pupil);
+/// `origins`: whole sentences on where fixations, saccades and blinks come from. `header` must outlive it.
+RowLayout<GazeEventRow> gaze_events_layout(const SessionHeader& header, const std::string& origins,
+                                           const std::string& pupil);
 
-/// Writes those of a trial. Throws RecordError.
+/// Writes those of a trial, `events` with where they met the surface, `fixations`. Throws RecordError.
 void write_gaze_events(TableWriter& writer, const RowLayout<GazeEventRow>& layout,
-                       const SessionRecord& record, const TrialRecord& trial);
+                       const SessionRecord& record, const TrialRecord& trial,
+                       std::span<const GazeEvent> events,
+                       std::span<const std::optional<StudyFixation>> fixations);
 
-/// The same of those outside of trials.
+/// The same of those outside of trials, which have no places.
 void write_gaze_events_outside(TableWriter& writer, const RowLayout<GazeEventRow>& layout,
                                const SessionRecord& record);
 

@@ -62,6 +62,15 @@ std::vector<std::string> all_part_names(const SessionHeader& header) {
     return names;
 }
 
+TableColumn part_column(const SessionHeader& header) {
+    TableColumn part{"part", "Part of the figure that is looked at"};
+    for (const std::string& name : all_part_names(header))
+        part.levels.emplace_back(name, fmt::format("the triangles labelled \"{}\"", name));
+    return part;
+}
+
+Fixed surface_coordinate(double value) { return Fixed{value, surface_decimals}; }
+
 std::vector<std::string> part_cells_of(const SessionHeader& header, int sculpture, TableFormat format) {
     std::vector<std::string> cells;
     for (const std::string& name : header.sculptures[static_cast<std::size_t>(sculpture)].part_names)
@@ -105,9 +114,6 @@ JoinedColumns time_columns() {
 }
 
 JoinedColumns place_columns(const SessionHeader& header) {
-    TableColumn part{"part", "Part of the figure that is looked at"};
-    for (const std::string& name : all_part_names(header))
-        part.levels.emplace_back(name, fmt::format("the triangles labelled \"{}\"", name));
     const LengthWords length = length_words(header);
     const std::string& mesh_unit = length.unit;
     return {
@@ -127,7 +133,7 @@ JoinedColumns place_columns(const SessionHeader& header) {
          coordinate(2)},
         {{"triangle", "Index of the mesh's triangle, from 0; n/a where maps were given without a mesh"},
          of_surface([](auto& surface) { return when(surface.triangle != no_triangle, surface.triangle); })},
-        {part,
+        {part_column(header),
          [](auto& to, auto& row) {
              const auto& surface = row.joined.sight.surface;
              const auto index = surface ? static_cast<std::size_t>(surface->part) : row.part_cells.size();

@@ -48,6 +48,12 @@ std::optional<Fixed> pupil_size(const JoinedRow& row);
 /// A frame's angle; nothing if the session knows no such pose.
 std::optional<Fixed> angle_of(const SessionHeader& header, PoseIndex pose);
 
+/// Which part of the figure something is on. `header` gives the levels.
+TableColumn part_column(const SessionHeader& header);
+
+/// A coordinate on a surface, with the decimals of all of them.
+Fixed surface_coordinate(double value);
+
 /// The parts of all sculptures, each name once.
 std::vector<std::string> all_part_names(const SessionHeader& header);
 

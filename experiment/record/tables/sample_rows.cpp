@@ -69,14 +69,6 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
     return layout;
 }
 
-SampleCounts& SampleCounts::operator+=(const SampleCounts& more) {
-    samples += more.samples;
-    without_gaze += more.without_gaze;
-    on_object += more.on_object;
-    off_plan += more.off_plan;
-    return *this;
-}
-
 SampleRows::SampleRows(const RowLayout<SampleCells>& layout, const SessionRecord& record, TableFormat format,
                        std::optional<Degrees> cone_accuracy)
     : layout_(layout), record_(record), header_(record.header()), format_(format) {
@@ -85,19 +77,21 @@ SampleRows::SampleRows(const RowLayout<SampleCells>& layout, const SessionRecord
 }
 
 SampleCounts SampleRows::write(TableWriter& to, const TrialRecord& trial,
-                               const std::optional<TrialLedger>& ledger, const SurfaceLookup* lookup) {
-    return write_all(to, trial, SampleJoin(record_, trial, ledger, lookup), lookup, false);
+                               const std::optional<TrialLedger>& ledger, const SurfaceLookup* lookup,
+                               PassingFixations& fixations) {
+    return write_all(to, trial, SampleJoin(record_, trial, ledger, lookup), lookup, &fixations);
 }
 
 SampleCounts SampleRows::write_after(TableWriter& to, const TrialRecord& trial) {
     const SampleJoin join(header_.display.screen, record_.clock_map(trial),
                           record_.flip_history(std::nullopt), nullptr);
-    return write_all(to, trial, join, nullptr, true);
+    return write_all(to, trial, join, nullptr, nullptr);
 }
 
 SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, const SampleJoin& join,
-                                   const SurfaceLookup* lookup, bool is_after) const {
+                                   const SurfaceLookup* lookup, PassingFixations* fixations) const {
     constexpr std::size_t batch = 1024;
+    const bool is_after = !fixations;
     const Condition condition = trial.trial.condition;
     const std::string task = text_cell(is_after ? "" : item(header_.tasks, trial.trial.task).id, format_);
     const std::string sculpture =
@@ -111,17 +105,21 @@ SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, co
     const auto take = [&](std::span<const GazeSample> samples) {
         const std::size_t batches = (samples.size() + batch - 1) / batch;
         std::vector<std::unique_ptr<TableText>> texts(batches);
+        std::vector<std::vector<PlacedSample>> placed(batches);
         std::vector<SampleCounts> of_batch(batches);
         parallel_for(static_cast<int>(batches), [&](int index) {
             const auto i = static_cast<std::size_t>(index);
             const auto piece = samples.subspan(i * batch, std::min(batch, samples.size() - i * batch));
             texts[i] = std::make_unique<TableText>(layout_.table(), format_);
             of_batch[i] = write_batch(
-                *texts[i], {piece, number, join, lookup, task, sculpture, material, parts, own_parts});
+                *texts[i], placed[i],
+                {piece, number, join, lookup, task, sculpture, material, parts, own_parts, fixations});
         });
         for (std::size_t i = 0; i < batches; ++i) {
             to.take(*texts[i]);
             counts += of_batch[i];
+            for (std::size_t k = 0; k < placed[i].size(); ++k)
+                fixations->take(samples[i * batch + k].eye, placed[i][k]);
         }
     };
     if (is_after)
@@ -131,7 +129,8 @@ SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, co
     return counts;
 }
 
-SampleCounts SampleRows::write_batch(TableText& to, const Piece& piece) const {
+SampleCounts SampleRows::write_batch(TableText& to, std::vector<PlacedSample>& placed,
+                                     const Piece& piece) const {
     std::vector<JoinedSample> joined(piece.samples.size());
     piece.join.join(piece.samples, joined);
     const std::vector<GazeCone::Shares> shares = cone_shares(piece, joined);
@@ -144,6 +143,8 @@ SampleCounts SampleRows::write_batch(TableText& to, const Piece& piece) const {
                            piece.material,
                            piece.own_parts,
                            shares.empty() || shares[i].of_part.empty() ? nullptr : &shares[i]});
+        if (piece.fixations)
+            placed.push_back(piece.fixations->place(piece.samples[i], joined[i]));
         counts.without_gaze += !piece.samples[i].gaze;
         counts.on_object += joined[i].sight.surface.has_value();
         counts.off_plan += joined[i].off_plan;

@@ -7,20 +7,16 @@
 #include <vector>
 
 #include "experiment/analysis/gaze_cone.h"
+#include "experiment/record/read/sample_counts.h"
 #include "experiment/record/tables/joined_cells.h"
 #include "experiment/record/tables/pupil_words.h"
 #include "experiment/record/tables/shared_columns.h"
+#include "experiment/study/fixations/passing_fixations.h"
 
 namespace overt {
 
 /// How many samples are joined and written at a time: memory does not depend on a trial's length.
 inline constexpr std::size_t samples_at_a_time = 16384;
-
-/// Of one trial.
-struct SampleCounts {
-    std::int64_t samples = 0, without_gaze = 0, on_object = 0, off_plan = 0;
-    SampleCounts& operator+=(const SampleCounts& more);
-};
 
 struct SampleCells : JoinedRow {
     std::optional<int> trial;                       ///< from 1; nothing: of no trial
@@ -41,9 +37,9 @@ class SampleRows {
                std::optional<Degrees> cone_accuracy);
 
     /// Writes the samples of a trial, made on all processors; `lookup` is null if its sculpture has no
-    /// surface. Throws RecordError.
+    /// surface. They pass by `fixations`, too. Throws RecordError.
     SampleCounts write(TableWriter& to, const TrialRecord& trial, const std::optional<TrialLedger>& ledger,
-                       const SurfaceLookup* lookup);
+                       const SurfaceLookup* lookup, PassingFixations& fixations);
     /// The same of those between the trial's result and the next trial, which are of none.
     SampleCounts write_after(TableWriter& to, const TrialRecord& trial);
 
@@ -55,10 +51,11 @@ class SampleRows {
         const SurfaceLookup* lookup;
         const std::string &task, &sculpture, &material; ///< as cells
         const std::vector<std::string>&parts, &own_parts;
+        const PassingFixations* fixations; ///< null: of none
     };
-    SampleCounts write_batch(TableText& to, const Piece& piece) const;
+    SampleCounts write_batch(TableText& to, std::vector<PlacedSample>& placed, const Piece& piece) const;
     SampleCounts write_all(TableWriter& to, const TrialRecord& trial, const SampleJoin& join,
-                           const SurfaceLookup* lookup, bool is_after) const;
+                           const SurfaceLookup* lookup, PassingFixations* fixations) const;
     std::vector<GazeCone::Shares> cone_shares(const Piece& piece, std::span<const JoinedSample> joined) const;
 
     const RowLayout<SampleCells>& layout_;

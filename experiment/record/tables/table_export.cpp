@@ -1,6 +1,7 @@
 #include "experiment/record/tables/table_export.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -10,8 +11,11 @@
 
 #include "experiment/base/export_folder.h"
 #include "experiment/base/whole_file.h"
+#include "experiment/maps/coordinate_maps.h"
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/record/tables/pupil_words.h"
+#include "experiment/study/fixations/passing_fixations.h"
+#include "experiment/study/fixations/trial_presentation.h"
 
 namespace fs = std::filesystem;
 
@@ -34,14 +38,18 @@ class TableExport {
           tables_(with_words(ExportTables(header_, options.cone_accuracy, record.event_origins(),
                                           {participant_}, pupil_words(record)),
                              words_)),
-          directory_(directory), sample_rows_(tables_.samples, record, format_, options.cone_accuracy) {
+          directory_(directory), sample_rows_(tables_.samples, record, format_, options.cone_accuracy),
+          validations_(validations_of(record)) {
         for (const Table* table : tables_.all())
             writers_.try_emplace(table, directory, *table, format_);
     }
 
-    /// Puts the samples of the trial aside: those of trials of one sculpture come one after another.
-    void join_samples(const TrialRecord& trial, const SurfaceLookup* lookup);
-    /// With the samples that were put aside.
+    /// What the samples of the sculpture's trials are to be joined with.
+    void begin_sculpture(int sculpture, const SurfaceLookup* lookup);
+    /// Puts the samples and events of the trial aside: those of trials of one sculpture come one after
+    /// another.
+    void join_samples(const TrialRecord& trial);
+    /// With what was put aside.
     void write_trial(const TrialRecord& trial);
     /// One that has no rows in the other tables.
     void write_other_attempt(const TrialRecord& trial) { write(tables_.trials, TrialRow{trial, nullptr}); }
@@ -67,30 +75,96 @@ class TableExport {
     const fs::path directory_;
     SampleRows sample_rows_;
     TableExportCounts counts_;
-    std::map<std::int64_t, SampleCounts> aside_; ///< by the trial's id
-    fs::path aside_file(const TrialRecord& trial) const {
-        return directory_ / fmt::format("samples_{}.part", trial.id);
+    struct Aside {
+        SampleCounts samples;
+        std::int64_t events = 0;
+    };
+    std::map<std::int64_t, Aside> aside_; ///< by the trial's id
+    TableWriter aside_writer(const Table& table, const TrialRecord& trial) const {
+        return {aside_file(table, trial), table, format_, Packing::none, TableWriter::Header::none};
     }
+    fs::path aside_file(const Table& table, const TrialRecord& trial) const {
+        return directory_ / fmt::format("{}_{}.part", table.name, trial.id);
+    }
+    template <class Row>
+    void take_aside(const RowLayout<Row>& layout, const TrialRecord& trial, std::int64_t rows) {
+        writer(layout).take(aside_file(layout.table(), trial), rows);
+        fs::remove(aside_file(layout.table(), trial));
+    }
+
+    /// Whose the fixations are that name no eye: they are of the one that was recorded.
+    Eye eye_of_unnamed(std::span<const GazeEvent> events, int sitting) const;
+
+    /// The sculpture's whose trials are joined now.
+    const SurfaceLookup* lookup_ = nullptr;
+    std::optional<ObjectScale> scale_;
+    std::optional<SurfaceWays> ways_;
+    const StudyOptions analysis_; ///< the rules of `overt analyze` without options
+    const std::vector<RecordedAccuracy> validations_;
 };
 
-void TableExport::join_samples(const TrialRecord& trial, const SurfaceLookup* lookup) {
-    TableWriter aside(aside_file(trial), tables_.samples.table(), format_, Packing::none,
-                      TableWriter::Header::none);
-    aside_[trial.id] = sample_rows_.write(aside, trial, record_.ledger(trial), lookup);
-    aside.close();
+void TableExport::begin_sculpture(int sculpture, const SurfaceLookup* lookup) {
+    const RecordedSculpture& recorded = item(header_.sculptures, sculpture);
+    lookup_ = lookup;
+    scale_ = object_scale(recorded.camera, recorded.axis_point, header_.display.screen, recorded.unit);
+    ways_.reset();
+    const auto* maps = dynamic_cast<const CoordinateMaps*>(lookup);
+    if (maps && scale_)
+        ways_.emplace(maps->mesh(), *scale_);
+}
+
+Eye TableExport::eye_of_unnamed(std::span<const GazeEvent> events, int sitting) const {
+    const Eye usual = header_.tracker.eye;
+    // To know which eyes there are takes a look at all samples.
+    if (std::ranges::all_of(events, [](const GazeEvent& event) {
+            return event.kind != GazeEvent::Kind::fixation || event.eye.has_value();
+        }))
+        return usual;
+    const SessionRecord::Eyes eyes = record_.eyes(sitting);
+    const bool has_usual = usual == Eye::left ? eyes.left : eyes.right;
+    return has_usual || eyes.none() ? usual : usual == Eye::left ? Eye::right : Eye::left;
+}
+
+void TableExport::join_samples(const TrialRecord& trial) {
+    std::vector<GazeEvent> events;
+    record_.read_gaze_events(trial, [&](const GazeEvent& event) { events.push_back(event); });
+    const std::optional<TrialLedger> ledger = record_.ledger(trial);
+    const TrialPresentation presentation = presentation_of(header_, trial, ledger.has_value(), validations_);
+    const std::optional<ClockMap> clock_map = record_.clock_map(trial);
+    FixationContext context{analysis_,
+                            {},
+                            clock_map,
+                            presentation.onset,
+                            // All of its events lie in what was recorded.
+                            presentation.duration_s.value_or(std::numeric_limits<double>::infinity()),
+                            header_.poses.angles,
+                            scale_,
+                            lookup_ != nullptr,
+                            presentation.has_stimulus,
+                            dynamic_cast<const CoordinateMaps*>(lookup_) != nullptr,
+                            ways_ ? &*ways_ : nullptr,
+                            lookup_};
+    PassingFixations fixations(context, events, eye_of_unnamed(events, trial.sitting),
+                               Degrees{presentation.validation ? presentation.validation->mean_deg : 0.0});
+    Aside& aside = aside_[trial.id];
+    TableWriter samples = aside_writer(tables_.samples.table(), trial);
+    aside.samples = sample_rows_.write(samples, trial, ledger, lookup_, fixations);
+    samples.close();
+    TableWriter rows = aside_writer(tables_.gaze_events.table(), trial);
+    write_gaze_events(rows, tables_.gaze_events, record_, trial, events, fixations.finish());
+    aside.events = rows.rows();
+    rows.close();
 }
 
 void TableExport::write_trial(const TrialRecord& trial) {
     counts_.flips +=
         write_ledger(writer(tables_.flips), tables_.flips, header_, trial, record_.ledger(trial));
-    const SampleCounts of_trial = aside_.at(trial.id);
-    TableWriter& samples = writer(tables_.samples);
-    samples.take(aside_file(trial), of_trial.samples);
-    fs::remove(aside_file(trial));
-    const SampleCounts after = sample_rows_.write_after(samples, trial);
+    const auto& [of_trial, events] = aside_.at(trial.id);
+    take_aside(tables_.samples, trial, of_trial.samples);
+    const SampleCounts after = sample_rows_.write_after(writer(tables_.samples), trial);
     counts_.samples += after.samples;
     counts_.samples_without_gaze += after.without_gaze;
-    write_gaze_events(writer(tables_.gaze_events), tables_.gaze_events, record_, trial);
+    take_aside(tables_.gaze_events, trial, events);
     write(tables_.responses, trial);
     write(tables_.trials, TrialRow{trial, &of_trial});
 
@@ -153,11 +227,11 @@ TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lo
         if (trial.counts)
             sculptures.insert(trial.trial.condition.sculpture);
     for (const int sculpture : sculptures) {
-        const SurfaceLookup* const lookup = lookup_for(sculpture);
+        tables.begin_sculpture(sculpture, lookup_for(sculpture));
         for (const TrialRecord& trial : record.trials()) {
             if (!trial.counts || trial.trial.condition.sculpture != sculpture)
                 continue;
-            tables.join_samples(trial, lookup);
+            tables.join_samples(trial);
             if (options.progress)
                 options.progress(++done, all);
         }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "experiment/statistics/bootstrap.h"
-#include "experiment/study/read/surface_fixations.h"
+#include "experiment/study/fixations/surface_fixations.h"
 
 namespace overt {
 

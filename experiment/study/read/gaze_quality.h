@@ -5,7 +5,7 @@
 
 #include "experiment/gaze_event.h"
 #include "experiment/screen_geometry.h"
-#include "experiment/study/read/placed_samples.h"
+#include "experiment/study/fixations/placed_samples.h"
 #include "experiment/study/results/study_results.h"
 
 namespace overt {

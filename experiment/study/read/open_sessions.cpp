@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
-#include "experiment/record/read/recorded_validation.h"
 #include "experiment/study/read/reporting.h"
 
 namespace overt {
@@ -85,10 +84,7 @@ std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> se
             one.keys.push_back(std::make_unique<TrialKeys>(*one.readers.back()));
         }
         doubles.add(one.record());
-        one.record().read_events([&](const RecordedEvent& event) {
-            if (const std::optional<ValidationResult> result = validation_of(event))
-                one.validations.push_back({event.at, result->mean_error.value, result->max_error.value});
-        });
+        one.validations = validations_of(one.record());
     }
     doubles.refuse();
     return open;

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "experiment/maps/surface_point.h"
-#include "experiment/study/read/surface_fixations.h"
+#include "experiment/scene/object_scale.h"
+#include "experiment/study/fixations/surface_ways.h"
 #include "experiment/study/results/study_results.h"
 #include "experiment/surface/hat_smoother.h"
 #include "experiment/surface/surface_geometry.h"
@@ -26,9 +27,6 @@ struct SculptureSurface {
     std::unique_ptr<HatSmoother> hats;
     std::vector<double> pixel_seconds; ///< see Exposure
 };
-
-/// Of the surface for statistics over many maps: a quarter of a usual kernel between neighbours.
-inline constexpr std::size_t coarse_nodes = 4000;
 
 /// Gives the sculpture its scale, mesh and parts, and a remark on what is missing, and makes what maps need.
 /// `lookup`: of a session that has it; null if none has, for a `fault` if that is not empty.

@@ -153,19 +153,19 @@ class StudyReader {
         parallel_for(static_cast<int>(jobs.size()), [&](int i) {
             const auto [session, reader] = jobs[static_cast<std::size_t>(i)];
             OpenSession& open = open_[session];
-            std::optional<GeodesicField> field;
+            std::optional<SurfaceWays> ways;
             if (surface.coarse)
-                field.emplace(*surface.coarse_geometry);
+                ways.emplace(*surface.geometry, *surface.coarse, *surface.coarse_geometry);
             const SessionRecord& record = *open.readers[reader];
             for (std::size_t t = reader; t < record.trials().size(); t += open.readers.size()) {
                 const TrialRecord& trial = record.trials()[t];
                 if (!is_of(session, trial, index))
                     continue;
-                read_[session].trials[t] = read_trial(record, trial, *open.keys[reader], open.validations,
-                                                      {lookup, surface.geometry.get(), surface.coarse.get(),
-                                                       field ? &*field : nullptr, surface.scale,
-                                                       light_of(light, record.header(), trial)},
-                                                      options_, t < 1);
+                read_[session].trials[t] =
+                    read_trial(record, trial, *open.keys[reader], open.validations,
+                               {lookup, surface.geometry != nullptr, ways ? &*ways : nullptr, surface.scale,
+                                light_of(light, record.header(), trial)},
+                               options_, t < 1);
                 const std::scoped_lock lock(progress_mutex);
                 progress_(what, ++done, trials);
             }

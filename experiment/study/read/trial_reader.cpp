@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "experiment/record/no_stimulus.h"
 #include "experiment/study/read/gaze_quality.h"
 
 namespace overt {
@@ -93,15 +92,13 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                      const StudyOptions& options, bool with_trace) {
     const SessionHeader& header = record.header();
     const std::optional<TrialLedger> ledger = record.ledger(trial);
-    const bool has_onset = trial.reached(trial.outcome.presentation_onset);
-    const SessionTime onset = has_onset ? trial.outcome.presentation_onset : trial.started;
+    const TrialPresentation presentation = presentation_of(header, trial, ledger.has_value(), validations);
+    const SessionTime onset = presentation.onset;
     ReadTrial read;
     StudyTrial& of = read.trial;
     of.number = trial.trial.index + 1;
     of.label = fmt::format("observer {}, trial {}", header.schedule.observer.label, of.number);
-    const auto validation = std::find_if(validations.rbegin(), validations.rend(),
-                                         [&](const auto& one) { return one.at <= trial.started; });
-    const double accuracy_deg = validation != validations.rend() ? validation->mean_deg : 0.0;
+    const double accuracy_deg = presentation.validation ? presentation.validation->mean_deg : 0.0;
     const PlacedSamples placed =
         placed_samples(record, trial, ledger, surface.lookup, onset, header.tracker.eye,
                        Degrees{options.reach_deg.value_or(accuracy_deg)});
@@ -117,21 +114,14 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
     std::stable_sort(events.begin(), events.end(),
                      [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
 
-    const bool has_stimulus = ledger || !knows_no_stimulus(header);
     const std::optional<ClockMap> clock_map = record.clock_map(trial);
-    if (has_onset && trial.reached(trial.outcome.presentation_end))
-        of.presentation_s = to_seconds(trial.outcome.presentation_end - onset);
-    else if (trial.has_outcome() && trial.outcome.responded_at > onset)
-        of.presentation_s = to_seconds(trial.outcome.responded_at - onset);
-    else if (has_stimulus)
-        of.presentation_s = header.animation.duration_s;
-    else
-        of.presentation_s = recorded_s(placed.samples, events, clock_map, onset);
+    of.presentation_s = presentation.duration_s ? *presentation.duration_s
+                                                : recorded_s(placed.samples, events, clock_map, onset);
 
     of.quality = gaze_quality(placed.samples, events, header.display.screen);
-    if (validation != validations.rend()) {
-        of.quality.accuracy_deg = validation->mean_deg;
-        of.quality.worst_accuracy_deg = validation->worst_deg;
+    if (presentation.validation) {
+        of.quality.accuracy_deg = presentation.validation->mean_deg;
+        of.quality.worst_accuracy_deg = presentation.validation->worst_deg;
     }
     if (trial.outcome.drift)
         of.quality.drift_deg = trial.outcome.drift->value;
@@ -170,10 +160,9 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                                   header.poses.angles,
                                   surface.scale,
                                   surface.lookup != nullptr,
-                                  has_stimulus,
-                                  surface.fine,
-                                  surface.coarse,
-                                  surface.field,
+                                  presentation.has_stimulus,
+                                  surface.has_mesh,
+                                  surface.ways,
                                   surface.lookup,
                                   cone ? &*cone : nullptr,
                                   &header.display.screen,

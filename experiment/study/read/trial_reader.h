@@ -4,17 +4,12 @@
 #include <vector>
 
 #include "experiment/record/read/session_record.h"
-#include "experiment/study/read/surface_fixations.h"
+#include "experiment/study/fixations/surface_fixations.h"
+#include "experiment/study/fixations/trial_presentation.h"
 #include "experiment/study/read/trial_keys.h"
 #include "experiment/study/results/study_options.h"
 
 namespace overt {
-
-/// What a session's events say of its trials' accuracy.
-struct RecordedAccuracy {
-    SessionTime at;
-    double mean_deg = 0.0, worst_deg = 0.0;
-};
 
 struct ReadTrial {
     StudyTrial trial; ///< session and sculpture are not set
@@ -26,9 +21,8 @@ struct ReadTrial {
 
 struct TrialSurface {
     const SurfaceLookup* lookup = nullptr;
-    const SurfaceGeometry* fine = nullptr; ///< null without a mesh
-    const CoarseSurface* coarse = nullptr; ///< null without a mesh or a scale; so is the field on it
-    GeodesicField* field = nullptr;
+    bool has_mesh = false;
+    SurfaceWays* ways = nullptr; ///< null without a mesh or a scale
     std::optional<ObjectScale> scale;
     const LightScores* light = nullptr; ///< of the trial's stimulus; null: not known
 };

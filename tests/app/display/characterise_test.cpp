@@ -19,12 +19,12 @@ using namespace overt::test;
 
 namespace {
 
-/// `overt display characterise --simulated 3` on the small experiment's screen.
+/// `overt display characterise --simulate-photometer 3` on the small experiment's screen.
 ProgramRun characterise(const SmallExperiment& experiment, const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments{"display",
                                        "characterise",
                                        experiment.protocol().string(),
-                                       "--simulated",
+                                       "--simulate-photometer",
                                        "3",
                                        "--context",
                                        "osmesa",
@@ -84,9 +84,9 @@ TEST_CASE("a simulated display goes through OpenGL and the photometer into a fil
     const std::string before = text_of(folder / "d.toml");
     const ProgramRun refused = characterise(experiment);
     CHECK(refused.exit_code == 2);
-    CHECK(refused.err.find("--force") != std::string::npos);
+    CHECK(refused.err.find("--overwrite") != std::string::npos);
     CHECK(text_of(folder / "d.toml") == before);
-    CHECK(characterise(experiment, {"--force", "--name", "another"}).exit_code == 0);
+    CHECK(characterise(experiment, {"--overwrite", "--name", "another"}).exit_code == 0);
     CHECK(text_of(folder / "d.toml") != before);
 }
 

@@ -40,10 +40,9 @@ TEST_CASE("the light of a square is measured in the mode and the corner of the s
     const SmallExperiment experiment(
         with(small_protocol, "output = \"color++\"\n",
              "output = \"color++\"\nphotodiode = \"bottom-right\"\nphotodiode_px = 20\n"));
-    const ProgramRun run =
-        run_overt({"doctor", "--photodiode", "--sensor", "simulated", "--context", "osmesa", "--seconds", "2",
-                   "--protocol", experiment.protocol().string(), "--json"},
-                  {});
+    const ProgramRun run = run_overt({"doctor", "--photodiode", "--sensor", "simulated", "--context",
+                                      "osmesa", "--seconds", "2", experiment.protocol().string(), "--json"},
+                                     {});
     INFO(run.out << run.err);
     REQUIRE(run.exit_code == 0);
     const auto report = nlohmann::json::parse(run.out);
@@ -57,7 +56,7 @@ TEST_CASE("the light of a square is measured in the mode and the corner of the s
     CHECK(figures["latency of the first row"] ==
           Approx(figures["latency"] - figures["scan-out above the square"]));
 
-    const ProgramRun wrong = run_overt({"doctor", "--photodiode", "--context", "osmesa", "--protocol",
+    const ProgramRun wrong = run_overt({"doctor", "--photodiode", "--context", "osmesa",
                                         (experiment.protocol().parent_path() / "none.toml").string()},
                                        {});
     CHECK(wrong.exit_code == 2);

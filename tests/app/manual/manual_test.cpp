@@ -1,5 +1,6 @@
 /// Manual pages, completion and the version say what the program says of itself elsewhere: in its help.
 #include <filesystem>
+#include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -8,6 +9,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "tests/app/small_experiment.h"
 #include "tests/support/program.h"
 
 using namespace overt;
@@ -53,7 +55,7 @@ std::set<std::string> options_of(const std::string& command) {
     std::istringstream words(command);
     std::vector<std::string> call{std::istream_iterator<std::string>(words), {}};
     call.emplace_back("--help");
-    return all_matches(run_overt(call).out, "^ {2,4}(?:-[a-z],)?(--[a-z0-9-]+)");
+    return all_matches(run_overt(call).out, "^ {2,4}(?:-[a-zA-Z],)?(--[a-z0-9-]+)");
 }
 
 std::string without_escapes(const std::string& page) {
@@ -68,11 +70,11 @@ std::set<std::string> completed(const fs::path& script, const std::vector<std::s
     std::string array;
     for (const std::string& word : words)
         array += fmt::format(" {}", test::quoted_for_shell(word));
-    const std::string call =
-        fmt::format("cd {}; source {}; COMP_WORDS=(overt{}); COMP_CWORD={}; _overt; printf '%s\\n' "
-                    "\"${{COMPREPLY[@]}}\" >{}",
-                    test::quoted_for_shell(in.string()), test::quoted_for_shell(script.string()), array,
-                    words.size(), test::quoted_for_shell(out.string()));
+    const std::string call = fmt::format(
+        "cd {}; source {}; COMP_WORDS=({}{}); COMP_CWORD={}; _overt; printf '%s\\n' "
+        "\"${{COMPREPLY[@]}}\" >{}",
+        test::quoted_for_shell(in.string()), test::quoted_for_shell(script.string()),
+        test::quoted_for_shell(OVERT_PROGRAM), array, words.size(), test::quoted_for_shell(out.string()));
     REQUIRE(std::system(fmt::format("bash -c {}", test::quoted_for_shell(call)).c_str()) == 0);
     return all_matches(test::text_of(out), "^(.+)$");
 }
@@ -128,6 +130,34 @@ TEST_CASE("bash completes commands, options, their choices and files", "[unit][m
         CAPTURE(command);
         CHECK(completed(script, words, in) == options_of(command));
     }
+}
+
+TEST_CASE("bash completes what the protocol or the session on the line knows", "[session][manual]") {
+    const test::SmallExperiment experiment;
+    const test::TemporaryFolder folder;
+    const fs::path script = folder.file("overt.bash", run_overt({"completion", "bash"}).out);
+    const fs::path in = experiment.protocol().parent_path();
+    using Words = std::set<std::string>;
+    const Words stimuli{"bust/smooth", "bust/matt", "tall/smooth", "tall/matt"};
+    CHECK(completed(script, {"play", "small.toml", "--stimulus", ""}, in) == stimuli);
+    CHECK(completed(script, {"play", "small.toml", "--stimulus", "tall/m"}, in) == Words{"tall/matt"});
+    CHECK(completed(script, {"play", "small.toml", "--stimulus", "=", "bu"}, in) ==
+          Words{"bust/smooth", "bust/matt"});
+    CHECK(completed(script, {"bake", "small.toml", "--quality", "draft", "--stimulus", ""}, in) == stimuli);
+    CHECK(completed(script, {"display", "verify", "small.toml", "--stimulus", ""}, in) == stimuli);
+    CHECK(completed(script, {"lut", "small.toml", "--stimulus", ""}, in) == Words{"bust", "tall"});
+    // Without a protocol on the line, or with one that cannot be read, nobody knows.
+    CHECK(completed(script, {"play", "--stimulus", ""}, in).empty());
+    fs::copy_file(in / "small.toml", in / "my small.toml");
+    CHECK(completed(script, {"play", "my\\ small.toml", "--stimulus", "tall/m"}, in) == Words{"tall/matt"});
+    std::ofstream(in / "wrong.toml") << "[protocol\n";
+    CHECK(completed(script, {"play", "wrong.toml", "--stimulus", ""}, in).empty());
+
+    REQUIRE(experiment.run({"--trials", "3"}).exit_code == 0);
+    const std::string session = experiment.session().string();
+    CHECK(completed(script, {"show", session, "--trial", ""}, in) == Words{"1", "2", "3"});
+    CHECK(completed(script, {"replay", session, "--trial", ""}, in) == Words{"1", "2", "3"});
+    CHECK(completed(script, {"show", in.string(), "--trial", ""}, in).empty());
 }
 
 TEST_CASE("the version names commit, build, compiler and libraries", "[unit][manual]") {

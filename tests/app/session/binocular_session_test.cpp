@@ -67,7 +67,7 @@ TEST_CASE("both eyes at 1000 Hz are in the record, on the surface, in every expo
     const auto tables = experiment.folder().path() / "tables";
     REQUIRE(experiment.overt({"export", session, "--out", tables.string()}).exit_code == 0);
     const TsvFile samples(tables / "samples.tsv"), events(tables / "gaze_events.tsv");
-    std::map<std::string, long> of, on_surface, fixations;
+    std::map<std::string, long> of, on_surface, fixations, placed;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         ++of[samples.text(i, "eye")];
         on_surface[samples.text(i, "eye")] += samples.text(i, "surface_x") != "n/a";
@@ -80,6 +80,11 @@ TEST_CASE("both eyes at 1000 Hz are in the record, on the surface, in every expo
     }
     for (std::size_t i = 0; i < events.size(); ++i)
         fixations[events.text(i, "eye")] += events.text(i, "kind") == "fixation";
+    // Each eye's fixations have places by its own samples.
+    for (std::size_t i = 0; i < events.size(); ++i)
+        placed[events.text(i, "eye")] += events.text(i, "surface_x") != "n/a";
+    CHECK(placed["left"] >= 3);
+    CHECK(placed["right"] >= 3);
     CHECK(fixations["left"] >= 3);
     CHECK(fixations["right"] >= 3);
 

@@ -48,7 +48,7 @@ class WatchBeside {
   public:
     explicit WatchBeside(const WatchedRun& run, const std::string& name = "watched")
         : said(run.socket.parent_path() / name),
-          program({"watch", "--terminal", "--socket", run.socket.string()}, {}, said) {
+          program({"watch", "--terminal", "--operator-socket", run.socket.string()}, {}, said) {
         // Its greeting waits for five seconds, which is time enough to reach it.
         std::this_thread::sleep_for(300ms);
         REQUIRE(program.is_running());
@@ -184,7 +184,7 @@ TEST_CASE("overt watch says what it needs where there is nothing to watch", "[se
     };
     const std::string folder = experiment.folder().path().string();
     check_refused({"watch", "--terminal", "--sessions", folder}, "no session that can be watched runs there");
-    check_refused({"watch", "--terminal", "--socket", folder + "/none.sock"},
+    check_refused({"watch", "--terminal", "--operator-socket", folder + "/none.sock"},
                   "no session serves this socket");
     check_refused({"watch", "--terminal", folder + "/none"}, "is no session's folder");
     check_refused({"watch", "--once", "--send", "stop", folder}, "is no command");

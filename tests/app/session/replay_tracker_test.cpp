@@ -42,7 +42,7 @@ TEST_CASE("a session with the gaze of another has its samples, its validation an
     const std::string source = experiment.session().string();
     // The digits of an observer's name are the number in the schedule: the same stimuli in the same order.
     const ProgramRun run = experiment.run(
-        {"--trials", "3", "--observer", "Q01", "--tracker", "replay", "--tracker-address", source});
+        {"--trials", "3", "--observer", "Q01", "--tracker", "replay", "--address", source});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     CHECK(experiment.overt({"verify", experiment.session(1, "Q01").string()}).exit_code == 0);
@@ -88,7 +88,7 @@ TEST_CASE("a recording without the trial, or with another stimulus, is said at t
     const SmallExperiment experiment;
     REQUIRE(experiment.run({"--trials", "1", "--no-pictures"}).exit_code == 0);
     const ProgramRun run = experiment.run({"--trials", "3", "--no-pictures", "--observer", "P03", "--tracker",
-                                           "replay", "--tracker-address", experiment.session().string()});
+                                           "replay", "--address", experiment.session().string()});
     CHECK(run.exit_code == 0);
     CHECK_THAT(run.out, Contains("2 trials of the recording had no gaze to be played back: 2, 3"));
     const SessionRecord record(experiment.session(1, "P03"));
@@ -96,7 +96,7 @@ TEST_CASE("a recording without the trial, or with another stimulus, is said at t
 
     const ProgramRun unlike =
         experiment.run({"--trials", "1", "--no-pictures", "--observer", "P04", "--seed", "8", "--tracker",
-                        "replay", "--tracker-address", experiment.session().string()});
+                        "replay", "--address", experiment.session().string()});
     const SessionRecord seven(experiment.session()), eight(experiment.session(1, "P04"));
     REQUIRE(seven.header().schedule.trials[0].condition != eight.header().schedule.trials[0].condition);
     CHECK_THAT(unlike.out, Contains("1 trial showed another stimulus than the recording's: 1."));
@@ -115,7 +115,7 @@ TEST_CASE("an EyeLink recording is played back, with its own events", "[session]
             asc = entry.path();
     REQUIRE_FALSE(asc.empty());
     const ProgramRun run = experiment.run({"--trials", "2", "--no-pictures", "--observer", "P03", "--tracker",
-                                           "replay", "--tracker-address", asc.string()});
+                                           "replay", "--address", asc.string()});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     const SessionRecord first(experiment.session()), second(experiment.session(1, "P03"));
@@ -139,6 +139,6 @@ TEST_CASE("an EyeLink recording is played back, with its own events", "[session]
 
     const ProgramRun none =
         experiment.run({"--trials", "1", "--no-pictures", "--observer", "P05", "--tracker", "replay",
-                        "--tracker-address", experiment.protocol().string()});
+                        "--address", experiment.protocol().string()});
     CHECK(none.exit_code == 2);
 }

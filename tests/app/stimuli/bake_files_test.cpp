@@ -21,9 +21,9 @@ TEST_CASE("exported frames, given back as ready-made ones, are the same light", 
     const SmallExperiment experiment(traced_protocol(), Cache::own);
     const std::filesystem::path folder = experiment.folder().path();
     REQUIRE(bake(experiment,
-                 {"--quality", "draft", "--only", "bust/smooth", "--out", (folder / "display").string()})
+                 {"--quality", "draft", "--stimulus", "bust/smooth", "--out", (folder / "display").string()})
                 .exit_code == 0);
-    REQUIRE(bake(experiment, {"--quality", "draft", "--only", "bust/smooth", "--out",
+    REQUIRE(bake(experiment, {"--quality", "draft", "--stimulus", "bust/smooth", "--out",
                               (folder / "xyz").string(), "--as", "xyz"})
                 .exit_code == 0);
     const std::string frames = "[[frames]]\nsculpture = \"bust\"\nmaterial = \"smooth\"\n";
@@ -65,7 +65,7 @@ TEST_CASE("exported frames, given back as ready-made ones, are the same light", 
 TEST_CASE("an exported frame names its channels and everything that made it", "[session]") {
     const SmallExperiment experiment(traced_protocol(), Cache::own);
     const std::filesystem::path out = experiment.folder().path() / "out";
-    const std::vector<std::string> wish{"--quality", "draft", "--only", "tall/matt", "--frames", "2-3"};
+    const std::vector<std::string> wish{"--quality", "draft", "--stimulus", "tall/matt", "--frames", "2-3"};
     const auto with_more = [&](std::vector<std::string> more) {
         more.insert(more.begin(), wish.begin(), wish.end());
         return bake(experiment, more);
@@ -119,14 +119,14 @@ TEST_CASE("a PNG has the light over the background in 16 bits, and says what it 
     const SmallExperiment experiment(
         with(traced_protocol(), "[animation]\n", "[light]\nexposure = 4\n[animation]\n"), Cache::own);
     const std::filesystem::path out = experiment.folder().path() / "out";
-    const std::vector<std::string> wish{"--quality", "draft", "--only", "bust/smooth",
+    const std::vector<std::string> wish{"--quality", "draft", "--stimulus", "bust/smooth",
                                         "--frames",  "0",     "--out",  (out / "p").string(),
                                         "--png16"};
     const ProgramRun run = bake(experiment, wish);
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     CHECK(run.out.find("clipped to what 16 bits hold: up to") != std::string::npos);
-    REQUIRE(bake(experiment, {"--quality", "draft", "--only", "bust/smooth", "--frames", "0", "--out",
+    REQUIRE(bake(experiment, {"--quality", "draft", "--stimulus", "bust/smooth", "--frames", "0", "--out",
                               (out / "e").string()})
                 .exit_code == 0);
     const auto json = nlohmann::json::parse(text_of(out / "p/bust_smooth/frame_0000.json"));
@@ -151,7 +151,7 @@ TEST_CASE("frames for other programs keep 16 bits; half floats are made on reque
     const SmallExperiment experiment(traced_protocol(), Cache::own);
     const std::filesystem::path out = experiment.folder().path() / "out";
     const auto wish = [&](const char* folder, std::vector<std::string> more) {
-        more.insert(more.end(), {"--quality", "draft", "--only", "bust/matt", "--frames", "0", "--out",
+        more.insert(more.end(), {"--quality", "draft", "--stimulus", "bust/matt", "--frames", "0", "--out",
                                  (out / folder).string()});
         return bake(experiment, more);
     };
@@ -180,7 +180,7 @@ TEST_CASE("frames for other programs keep 16 bits; half floats are made on reque
 TEST_CASE("nothing that was made otherwise is replaced unless it is said", "[session]") {
     const SmallExperiment experiment(traced_protocol(), Cache::own);
     const std::string out = (experiment.folder().path() / "out").string();
-    const std::vector<std::string> wish{"--only", "bust/matt", "--frames",  "1",
+    const std::vector<std::string> wish{"--stimulus", "bust/matt", "--frames",  "1",
                                         "--out",  out,         "--quality", "draft"};
     const auto file = experiment.folder().file("out/bust_matt/frame_0001.exr", "mine");
     const auto other = experiment.folder().file("out/notes.txt", "mine, too");
@@ -189,7 +189,7 @@ TEST_CASE("nothing that was made otherwise is replaced unless it is said", "[ses
     CHECK(refused.err.find("frame_0001.exr: is there already and was made otherwise") != std::string::npos);
     CHECK(text_of(file) == "mine");
     std::vector<std::string> forced = wish;
-    forced.emplace_back("--force");
+    forced.emplace_back("--overwrite");
     CHECK(bake(experiment, forced).exit_code == 0);
     CHECK(values_in(file).size() == 40 * 48 * 4);
     CHECK(text_of(other) == "mine, too");
@@ -207,7 +207,7 @@ TEST_CASE("sheet and strip are pictures of all that was asked for", "[session]")
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     REQUIRE(bake(experiment,
-                 {"--quality", "preview", "--only", "tall/matt", "--strip", (folder / "strip.png").string()})
+                 {"--quality", "preview", "--stimulus", "tall/matt", "--strip", (folder / "strip.png").string()})
                 .exit_code == 0);
     const glm::ivec2 sheet = header_of(folder / "sheet.png").size_px,
                      strip = header_of(folder / "strip.png").size_px;

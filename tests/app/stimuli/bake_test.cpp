@@ -204,8 +204,8 @@ TEST_CASE("a bake that makes no sense is refused before anything is rendered", "
     refusal({"--shard", "3/2"}, "1/4 to 4/4");
     refusal({"--shard", "0/2"}, "1/4 to 4/4");
     refusal({"--shard", "one"}, "1/4 to 4/4");
-    refusal({"--only", "bust/smoth"}, "did you mean \"bust/smooth\"");
-    refusal({"--only", "bust"}, "bust/smooth");
+    refusal({"--stimulus", "bust/smoth"}, "did you mean \"bust/smooth\"");
+    refusal({"--stimulus", "bust"}, "bust/smooth");
     refusal({"--frames", "5-7"}, "frames 0 to 6");
     refusal({"--frames", "4-2"}, "0-30");
     refusal({"--quality", "perfect"}, "--quality");
@@ -213,9 +213,9 @@ TEST_CASE("a bake that makes no sense is refused before anything is rendered", "
     refusal({"--samples", "1000000"}, "--samples");
     refusal({"--as", "spectra"}, "--out");
     refusal({"--as", "xyz", "--png16", "--out", "x"}, "EXR");
-    refusal({"--strip", "strip.png"}, "--only");
+    refusal({"--strip", "strip.png"}, "--stimulus");
     refusal({"--sheet", "sheet.png", "--shard", "1/2"}, "when all are there");
-    refusal({"--sheet", "sheet.png", "--only", "bust/matt"}, "leave out --only");
+    refusal({"--sheet", "sheet.png", "--stimulus", "bust/matt"}, "leave out --stimulus");
     const auto file = experiment.folder().file("out", "no folder");
     refusal({"--out", file.string()}, "is no folder");
     CHECK(files_below(experiment.cache() / "frames").empty());
@@ -232,7 +232,7 @@ TEST_CASE("a session takes the best quality that is there of all stimuli, and re
     INFO(first.err);
     CHECK(first.exit_code == 0);
     CHECK(first.out.find("frames: path traced, preview") != std::string::npos);
-    REQUIRE(bake(experiment, {"--quality", "draft", "--only", "bust/smooth"}).exit_code == 0);
+    REQUIRE(bake(experiment, {"--quality", "draft", "--stimulus", "bust/smooth"}).exit_code == 0);
     CHECK(experiment.run({"--trials", "1"}).out.find("frames: path traced, preview") != std::string::npos);
     REQUIRE(bake(experiment, {"--quality", "draft"}).exit_code == 0);
     const ProgramRun better = experiment.run({"--trials", "1"});

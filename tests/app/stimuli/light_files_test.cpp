@@ -19,7 +19,7 @@ TEST_CASE("a session keeps the light of its stimuli, as their frames have it", "
     const SmallExperiment experiment(traced_protocol(), Cache::own);
     const fs::path out = experiment.folder().path() / "out";
     REQUIRE(
-        bake(experiment, {"--quality", "draft", "--only", "bust/smooth", "--out", out.string()}).exit_code ==
+        bake(experiment, {"--quality", "draft", "--stimulus", "bust/smooth", "--out", out.string()}).exit_code ==
         0);
     REQUIRE(bake(experiment, {"--quality", "draft"}).exit_code == 0);
     REQUIRE(experiment.run({"--trials", "1"}).exit_code == 0);
@@ -63,7 +63,7 @@ TEST_CASE(
     const fs::path folder = experiment.folder().path();
     REQUIRE(bake(experiment, {"--quality", "draft"}).exit_code == 0);
     for (const auto& [name, more] : {std::pair<std::string, std::string>{"png", "--png16"}, {"exr", ""}}) {
-        std::vector<std::string> arguments{"--quality",   "draft", "--only",
+        std::vector<std::string> arguments{"--quality",   "draft", "--stimulus",
                                            "bust/smooth", "--out", (folder / name).string()};
         if (!more.empty())
             arguments.push_back(more);

@@ -110,7 +110,7 @@ TEST_CASE("the window shows gaze where it is, sends a pause at once and asks bef
     options.facts.height_px = 500;
     options.trials = {{"task", "What?", "bust", "matt", ""}};
     OperatorServer server(std::move(options));
-    RunningProgram program({"watch", "--socket", (folder.path() / "view.sock").string()}, x_server_alone,
+    RunningProgram program({"watch", "--operator-socket", (folder.path() / "view.sock").string()}, x_server_alone,
                            folder.path() / "said");
     Display* const display = XOpenDisplay(nullptr);
     REQUIRE(display);

@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "experiment/base/random.h"
-#include "experiment/study/read/surface_fixations.h"
+#include "experiment/study/fixations/surface_fixations.h"
 #include "tests/experiment/study/painted_study.h"
 #include "tests/support/cast_maps.h"
 

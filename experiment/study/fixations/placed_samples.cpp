@@ -1,4 +1,4 @@
-#include "experiment/study/read/placed_samples.h"
+#include "experiment/study/fixations/placed_samples.h"
 
 #include <algorithm>
 #include <array>
@@ -21,6 +21,35 @@ std::optional<SurfacePoint> surface_at_outline(const SurfaceLookup& lookup, Pose
 
 } // namespace
 
+PlacedSample placed_sample(const GazeSample& sample, const JoinedSample& joined, const SurfaceLookup* lookup,
+                           SessionTime onset, Degrees reach) {
+    PlacedSample placed;
+    placed.sampled_at = sample.sampled_at;
+    placed.pupil = sample.pupil_area;
+    placed.has_gaze = sample.gaze.has_value();
+    placed.gaze = sample.gaze.value_or(ScreenPoint{});
+    if (joined.at) {
+        placed.has_time = true;
+        placed.time_s = to_seconds(joined.at->time - onset);
+    }
+    if (joined.shown) {
+        placed.frame = joined.shown->frame.value;
+        placed.pose = joined.shown->pose;
+    }
+    if (joined.sight.surface) {
+        placed.is_on_surface = true;
+        placed.surface = *joined.sight.surface;
+    } else if (reach.value > 0.0 && joined.outline_distance &&
+               joined.outline_distance->value <= reach.value) {
+        if (const auto surface =
+                surface_at_outline(*lookup, placed.pose, *joined.image_px, *joined.sight.outline_px)) {
+            placed.is_within_reach = true;
+            placed.surface = *surface;
+        }
+    }
+    return placed;
+}
+
 PlacedSamples placed_samples(const SessionRecord& record, const TrialRecord& trial,
                              const std::optional<TrialLedger>& ledger, const SurfaceLookup* lookup,
                              SessionTime onset, Eye preferred, Degrees reach) {
@@ -36,33 +65,12 @@ PlacedSamples placed_samples(const SessionRecord& record, const TrialRecord& tri
             const GazeSample& sample = samples[i];
             const JoinedSample& at = joined[i];
             const auto eye = static_cast<std::size_t>(sample.eye);
-            PlacedSample& one = of_eye[eye].emplace_back();
-            one.sampled_at = sample.sampled_at;
-            one.pupil = sample.pupil_area;
-            one.has_gaze = sample.gaze.has_value();
-            one.gaze = sample.gaze.value_or(ScreenPoint{});
+            const PlacedSample& one =
+                of_eye[eye].emplace_back(placed_sample(sample, at, lookup, onset, reach));
             with_gaze[eye] += one.has_gaze;
-            if (at.at) {
-                one.has_time = true;
-                one.time_s = to_seconds(at.at->time - onset);
+            if (at.at)
                 placed.clock_uncertainty_s =
                     std::max(placed.clock_uncertainty_s, to_seconds(at.at->uncertainty));
-            }
-            if (at.shown) {
-                one.frame = at.shown->frame.value;
-                one.pose = at.shown->pose;
-            }
-            if (at.sight.surface) {
-                one.is_on_surface = true;
-                one.surface = *at.sight.surface;
-            } else if (reach.value > 0.0 && at.outline_distance &&
-                       at.outline_distance->value <= reach.value) {
-                if (const auto surface =
-                        surface_at_outline(*lookup, one.pose, *at.image_px, *at.sight.outline_px)) {
-                    one.is_within_reach = true;
-                    one.surface = *surface;
-                }
-            }
             ++placed.counts.samples;
             placed.counts.without_gaze += !one.has_gaze;
             placed.counts.on_object += one.is_on_surface;

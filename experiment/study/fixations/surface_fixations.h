@@ -11,10 +11,9 @@
 #include "experiment/gaze_event.h"
 #include "experiment/maps/light_pictures.h"
 #include "experiment/scene/object_scale.h"
-#include "experiment/study/read/placed_samples.h"
+#include "experiment/study/fixations/placed_samples.h"
+#include "experiment/study/fixations/surface_ways.h"
 #include "experiment/study/results/study_options.h"
-#include "experiment/surface/coarse_surface.h"
-#include "experiment/surface/geodesic_field.h"
 
 namespace overt {
 
@@ -37,9 +36,8 @@ struct FixationContext {
     /// Of a session that knows of no stimulus: its fixations are told with their places on the screen alone,
     /// and no frame needs to have been lit.
     bool has_stimulus = true;
-    const SurfaceGeometry* fine = nullptr;  ///< the sculpture's mesh; null without one
-    const CoarseSurface* coarse = nullptr;  ///< of that; null without a scale
-    GeodesicField* field = nullptr;         ///< on the coarse surface; the same
+    bool has_mesh = false;                  ///< points have triangles
+    SurfaceWays* ways = nullptr;            ///< along the mesh; null without one, or without a scale
     const SurfaceLookup* lookup = nullptr;  ///< for the gaze cone; may be null
     const GazeCone* cone = nullptr;         ///< the same
     const ScreenGeometry* screen = nullptr; ///< for the error of the look-up; null: it is not reckoned

@@ -1,9 +1,8 @@
-#include "experiment/study/read/surface_fixations.h"
+#include "experiment/study/fixations/surface_fixations.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <vector>
 
 #include "experiment/maps/coordinate_maps.h"
@@ -40,25 +39,14 @@ const PlacedSample& median_in_space(std::span<const PlacedSample* const> placed)
 }
 
 /// The same along the surface. Ways on a coarser surface do: what counts is on which sheet the place is.
-const PlacedSample& median_along_surface(std::span<const PlacedSample* const> placed,
-                                         const FixationContext& context) {
-    const CoarseSurface& coarse = *context.coarse;
-    std::map<std::uint32_t, std::vector<const PlacedSample*>> at_vertex;
-    for (const PlacedSample* sample : placed) {
-        const SurfacePoint& point = sample->surface;
-        int corner = 0;
-        for (int other = 1; other < 3; ++other)
-            corner = point.barycentric[other] > point.barycentric[corner] ? other : corner;
-        const std::uint32_t node = context.fine->corners(point.triangle)[corner];
-        at_vertex[coarse.vertex_near(node)].push_back(sample);
-    }
-    std::vector<SurfaceWeight> weights;
-    std::vector<std::uint32_t> vertices;
-    for (const auto& [vertex, samples] : at_vertex) {
-        weights.push_back({coarse.place_of(vertex), static_cast<double>(samples.size()), 0.0});
-        vertices.push_back(vertex);
-    }
-    return median_in_space(at_vertex[vertices[geodesic_median(*context.field, weights).index]]);
+const PlacedSample& median_along_surface(std::span<const PlacedSample* const> placed, SurfaceWays& ways) {
+    std::vector<const SurfacePoint*> points;
+    for (const PlacedSample* sample : placed)
+        points.push_back(&sample->surface);
+    std::vector<const PlacedSample*> nearest;
+    for (const std::size_t index : ways.nearest_to_all(points))
+        nearest.push_back(placed[index]);
+    return median_in_space(nearest);
 }
 
 /// Where the fixation's samples have their places on the surface. Samples come at equal steps of time, so
@@ -69,21 +57,21 @@ void find_point(StudyFixation& fixation, std::span<const PlacedSample* const> pl
     const PlacedSample* median = &median_in_space(placed);
     if (context.scale)
         fixation.sigma_mm = sigma_mm(context.options.sigma, *context.scale, median->surface.depth);
-    if (context.field && context.scale) {
+    if (context.ways && context.scale) {
         const auto [least, most] = std::minmax_element(
             placed.begin(), placed.end(),
             [](const PlacedSample* a, const PlacedSample* b) { return a->surface.depth < b->surface.depth; });
         const double range_mm =
             ((*most)->surface.depth - (*least)->surface.depth) * context.scale->mm_per_unit;
         if (range_mm > 0.5 * fixation.sigma_mm) {
-            median = &median_along_surface(placed, context);
+            median = &median_along_surface(placed, *context.ways);
             fixation.sigma_mm = sigma_mm(context.options.sigma, *context.scale, median->surface.depth);
         }
     }
     fixation.position = median->surface.position;
     if (context.scale)
         fixation.mm_per_deg = context.scale->mm_per_deg * median->surface.depth / context.scale->axis_depth;
-    if (context.fine) {
+    if (context.has_mesh) {
         fixation.triangle = median->surface.triangle;
         fixation.barycentric = glm::max(median->surface.barycentric, glm::dvec3(0.0));
         fixation.barycentric /= fixation.barycentric.x + fixation.barycentric.y + fixation.barycentric.z;

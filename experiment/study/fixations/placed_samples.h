@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "experiment/record/read/sample_counts.h"
 #include "experiment/record/read/sample_join.h"
-#include "experiment/record/tables/sample_rows.h"
 
 namespace overt {
 
@@ -24,6 +24,12 @@ struct PlacedSample {
     bool has_place() const { return is_on_surface || is_within_reach; }
 };
 
+/// What a join found of a sample. `lookup` is null without a surface; it is the join's. A sample that misses
+/// the sculpture's picture by no more than `reach` (visual angle, 0: none) has the point seen at the centre
+/// of the picture's nearest pixel.
+PlacedSample placed_sample(const GazeSample& sample, const JoinedSample& joined, const SurfaceLookup* lookup,
+                           SessionTime onset, Degrees reach);
+
 struct PlacedSamples {
     std::vector<PlacedSample> samples; ///< of `eye`, by time
     Eye eye = Eye::right;
@@ -32,9 +38,8 @@ struct PlacedSamples {
     double clock_uncertainty_s = 0.0; ///< largest bound on the error of a sample's time
 };
 
-/// Reads the trial's samples in pieces. Of two eyes `preferred` is taken if it has gaze. `lookup` is null
-/// without a surface. A sample that misses the sculpture's picture by no more than `reach` (visual angle, 0:
-/// none) has the point seen at the centre of the picture's nearest pixel. Throws RecordError.
+/// Reads the trial's samples in pieces, and places each as placed_sample() does. Of two eyes `preferred` is
+/// taken if it has gaze. Throws RecordError.
 PlacedSamples placed_samples(const SessionRecord& record, const TrialRecord& trial,
                              const std::optional<TrialLedger>& ledger, const SurfaceLookup* lookup,
                              SessionTime onset, Eye preferred, Degrees reach);

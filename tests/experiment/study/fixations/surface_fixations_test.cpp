@@ -1,5 +1,5 @@
 /// Fixations placed on a surface from samples whose places are known.
-#include "experiment/study/read/surface_fixations.h"
+#include "experiment/study/fixations/surface_fixations.h"
 
 #include <array>
 #include <cmath>
