@@ -10,7 +10,9 @@
 #include "app/analyze/kernel_width.h"
 #include "app/analyze/study_folder.h"
 #include "app/cli/command_options.h"
+#include "app/cli/event_options.h"
 #include "app/cli/interruption.h"
+#include "app/inputs/session_folders.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/study/tables/study_tables.h"
@@ -27,6 +29,7 @@ struct AnalyzeOptions {
     std::vector<std::string> same_observer; ///< LABEL=LABEL
     std::string by, sigma = "1deg", kernel = "geodesic", format = "csv", shard;
     bool overwrite = false;
+    EventOptions events;
     StudyExtras extras;
     bool json = false;
 };
@@ -134,6 +137,7 @@ int run_shard(const AnalyzeOptions& options) {
 
 int run_analyze(AnalyzeOptions options) {
     options.study.by = listed(options.by);
+    options.study.detect_events = options.events.detection();
     if (options.compare) {
         if (std::ranges::find(options.study.by, *options.compare) == options.study.by.end())
             throw InputError(fmt::format("--compare {}: takes one of the columns of --by, which are {}",
@@ -146,6 +150,7 @@ int run_analyze(AnalyzeOptions options) {
         if (names_of<MapKernel>[i] == options.kernel)
             options.study.kernel = static_cast<MapKernel>(i);
     }
+    options.sessions = sessions_in(options.sessions, is_shard);
     if (!options.shard.empty())
         return run_shard(options);
     if (options.out.empty())
@@ -204,6 +209,9 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
            "Exclude trials with a larger error at the drift check", not_negative());
     option(command, "--most-missed", study.exclude.most_missed_refreshes, "N",
            "Exclude trials with more missed refreshes", CLI::NonNegativeNumber);
+    add_event_options(command, options.events,
+                      "Find fixations, saccades and blinks anew in the samples, in place of those on record; "
+                      "imported recordings without any have them found anyway");
     option(command, "--same-observer", options.same_observer, "LABEL=LABEL",
            "Sessions of the first observer are those of the second, as 01=1; once for each", one_each_time);
     option(command, "--time-step", study.time_step_s, "S", "Stretches of the time course", above_zero(),
@@ -228,7 +236,8 @@ void add_analyze_command(CLI::App& app, ChosenCommand& chosen) {
         "  overt analyze shards/* --out analysis\n"
         "Exit codes: 0 done, 1 failed, 2 bad input.");
     options.by = fmt::format("{}", fmt::join(options.study.by, ","));
-    command.add_option("SESSION", options.sessions, "Folders of sessions, or of all shards of a study")
+    command
+        .add_option("SESSION", options.sessions, fmt::format("{}; or all shards of a study", sessions_help))
         ->required();
     option(command, "--out", options.out, "DIR", "Folder to write to; with --shard, the folder of all shards")
         ->default_str("analysis; with --shard: shards");

@@ -9,6 +9,7 @@
 #include "app/bench/bench_clock.h"
 #include "app/bench/bench_command.h"
 #include "app/bench/picture_error.h"
+#include "app/stimuli/bake_errors.h"
 #include "experiment/base/error.h"
 #include "experiment/base/scratch_folder.h"
 #include "render/bake/eye_rays.h"
@@ -24,30 +25,24 @@ namespace {
 struct BakeCase {
     std::string name;
     MaterialSettings material;
-    /// Errors against a reference of 1024 samples that 4, 16, 64 and 256 must not exceed, for pictures of 384
-    /// px and more.
-    std::array<double, 4> least_psnr_db, most_delta_e;
+    MeasuredErrors errors; ///< that must not be exceeded
 };
 
 std::vector<BakeCase> bake_cases() {
-    const auto material = [](MaterialKind kind, const char* metal) {
-        MaterialSettings settings;
-        settings.kind = kind;
-        settings.metal = metal;
-        return settings;
-    };
-    return {{"smooth",
-             material(MaterialKind::smooth_conductor, "Au"),
-             {25.0, 32.6, 40.0, 47.0},
-             {4.4, 1.8, 0.75, 0.32}},
-            {"rough",
-             material(MaterialKind::rough_conductor, "Au"),
-             {19.4, 25.4, 32.4, 38.0},
-             {10.6, 5.5, 2.5, 1.2}},
-            {"coated",
-             material(MaterialKind::coated_conductor, "Ag"),
-             {23.6, 30.1, 36.3, 42.1},
-             {7.3, 3.6, 1.75, 0.90}}};
+    std::vector<BakeCase> cases;
+    for (const MeasuredErrors& errors : measured_errors) {
+        BakeCase one{"smooth", {}, errors};
+        one.material.kind = errors.kind;
+        one.material.metal = "Au";
+        if (errors.kind == MaterialKind::rough_conductor)
+            one.name = "rough";
+        if (errors.kind == MaterialKind::coated_conductor) {
+            one.name = "coated";
+            one.material.metal = "Ag";
+        }
+        cases.push_back(std::move(one));
+    }
+    return cases;
 }
 
 /// What rays alone take on this machine.
@@ -141,7 +136,7 @@ void measure_furnace(BenchFigures& figures, const Sculpture& sculpture, const Be
 /// Errors of fewer samples against 1024 of another seed.
 void measure_errors(BenchFigures& figures, const BakeCase& one, const BakeScene& scene,
                     const SpectralLight& light, const SceneView& view, double exposure) {
-    constexpr std::array counts{4, 16, 64, 256};
+    constexpr std::array counts = measured_samples;
     constexpr int comparable_px = 384;
     const std::vector<std::uint8_t> covered = covered_pixels(scene, view, {0.0});
     BakeSettings settings{.samples = 1024};
@@ -155,9 +150,10 @@ void measure_errors(BenchFigures& figures, const BakeCase& one, const BakeScene&
         const std::string psnr = fmt::format("{}, {} samples, PSNR", one.name, counts[i]);
         const std::string delta_e = fmt::format("{}, {} samples, mean Delta-E ab", one.name, counts[i]);
         const bool is_comparable = view.view.image_px.x >= comparable_px;
-        figures.push_back(is_comparable ? at_least(psnr, error.srgb_psnr_db, "dB", one.least_psnr_db[i])
-                                        : BenchFigure{psnr, error.srgb_psnr_db, "dB"});
-        figures.push_back(is_comparable ? at_most(delta_e, error.mean_delta_e, "", one.most_delta_e[i])
+        figures.push_back(is_comparable
+                              ? at_least(psnr, error.srgb_psnr_db, "dB", one.errors.least_psnr_db[i])
+                              : BenchFigure{psnr, error.srgb_psnr_db, "dB"});
+        figures.push_back(is_comparable ? at_most(delta_e, error.mean_delta_e, "", one.errors.most_delta_e[i])
                                         : BenchFigure{delta_e, error.mean_delta_e, ""});
     }
 }

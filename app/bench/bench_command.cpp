@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/command_options.h"
+#include "app/cli/event_options.h"
 #include "app/cli/own_folders.h"
 #include "experiment/base/error.h"
 #include "experiment/scene/sculptures/sculptures.h"
@@ -95,6 +96,7 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
         ->type_name("S")
         ->check(CLI::Range(0.5, 3600.0))
         ->capture_default_str();
+    add_threshold_options(command, options.thresholds);
     add_context_option(command, options.context);
     add_json_flag(command, options.json);
     run_when_chosen(command, chosen, [given] { return run_bench(*given); });

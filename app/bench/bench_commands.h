@@ -8,6 +8,7 @@
 
 #include "app/cli/chosen_command.h"
 #include "app/cli/context_choice.h"
+#include "experiment/events/event_thresholds.h"
 
 namespace overt {
 
@@ -24,6 +25,7 @@ struct BenchOptions {
     int samples = 16;                         ///< bake: of a pixel, of the frames whose time is taken
     int reference_size_px = 128;              ///< bake: of the pictures whose errors are measured
     double seconds = 60.0;                    ///< tracker, watch: of real time
+    ChosenThresholds thresholds;              ///< events: those that are not left to the gaze
     ContextChoice context;
     bool json = false;
 };

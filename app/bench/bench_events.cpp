@@ -19,10 +19,10 @@ namespace {
 
 using Kind = GazeEvent::Kind;
 
-class Collector final : public EventListener {
+class Counter final : public EventListener {
   public:
-    void detected(const GazeEvent& event) override { events.push_back(event); }
-    std::vector<GazeEvent> events;
+    void detected(const GazeEvent&) override { ++events; }
+    int events = 0;
 };
 
 /// The detector against one reference, or several together.
@@ -33,15 +33,8 @@ struct Agreement {
     /// Without saccades that hold a blink, for people call the movement of the lid a part of the blink.
     bool lids_are_no_saccades = false;
 
-    void add(const ReferenceRecording& recording, const EventSettings& settings) {
-        Collector collector;
-        EventDetector detector(settings, recording.angles, collector);
-        for (const GazeSample& sample : recording.samples)
-            detector.push(sample);
-        detector.finish();
-        std::vector<GazeEvent>& events = collector.events;
-        std::stable_sort(events.begin(), events.end(),
-                         [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
+    void add(const ReferenceRecording& recording) {
+        std::vector<GazeEvent> events = recording.found;
         if (lids_are_no_saccades)
             forget_lids(events);
         fixations.add(recording.events, events);
@@ -65,9 +58,9 @@ struct Agreement {
                    });
         });
     }
-    void add(const ReferenceGaze& gaze, const EventSettings& settings) {
+    void add(const ReferenceGaze& gaze) {
         for (const ReferenceRecording& recording : gaze.recordings)
-            add(recording, settings);
+            add(recording);
     }
 };
 
@@ -96,10 +89,11 @@ void add_figures(BenchFigures& figures, const std::string& name, const Agreement
     add("saccade kappa of samples", agreement.in_saccade.kappa(), "", targets.saccade_kappa, true);
     for (const auto& [of, events] :
          {std::pair("fixation", &agreement.fixations), {"saccade", &agreement.saccades}}) {
-        add(fmt::format("{} onset, median error", of), events->median_onset_error_ms(), "ms",
-            targets.onset_ms, false);
-        add(fmt::format("{} offset, median error", of), events->median_offset_error_ms(), "ms",
-            targets.offset_ms, false);
+        // Of no event that both have there is no error.
+        if (const auto onset_ms = events->median_onset_error_ms())
+            add(fmt::format("{} onset, median error", of), *onset_ms, "ms", targets.onset_ms, false);
+        if (const auto offset_ms = events->median_offset_error_ms())
+            add(fmt::format("{} offset, median error", of), *offset_ms, "ms", targets.offset_ms, false);
         add(fmt::format("{}s of the reference", of), events->in_reference(), "", {}, true);
         add(fmt::format("{}s found", of), events->detected(), "", {}, true);
     }
@@ -131,19 +125,26 @@ bool is_calm(const ReferenceGaze& gaze) {
 // Of samples that lie 4 ms apart, as they do at 250 Hz: two, and one.
 constexpr double onset_target_ms = 8.0, offset_target_ms = 4.0;
 
-/// The tracker's own events, with the settings of the tracker's own parser.
+/// By which thresholds a recording's events were found.
+void add_thresholds(BenchFigures& figures, const ReferenceGaze& gaze) {
+    figures.push_back(plain(gaze.name + ": velocity threshold", gaze.settings.velocity_deg_s, "deg/s"));
+    figures.push_back(
+        plain(gaze.name + ": acceleration threshold", gaze.settings.acceleration_deg_s2, "deg/s2"));
+}
+
+/// The tracker's own events.
 void measure_trackers(BenchFigures& figures, const std::vector<ReferenceGaze>& references) {
-    const EventSettings settings;
     Agreement all, calm;
     int calm_files = 0;
     for (const ReferenceGaze& gaze : references) {
         Agreement one;
-        one.add(gaze, settings);
-        all.add(gaze, settings);
+        one.add(gaze);
+        all.add(gaze);
+        add_thresholds(figures, gaze);
         add_figures(figures, gaze.name, one, {});
         if (!is_calm(gaze))
             continue;
-        calm.add(gaze, settings);
+        calm.add(gaze);
         ++calm_files;
     }
     if (calm_files > 0)
@@ -157,25 +158,25 @@ void measure_trackers(BenchFigures& figures, const std::vector<ReferenceGaze>& r
                     {.fixation_f1 = 0.95, .onset_ms = onset_target_ms, .offset_ms = offset_target_ms});
 }
 
-/// People's labels. Their recordings are raw, and their saccades end where the swing begins: velocity alone.
+/// People's labels.
 void measure_people(BenchFigures& figures, const std::vector<ReferenceGaze>& references) {
-    const EventSettings settings{.acceleration_deg_s2 = 0.0};
     Agreement all;
     all.lids_are_no_saccades = true;
     for (const ReferenceGaze& gaze : references) {
         Agreement one;
         one.lids_are_no_saccades = true;
-        one.add(gaze, settings);
-        all.add(gaze, settings);
+        one.add(gaze);
+        all.add(gaze);
+        add_thresholds(figures, gaze);
         add_figures(figures, gaze.name, one, {});
     }
     if (!references.empty())
-        add_figures(figures, fmt::format("all {} labellings by people, by velocity alone", references.size()),
-                    all, {.fixation_f1 = 0.93, .saccade_kappa = 0.78});
+        add_figures(figures, fmt::format("all {} labellings by people", references.size()), all,
+                    {.fixation_f1 = 0.93, .saccade_kappa = 0.78});
 }
 
 /// Planted events, by the rate of the tracker: 60 Hz is three samples or fewer in a saccade.
-void measure_planted(BenchFigures& figures) {
+void measure_planted(BenchFigures& figures, const ChosenThresholds& thresholds) {
     struct Trace {
         double rate_hz, noise_deg, fixation_f1, saccade_f1;
     };
@@ -187,10 +188,13 @@ void measure_planted(BenchFigures& figures) {
         PlantedGaze planted =
             plant_gaze({.rate_hz = trace.rate_hz, .duration_s = 120.0, .noise_deg = trace.noise_deg}, screen);
         Agreement agreement;
-        agreement.add({GazeAngles(screen), std::move(planted.samples), std::move(planted.events)}, {});
-        add_figures(figures,
-                    fmt::format("planted events, {} Hz, noise {} deg", trace.rate_hz, trace.noise_deg),
-                    agreement, {.fixation_f1 = trace.fixation_f1, .saccade_f1 = trace.saccade_f1});
+        const ReferenceGaze gaze = reference_gaze(
+            fmt::format("planted events, {} Hz, noise {} deg", trace.rate_hz, trace.noise_deg),
+            GazeAngles(screen), std::move(planted.samples), std::move(planted.events), thresholds);
+        agreement.add(gaze);
+        add_thresholds(figures, gaze);
+        add_figures(figures, gaze.name, agreement,
+                    {.fixation_f1 = trace.fixation_f1, .saccade_f1 = trace.saccade_f1});
     }
 }
 
@@ -198,8 +202,8 @@ void measure_speed(BenchFigures& figures) {
     const ScreenGeometry screen;
     constexpr double rate_hz = 2000.0;
     const PlantedGaze planted = plant_gaze({.rate_hz = rate_hz, .duration_s = 120.0}, screen);
-    Collector collector;
-    EventDetector detector({}, GazeAngles(screen), collector);
+    Counter counter;
+    EventDetector detector({}, GazeAngles(screen), counter);
     // Time of the processor: what else runs on this machine does not count.
     const std::clock_t start = std::clock();
     for (const GazeSample& sample : planted.samples)
@@ -243,7 +247,7 @@ std::vector<fs::path> files_of(const std::vector<fs::path>& given) {
 BenchFigures bench_events(const BenchOptions& options) {
     BenchFigures figures;
     if (options.files.empty()) {
-        measure_planted(figures);
+        measure_planted(figures, options.thresholds);
         measure_speed(figures);
         return figures;
     }
@@ -251,9 +255,9 @@ BenchFigures bench_events(const BenchOptions& options) {
     for (const fs::path& file : files_of(options.files)) {
         try {
             if (file.extension() == ".asc") {
-                of_trackers.push_back(read_asc_reference(file));
+                of_trackers.push_back(read_asc_reference(file, options.thresholds));
             } else {
-                std::vector<ReferenceGaze> labelled = read_labelled_reference(file);
+                std::vector<ReferenceGaze> labelled = read_labelled_reference(file, options.thresholds);
                 std::move(labelled.begin(), labelled.end(), std::back_inserter(of_people));
             }
         } catch (const InputError& reason) {

@@ -8,64 +8,45 @@
 
 #include <fmt/format.h>
 
+#include "app/cli/this_program.h"
 #include "experiment/base/error.h"
-#include "experiment/record/asc/asc_survey.h"
+#include "experiment/base/scratch_folder.h"
+#include "experiment/events/recording_events.h"
+#include "experiment/record/asc/asc_import.h"
 #include "experiment/record/asc/asc_words.h"
+#include "experiment/record/read/session_record.h"
 
 namespace overt {
 namespace {
 
 using Kind = GazeEvent::Kind;
 
-/// Angles as the file describes its screen; nothing if it does not.
-std::optional<GazeAngles> angles_of(const AscSurvey& survey) {
-    if (survey.screen_px && survey.screen_mm && survey.viewing_distance_mm &&
-        *survey.viewing_distance_mm > 0.0) {
-        ScreenGeometry screen;
-        screen.screen_px = *survey.screen_px;
-        screen.screen_mm = *survey.screen_mm;
-        screen.viewing_distance_mm = *survey.viewing_distance_mm;
-        return GazeAngles(screen);
-    }
-    if (survey.px_per_deg && survey.px_per_deg->x > 0.0 && survey.px_per_deg->y > 0.0)
-        return GazeAngles(survey.px_per_deg->x, survey.px_per_deg->y);
-    return std::nullopt;
+class FoundList final : public EventListener {
+  public:
+    void detected(const GazeEvent& event) override { events.push_back(event); }
+    std::vector<GazeEvent> events;
+};
+
+void sort_by_begin(std::vector<GazeEvent>& events) {
+    std::stable_sort(events.begin(), events.end(),
+                     [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
 }
 
-class ReferenceListener final : public AscListener {
-  public:
-    ReferenceListener(ReferenceGaze& gaze, const GazeAngles& angles) : gaze_(gaze), angles_(angles) {}
-
-    void header(std::string_view) override {}
-    void malformed(std::int64_t, std::string_view, std::string_view) override {}
-    void samples(std::span<const GazeSample> samples) override {
-        for (const GazeSample& sample : samples)
-            of(sample.eye).samples.push_back(sample);
+/// Fixations, saccades and blinks of both eyes.
+std::array<std::vector<GazeEvent>, 2> eye_events_of(const SessionRecord& record) {
+    std::array<std::vector<GazeEvent>, 2> events;
+    const auto take = [&](const GazeEvent& event) {
+        if (is_eye_event(event.kind) && event.eye)
+            events[static_cast<std::size_t>(*event.eye)].push_back(event);
+    };
+    for (const TrialRecord& trial : record.trials()) {
+        record.read_gaze_events(trial, take);
+        record.read_gaze_events_after(trial, take);
     }
-    void event(const GazeEvent& event) override {
-        if (is_eye_event(event.kind))
-            of(*event.eye).events.push_back(event);
-        else if (event.kind == Kind::started || event.kind == Kind::ended)
-            end_recording();
-    }
-    void end_recording() {
-        for (ReferenceRecording& recording : eyes_) {
-            std::stable_sort(recording.events.begin(), recording.events.end(),
-                             [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
-            if (!recording.samples.empty())
-                gaze_.recordings.push_back(std::move(recording));
-            recording = {angles_, {}, {}};
-        }
-    }
-
-  private:
-    ReferenceRecording& of(Eye eye) { return eyes_[static_cast<std::size_t>(eye)]; }
-
-    ReferenceGaze& gaze_;
-    GazeAngles angles_;
-    std::array<ReferenceRecording, 2> eyes_{ReferenceRecording{angles_, {}, {}},
-                                            ReferenceRecording{angles_, {}, {}}};
-};
+    for (std::vector<GazeEvent>& of_eye : events)
+        sort_by_begin(of_eye);
+    return events;
+}
 
 std::optional<Kind> kind_of_label(int label) {
     switch (label) {
@@ -107,7 +88,7 @@ class LabelledTable {
   public:
     explicit LabelledTable(const std::filesystem::path& file) : file_(file), lines_(file) {}
 
-    std::vector<ReferenceGaze> read() {
+    std::vector<ReferenceGaze> read(const ChosenThresholds& thresholds) {
         std::string line;
         next(line);
         const ScreenGeometry screen = screen_of(line);
@@ -129,9 +110,9 @@ class LabelledTable {
         std::vector<ReferenceGaze> references;
         const TrackerClock::duration interval(std::llround(1e6 / rate_hz));
         for (std::size_t i = 0; i < raters.size(); ++i)
-            references.push_back(
-                {fmt::format("{} ({})", file_.filename().string(), raters[i]),
-                 {{GazeAngles(screen), samples, events_of_labels(samples, labels[i], interval)}}});
+            references.push_back(reference_gaze(fmt::format("{} ({})", file_.filename().string(), raters[i]),
+                                                GazeAngles(screen), samples,
+                                                events_of_labels(samples, labels[i], interval), thresholds));
         return references;
     }
 
@@ -192,25 +173,55 @@ class LabelledTable {
 
 } // namespace
 
-ReferenceGaze read_asc_reference(const std::filesystem::path& file) {
-    const AscSurvey survey = survey_asc(file, {});
-    const std::optional<GazeAngles> angles = angles_of(survey);
-    if (!angles)
+ReferenceGaze reference_gaze(std::string name, const GazeAngles& angles, std::vector<GazeSample> samples,
+                             std::vector<GazeEvent> events, const ChosenThresholds& thresholds) {
+    const ReadGaze read = [&](const TakeGaze& take) { take(samples, true); };
+    const EventSettings settings = thresholds_for(read, angles, thresholds).settings;
+    FoundList found;
+    find_events(read, angles, settings, found);
+    sort_by_begin(found.events);
+    return {std::move(name),
+            {{angles, std::move(samples), std::move(events), std::move(found.events)}},
+            settings};
+}
+
+ReferenceGaze read_asc_reference(const std::filesystem::path& file, const ChosenThresholds& thresholds) {
+    const ScratchFolder scratch("overt-bench");
+    AscImportOptions options;
+    options.place = {scratch.path(), "bench", "1"};
+    options.out = scratch.path() / "session";
+    options.program = this_build();
+    options.now_utc = utc_now();
+    const std::filesystem::path session = import_asc(file, options).session;
+    SessionRecord record(session);
+    const std::array<std::vector<GazeEvent>, 2> events = eye_events_of(record);
+    if (events[0].empty() && events[1].empty())
+        throw InputError(
+            fmt::format("{}: has no events (EFIX, ESACC) of the tracker to compare with.", file.string()));
+    record.detect_events(thresholds);
+    constexpr int sitting = 1;
+    const SessionRecord::EventOrigin origin = record.event_origin(sitting);
+    if (origin.from != SessionRecord::EventOrigin::From::reading)
         throw InputError(
             fmt::format("{}: says neither how large the screen is and how far away, nor its pixels per "
                         "degree (RES at the end of a recording): angles are not known.",
                         file.string()));
-    ReferenceGaze gaze{file.filename().string(), {}};
-    ReferenceListener listener(gaze, *angles);
-    AscParser parser(listener, survey.conventions);
-    AscFiles(file).parse(parser);
-    listener.end_recording();
-    std::size_t events = 0;
-    for (const ReferenceRecording& recording : gaze.recordings)
-        events += recording.events.size();
-    if (events == 0)
-        throw InputError(
-            fmt::format("{}: has no events (EFIX, ESACC) of the tracker to compare with.", file.string()));
+    const std::array<std::vector<GazeEvent>, 2> found = eye_events_of(record);
+    std::array<std::vector<GazeSample>, 2> samples;
+    constexpr std::size_t piece = 65536;
+    const auto take = [&](std::span<const GazeSample> some) {
+        for (const GazeSample& sample : some)
+            samples[static_cast<std::size_t>(sample.eye)].push_back(sample);
+    };
+    for (const TrialRecord& trial : record.trials()) {
+        record.read_samples(trial, piece, take);
+        record.read_samples_after(trial, piece, take);
+    }
+    ReferenceGaze gaze{file.filename().string(), {}, origin.settings};
+    for (std::size_t eye = 0; eye < samples.size(); ++eye)
+        if (!samples[eye].empty())
+            gaze.recordings.push_back(
+                {*record.gaze_angles(sitting), std::move(samples[eye]), events[eye], found[eye]});
     return gaze;
 }
 
@@ -220,12 +231,13 @@ bool is_labelled_table(const std::filesystem::path& file) {
     return std::getline(stream, line) && line.starts_with(labelled_begin);
 }
 
-std::vector<ReferenceGaze> read_labelled_reference(const std::filesystem::path& file) {
+std::vector<ReferenceGaze> read_labelled_reference(const std::filesystem::path& file,
+                                                   const ChosenThresholds& thresholds) {
     if (!is_labelled_table(file))
         throw InputError(
             fmt::format("{}: is no table of labelled samples: its first line begins with \"{}\".",
                         file.string(), labelled_begin));
-    return LabelledTable(file).read();
+    return LabelledTable(file).read(thresholds);
 }
 
 } // namespace overt

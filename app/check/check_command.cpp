@@ -103,7 +103,8 @@ int run_check(const CheckOptions& options) {
     } else {
         print_findings(diagnostics);
         if (experiment)
-            text = to_text(report_on(*experiment, options)) + to_text(stimuli->silhouettes) +
+            text = needs_of_person(stimuli->rendering, experiment->protocol) +
+                   to_text(report_on(*experiment, options)) + to_text(stimuli->silhouettes) +
                    to_text(stimuli->rendering) + to_text(stimuli->on_this_machine) + sound + "\n";
         if (experiment && options.frames)
             text += to_text(measure_light(*experiment));

@@ -54,14 +54,15 @@ void draw_series(const std::filesystem::path& folder, const std::string& name,
                  const std::string& up) {
     const auto [low, high] = std::ranges::minmax(values);
     const double reach = std::max({high - centre, centre - low, 1e-3}) * 1.1;
-    save_figure(folder, name, {page_mm, figure_height_mm}, [&](FigurePen& pen) {
-        const ChartAxes axes(pen, {0.0, 0.0}, {page_mm, figure_height_mm},
-                             {0.0, static_cast<double>(values.size()), across},
-                             {centre - reach, centre + reach, up});
-        pen.line(axes.place(0.0, centre), {axes.right(), axes.up(centre)}, figure_grey);
-        for (std::size_t i = 0; i < values.size(); ++i)
-            pen.dot(axes.place(static_cast<double>(i) + 0.5, values[i]), 0.35, figure_colour(0), 0.6);
-    });
+    save_figure(folder, {name, {page_mm, figure_height_mm}, [&](FigurePen& pen) {
+                             const ChartAxes axes(pen, {0.0, 0.0}, {page_mm, figure_height_mm},
+                                                  {0.0, static_cast<double>(values.size()), across},
+                                                  {centre - reach, centre + reach, up});
+                             pen.line(axes.place(0.0, centre), {axes.right(), axes.up(centre)}, figure_grey);
+                             for (std::size_t i = 0; i < values.size(); ++i)
+                                 pen.dot(axes.place(static_cast<double>(i) + 0.5, values[i]), 0.35,
+                                         figure_colour(0), 0.6);
+                         }});
 }
 
 std::string screen_section(const ExaminedScreen& screen, const std::filesystem::path& page) {

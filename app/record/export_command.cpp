@@ -6,10 +6,13 @@
 #include <fmt/ranges.h>
 
 #include "app/cli/command_options.h"
+#include "app/cli/event_options.h"
 #include "app/cli/interruption.h"
 #include "app/cli/progress_bar.h"
+#include "app/inputs/session_folders.h"
 #include "app/record/export_formats.h"
 #include "app/record/record_commands.h"
+#include "experiment/base/error.h"
 #include "experiment/record/session_schema.h"
 
 namespace overt {
@@ -21,7 +24,7 @@ struct ExportOptions {
     std::string format = "tsv"; ///< by its name
     std::filesystem::path out;
     bool overwrite = false;
-    bool detect_events = false;
+    EventOptions events;
 
     struct Format {
         const ExportFormatEntry* entry;
@@ -54,13 +57,26 @@ std::filesystem::path folder_of(const ExportOptions& options, const ExportFormat
                           : options.out / folder.parent_path().filename() / folder.filename();
 }
 
-int run_export(const ExportOptions& options) {
+/// That events can be found in all that is exported. Throws InputError.
+void need_angles(const SessionRecord& record) {
+    for (const TrialRecord& trial : record.trials())
+        if (const SessionRecord::EventOrigin origin = record.event_origin(trial.sitting);
+            origin.from == SessionRecord::EventOrigin::From::no_angles)
+            throw InputError(
+                fmt::format("{}: {}", folder_at(record.directory()).string(), sentence_on(origin)));
+}
+
+int run_export(const ExportOptions& given) {
     const Interruption interruption;
+    ExportOptions options = given;
+    options.sessions = sessions_in(given.sessions);
     const auto& [entry, format] = options.formats.at(options.format);
     for (const std::filesystem::path& session : options.sessions) {
         SessionRecord record(session);
-        if (options.detect_events)
-            record.detect_events_of_imports();
+        if (const auto thresholds = options.events.detection()) {
+            record.detect_events(*thresholds);
+            need_angles(record);
+        }
         if (!record.closed_in_order())
             fmt::print(
                 stderr,
@@ -90,7 +106,7 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
                     "overt export sessions/overt_2019/sub-07_ses-01 --format tsv --out tables\n"
                     "  overt export sessions/overt_2019/* --format bids --out dataset\n"
                     "  overt export sessions/overt_2019/sub-07_ses-01 --format asc --out asc");
-    command.add_option("SESSION", options.sessions, "Folders of sessions")->required();
+    command.add_option("SESSION", options.sessions, sessions_help)->required();
     std::vector<std::string> names, explained, joining;
     std::vector<std::shared_ptr<ExportFormat>> formats;
     for (const ExportFormatEntry& entry : export_formats()) {
@@ -111,10 +127,10 @@ void add_export(CLI::App& app, ChosenCommand& chosen) {
                        fmt::join(joining, " and ")));
     for (const auto& format : formats)
         format->add_options(command);
-    command.add_flag(
-        "--detect-events", options.detect_events,
-        "Find fixations, saccades and blinks also in recordings that were imported without any; sessions of "
-        "the program have them anyway");
+    add_event_options(
+        command, options.events,
+        "Find fixations, saccades and blinks anew in the samples, in place of those on record, which stay "
+        "there; recordings that were imported without any have them found only so");
     command.add_flag("--overwrite", options.overwrite, "Replace an export that is there");
 }
 

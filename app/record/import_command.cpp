@@ -7,6 +7,7 @@
 #include "app/cli/interruption.h"
 #include "app/cli/progress_bar.h"
 #include "app/cli/this_program.h"
+#include "app/inputs/session_folders.h"
 #include "app/record/record_commands.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
@@ -131,6 +132,7 @@ int run_import(const ImportOptions& options) {
     if (options.screen_mm.size() == 2)
         request.screen_mm = glm::dvec2(options.screen_mm[0], options.screen_mm[1]);
     request.viewing_distance_mm = options.distance_mm;
+    request.detect_events = options.events.detection();
     request.program = this_build();
     request.now_utc = utc_now();
     request.reading.missing = options.missing;
@@ -146,8 +148,9 @@ int run_import(const ImportOptions& options) {
                    static_cast<int>(all / kilobyte));
         Interruption::check("The import");
     };
-    const AscImportSummary summary =
-        options.into.empty() ? import_asc(files, request) : import_asc_into(files, options.into, request);
+    const AscImportSummary summary = options.into.empty()
+                                         ? import_asc(files, request)
+                                         : import_asc_into(files, session_in(options.into), request);
     bar.finish();
     if (!options.print_session_to.empty())
         write_to(options.print_session_to, summary.session.string() + "\n");

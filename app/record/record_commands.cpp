@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "app/cli/command_options.h"
+#include "app/inputs/session_folders.h"
 
 namespace overt {
 
@@ -49,6 +50,10 @@ void add_import(CLI::App& app, ChosenCommand& chosen) {
         CLI::Range(0.0, 1.0), shown_default);
     command.add_flag("--as-gaze", options.as_gaze,
                      "Samples that mostly lie off the screen are gaze, though the file does not say so");
+    add_event_options(
+        command, options.events,
+        "Note that the session's fixations, saccades and blinks are to be found in its samples, in place of "
+        "any that the file has, which stay on record");
     option(command, "--print-session-to", options.print_session_to, "FILE",
            "Write the session's path to this file, for scripts");
     add_json_flag(command, options.json);
@@ -63,7 +68,7 @@ void add_verify(CLI::App& app, ChosenCommand& chosen) {
                     "Exit codes: 0 all are sound (an interrupted one, too), 1 one is damaged, 2 one is no "
                     "session, or of a "
                     "newer overt.");
-    command.add_option("SESSION", options.sessions, "Folders of sessions")->required();
+    command.add_option("SESSION", options.sessions, sessions_help)->required();
     add_json_flag(command, options.json);
 }
 
@@ -71,7 +76,7 @@ void add_show(CLI::App& app, ChosenCommand& chosen) {
     const auto [command, options] =
         add_command(app, chosen, run_show, "show", "What a session holds, and one trial as a picture",
                     "overt show sessions/overt_2019/sub-07_ses-01 --trial 3 --picture trial.png");
-    command.add_option("SESSION", options.session, "Folder of a session")->required();
+    command.add_option("SESSION", options.sessions, sessions_help)->required();
     option(command, "--trial", options.trial, "TRIAL",
            "Trial for --picture, counted from 1 (default: the first)", above_zero());
     option(command, "--picture", options.picture, "FILE",

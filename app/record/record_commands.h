@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/cli/chosen_command.h"
+#include "app/cli/event_options.h"
 
 namespace overt {
 
@@ -29,6 +30,7 @@ struct ImportOptions {
     std::optional<std::string> missing; ///< in place of lost values; nothing: found in the file
     double least_read = 0.9;            ///< share of a recording's lines that must be read
     bool as_gaze = false;               ///< what the file does not say
+    EventOptions events;
     std::filesystem::path print_session_to;
     bool json = false;
 };
@@ -41,7 +43,7 @@ struct VerifyOptions {
 int run_verify(const VerifyOptions& options);
 
 struct ShowOptions {
-    std::filesystem::path session;
+    std::vector<std::filesystem::path> sessions;
     std::optional<int> trial;
     std::filesystem::path picture;
     std::filesystem::path plot; ///< of the presentation's timing, SVG

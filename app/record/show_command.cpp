@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/inputs/session_folders.h"
 #include "app/record/plot_canvas.h"
 #include "app/record/record_commands.h"
 #include "app/record/recorded_order.h"
@@ -14,6 +15,7 @@
 #include "experiment/base/whole_file.h"
 #include "experiment/record/preview_file.h"
 #include "experiment/record/read/sample_join.h"
+#include "experiment/record/read/session_faults.h"
 #include "experiment/record/session_directory.h"
 #include "render/stimulus/trial_picture.h"
 
@@ -27,6 +29,11 @@ const TrialRecord& trial_numbered(const SessionRecord& record, int number) {
             return trial;
     }
     throw InputError(fmt::format("{}: has no completed trial {}", record.directory().string(), number));
+}
+
+nlohmann::ordered_json gaze_share_of(const TrialRecord& trial) {
+    const std::optional<GazeYield>& gaze = trial.outcome.gaze;
+    return gaze ? nlohmann::ordered_json(gaze->share()) : nlohmann::ordered_json();
 }
 
 nlohmann::ordered_json session_json(const SessionRecord& record) {
@@ -48,6 +55,8 @@ nlohmann::ordered_json session_json(const SessionRecord& record) {
                           {"missed_refreshes", header.display.is_timing_unproven()
                                                    ? nlohmann::ordered_json("unproven")
                                                    : nlohmann::ordered_json(trial.outcome.missed_refreshes)},
+                          {"gaze_share", gaze_share_of(trial)},
+                          {"response_key", trial.response_key},
                           {"answer", trial.outcome.answer}});
     }
     nlohmann::ordered_json json{{"session", record.directory().string()},
@@ -56,7 +65,17 @@ nlohmann::ordered_json session_json(const SessionRecord& record) {
                                 {"seed", header.schedule.seed},
                                 {"closed_in_order", record.closed_in_order()},
                                 {"timing_proof", header.display.timing},
-                                {"trials", trials}};
+                                {"trials", trials},
+                                {"faults", nlohmann::ordered_json::array()}};
+    for (const SessionFault& fault : faults_of(record))
+        json["faults"].push_back(
+            {{"of", name_of(fault.side)},
+             {"sitting", fault.sitting},
+             {"trial", fault.trial < 0 ? nlohmann::ordered_json() : nlohmann::ordered_json(fault.trial + 1)},
+             {"what", fault.what},
+             {"detail", fault.detail}});
+    const SimulatedSides simulated = simulated_sides(record);
+    json["simulated_faults"] = {{"display", simulated.display}, {"eye_tracker", simulated.eye_tracker}};
     if (const auto& light = header.characterisation) {
         json["characterisation"] = {{"display", light->display},
                                     {"date", light->date},
@@ -83,13 +102,39 @@ nlohmann::ordered_json session_json(const SessionRecord& record) {
     return json;
 }
 
-/// An attempt's status, and of one that does not count why.
+/// An attempt's status, and of one that does not count why; what speaks against one that counts.
 std::string fate_of(const TrialRecord& trial) {
+    if (trial.status == TrialRecord::Status::completed && !trial.counts)
+        return "superseded";
     if (trial.status == TrialRecord::Status::completed)
-        return trial.counts ? "completed" : "superseded";
+        return trial.outcome.failure.empty() ? "completed" : "completed, " + trial.outcome.failure;
     return trial.status == TrialRecord::Status::aborted && !trial.outcome.failure.empty()
                ? trial.outcome.failure
                : std::string(name_of(trial.status));
+}
+
+/// Each device's under its own heading.
+void print_faults(const SessionRecord& record) {
+    constexpr int most_lines = 20;
+    const std::vector<SessionFault> faults = faults_of(record);
+    if (simulated_sides(record).eye_tracker)
+        fmt::print("\nTHE EYE TRACKER'S FAULTS WERE SIMULATED: a trial run, no measurement\n");
+    int lines = 0;
+    for (std::size_t i = 0; i < faults.size(); ++i) {
+        const SessionFault& fault = faults[i];
+        if (i == 0 || fault.side != faults[i - 1].side) {
+            fmt::print("\nwhat went wrong: {}\n", name_of(fault.side));
+            lines = 0;
+        }
+        if (++lines > most_lines) {
+            if (lines == most_lines + 1)
+                fmt::print("  … and more: the table of events has all of it\n");
+            continue;
+        }
+        fmt::print("  {}: {}{}{}\n",
+                   fault.trial < 0 ? "between trials" : fmt::format("trial {}", fault.trial + 1), fault.what,
+                   fault.detail.empty() ? "" : ": ", fault.detail);
+    }
 }
 
 void print_session(const SessionRecord& record) {
@@ -106,20 +151,23 @@ void print_session(const SessionRecord& record) {
                    further_record(record.directory(), id).string());
     for (const auto& [sitting, box] : record.display_boxes())
         fmt::print("display box in sitting {}: {}\n", sitting, describe(box));
-    fmt::print("\n{:>5}  {:<12} {:<12} {:<12} {:<16} {:>9} {:>8}  {}\n", "trial", "task", "sculpture",
-               "material", "status", "refreshes", "missed", "answer");
+    fmt::print("\n{:>5}  {:<12} {:<12} {:<12} {:<21} {:>9} {:>8} {:>7}  {}\n", "trial", "task", "sculpture",
+               "material", "status", "refreshes", "missed", "gaze", "answer");
     for (std::size_t i = 0; i < record.trials().size(); ++i) {
         const auto& trial = json["trials"][i];
-        fmt::print("{:>5}  {:<12} {:<12} {:<12} {:<16} {:>9} {:>8}  {}\n", trial["trial"].get<int>(),
+        const std::optional<GazeYield>& gaze = record.trials()[i].outcome.gaze;
+        fmt::print("{:>5}  {:<12} {:<12} {:<12} {:<21} {:>9} {:>8} {:>7}  {}\n", trial["trial"].get<int>(),
                    trial["task"].get<std::string>(), trial["sculpture"].get<std::string>(),
                    trial["material"].get<std::string>(), fate_of(record.trials()[i]),
                    trial["shown_refreshes"].get<int>(),
                    header.display.is_timing_unproven() ? "unproven"
                                                        : std::to_string(trial["missed_refreshes"].get<int>()),
+                   gaze ? fmt::format("{:.1f} %", 100.0 * gaze->share()) : "n/a",
                    trial["answer"].get<std::string>());
     }
     if (!record.closed_in_order())
         fmt::print("\nThe session was not closed in order: it is running, or was killed.\n");
+    print_faults(record);
     print_timing(timing_report(record));
 }
 
@@ -179,31 +227,49 @@ void write_picture(const SessionRecord& record, const TrialRecord& trial, const 
 
 } // namespace
 
+namespace {
+
+/// Of one session among others, one after the other; as JSON, of more than one a list. Gives the exit code.
+int show_each(const std::vector<std::filesystem::path>& sessions, const ShowOptions& options) {
+    auto list = nlohmann::ordered_json::array();
+    bool is_well = true;
+    for (const std::filesystem::path& session : sessions) {
+        const SessionRecord record(session);
+        if (options.order) {
+            const RecordedOrder order = recorded_order(record.header());
+            is_well &= order.is_same();
+            if (options.json)
+                list.push_back(to_json(order, record.header()));
+            else
+                fmt::print("{}{}", session == sessions.front() ? "" : "\n", to_text(order, record.header()));
+        } else if (options.json) {
+            nlohmann::ordered_json json = session_json(record);
+            json["timing"] = to_json(timing_report(record));
+            list.push_back(std::move(json));
+        } else {
+            fmt::print("{}", session == sessions.front() ? "" : "\n");
+            print_session(record);
+        }
+    }
+    if (options.json)
+        fmt::print("{}", json_text(list.size() == 1 ? list.front() : list));
+    return is_well ? 0 : 1;
+}
+
+} // namespace
+
 int run_show(const ShowOptions& options) {
-    const SessionRecord record(options.session);
-    if (!options.picture.empty()) {
+    const std::vector<std::filesystem::path> sessions = sessions_in(options.sessions);
+    if (options.picture.empty() && options.plot.empty())
+        return show_each(sessions, options);
+    if (sessions.size() > 1)
+        throw InputError(fmt::format("--{} is of one session, and {} were found: name it",
+                                     options.picture.empty() ? "plot" : "picture", sessions.size()));
+    const SessionRecord record(sessions.front());
+    if (!options.picture.empty())
         write_picture(record, trial_numbered(record, options.trial.value_or(1)), options.picture);
-        return 0;
-    }
-    if (!options.plot.empty()) {
+    else
         write_plot(record, options.plot);
-        return 0;
-    }
-    if (options.order) {
-        const RecordedOrder order = recorded_order(record.header());
-        if (options.json)
-            fmt::print("{}", json_text(to_json(order, record.header())));
-        else
-            fmt::print("{}", to_text(order, record.header()));
-        return order.is_same() ? 0 : 1;
-    }
-    if (options.json) {
-        nlohmann::ordered_json json = session_json(record);
-        json["timing"] = to_json(timing_report(record));
-        fmt::print("{}", json_text(json));
-    } else {
-        print_session(record);
-    }
     return 0;
 }
 

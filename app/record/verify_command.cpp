@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/figures.h"
+#include "app/inputs/session_folders.h"
 #include "app/record/record_commands.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
@@ -68,7 +69,7 @@ int run_verify(const VerifyOptions& options) {
     bool is_missing = false, is_damaged = false;
     std::size_t places = 0;
     auto sessions = nlohmann::ordered_json::array();
-    for (const std::filesystem::path& session : all_records(options.sessions)) {
+    for (const std::filesystem::path& session : all_records(sessions_in(options.sessions))) {
         try {
             const Verification found = verify_session(session);
             is_damaged |= !found.is_sound();

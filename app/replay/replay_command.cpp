@@ -5,6 +5,7 @@
 #include "app/cli/own_folders.h"
 #include "app/cli/progress_bar.h"
 #include "app/cli/this_program.h"
+#include "app/inputs/session_folders.h"
 #include "app/replay/recorded_experiment.h"
 #include "app/replay/remade_session.h"
 #include "app/replay/replay_commands.h"
@@ -129,7 +130,9 @@ void remake(const SessionRecord& record, const ReplayOptions& options, const fs:
 
 } // namespace
 
-int run_replay(const ReplayOptions& options) {
+int run_replay(const ReplayOptions& given) {
+    ReplayOptions options = given;
+    options.session = session_in(given.session);
     const SessionRecord record(options.session);
     if (!options.picture.empty() || !options.movie.empty())
         return draw_trial(record, options);

@@ -11,7 +11,9 @@ void add_replay_commands(CLI::App& app, ChosenCommand& chosen) {
         "overt replay sessions/overt_2019/sub-07_ses-01\n"
         "  overt replay sessions/overt_2019/sub-07_ses-01 --trial 3 --frame 12 --picture frame.png\n"
         "Exit codes: 0 all that was compared is the same, 1 something differs, 2 bad input.");
-    command.add_option("SESSION", options.session, "Folder of a session, or the session file in it")
+    command
+        .add_option("SESSION", options.session,
+                    "Folder of a session, or the session file in it; or a folder that holds a single one")
         ->required();
     option(command, "--files", options.files, "DIR",
            "Folder from which the paths in the protocol start (default: where its file lay, as seen from the "

@@ -32,7 +32,8 @@ struct EnoughPresented {};
 std::string faults_of(const SessionRecord& record, int sitting) {
     std::string faults;
     record.read_events([&](const RecordedEvent& event) {
-        if (event.sitting == sitting && event.kind == simulated_faults_event)
+        if (event.sitting == sitting &&
+            (event.kind == simulated_faults_event || event.kind == simulated_tracker_faults_event))
             faults = event.detail;
     });
     return faults;

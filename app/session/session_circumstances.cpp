@@ -10,6 +10,7 @@
 #include "app/session/session_messages.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/ports/event_kinds.h"
+#include "experiment/record/read/session_faults.h"
 
 namespace overt {
 
@@ -27,7 +28,12 @@ void check_timing(Rig& rig, double seconds) {
 void note_faults(const std::filesystem::path& file, const Clock& clock, SessionLog& log) {
     if (file.empty())
         return;
-    log.event({clock.now(), -1, simulated_faults_event, read_whole_file(file)});
+    const std::string text = read_whole_file(file);
+    const SimulatedSides sides = simulated_sides(text);
+    if (sides.display)
+        log.event({clock.now(), -1, simulated_faults_event, text});
+    if (sides.eye_tracker)
+        log.event({clock.now(), -1, simulated_tracker_faults_event, text});
     fmt::print("with the simulated faults of {}\n", file.string());
 }
 

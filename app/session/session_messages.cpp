@@ -8,6 +8,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/base/whole_file.h"
+#include "experiment/record/read/session_faults.h"
 
 namespace overt {
 
@@ -46,8 +47,8 @@ void say_risks(const std::vector<ScreenFinding>& findings) {
 namespace {
 
 /// What the operator should know of an attempt before the next.
-std::vector<std::string> remarks_on(const TrialOutcome& outcome, double drift_limit_deg, bool has_tracker,
-                                    bool is_timing_unproven) {
+std::vector<std::string> remarks_on(const TrialOutcome& outcome, double drift_limit_deg,
+                                    double gaze_lost_limit, bool has_tracker, bool is_timing_unproven) {
     using enum TrialOutcome::Afterwards;
     std::vector<std::string> remarks;
     if (outcome.missed_refreshes > 0)
@@ -58,6 +59,8 @@ std::vector<std::string> remarks_on(const TrialOutcome& outcome, double drift_li
                                       drift_limit_deg));
     if (has_tracker && outcome.shown_refreshes > 0 && !outcome.drift)
         remarks.emplace_back("the drift check found no eye");
+    if (outcome.gaze && 1.0 - outcome.gaze->share() > gaze_lost_limit)
+        remarks.push_back(fmt::format("only {:.1f} % of its gaze came", 100.0 * outcome.gaze->share()));
     if (outcome.failure.empty())
         return remarks;
     const bool counts = outcome.status == TrialOutcome::Status::completed;
@@ -92,7 +95,8 @@ void TrialProgress::operator()(const Trial& trial, const TrialOutcome& outcome, 
     const auto name = [](const auto& list, int index) { return list[static_cast<std::size_t>(index)].id; };
     bar_.update("trials", done, total_);
     const std::vector<std::string> remarks =
-        remarks_on(outcome, protocol_->tracker.drift_limit_deg, has_tracker_, is_timing_unproven_);
+        remarks_on(outcome, protocol_->tracker.drift_limit_deg, protocol_->repeat.gaze_lost_limit,
+                   has_tracker_, is_timing_unproven_);
     if (remarks.empty())
         return;
     bar_.make_room();
@@ -100,6 +104,20 @@ void TrialProgress::operator()(const Trial& trial, const TrialOutcome& outcome, 
                name(protocol_->sculptures, trial.condition.sculpture),
                name(protocol_->materials, trial.condition.material), fmt::join(remarks, ", "));
 }
+
+namespace {
+
+/// Each device's in a line. What cannot be read is said by whoever reads it next: the session is over.
+void say_faults(const std::filesystem::path& folder) {
+    try {
+        for (const std::string& line : summary_of(faults_of(SessionRecord(folder))))
+            fmt::print(stderr, "{}\n", line);
+    } catch (const Error& error) {
+        fmt::print(stderr, "{}\n", error.what());
+    }
+}
+
+} // namespace
 
 void say_after(const RunOptions& options, const SessionResult& result, const LostRows& lost,
                const Schedule& schedule, const std::filesystem::path& folder, bool is_unproven) {
@@ -113,6 +131,7 @@ void say_after(const RunOptions& options, const SessionResult& result, const Los
                is_unproven ? "missed refreshes: unproven"
                            : counted(result.missed_refreshes, "refresh", "refreshes") + " missed",
                folder.string());
+    say_faults(folder);
     if (!options.print_session_to.empty())
         write_to(options.print_session_to, folder.string() + "\n");
     if (result.aborted)

@@ -2,9 +2,13 @@
 
 #include <chrono>
 
+#include <thread>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/stimuli/bake_errors.h"
+#include "experiment/base/counted.h"
 #include "experiment/protocol/protocol_keys.h"
 
 namespace overt {
@@ -128,6 +132,75 @@ std::string what_it_takes(const std::optional<FrameQuality>& there, BakeQuality 
 }
 
 } // namespace
+
+namespace {
+
+constexpr const char* what_live_lacks =
+    "drawn by OpenGL without waiting: no light from one part of a surface to "
+    "another, no spectra, and an error that is not measured";
+
+const QualityEstimate* estimate_of(const BakeEstimate& estimate, BakeQuality quality) {
+    const auto found = std::ranges::find_if(
+        estimate.qualities, [&](const QualityEstimate& one) { return one.quality.level == quality; });
+    return found == estimate.qualities.end() ? nullptr : &*found;
+}
+
+/// Such as "1.8 (smooth-conductor), not measured (diffuse)".
+std::string errors_of(const FrameQuality& quality, const Protocol& protocol) {
+    std::string errors;
+    std::vector<MaterialKind> said;
+    for (const MaterialSettings& material : protocol.materials) {
+        if (std::ranges::find(said, material.kind) != said.end())
+            continue;
+        said.push_back(material.kind);
+        const int samples = bake_settings(quality, protocol.bake, material.kind).samples;
+        const std::optional<double> error = mean_delta_e(material.kind, samples);
+        errors += fmt::format("{}{} ({})", errors.empty() ? "" : ", ",
+                              error ? fmt::format("{:.3g}", *error) : "not measured", name_of(material.kind));
+    }
+    return errors;
+}
+
+std::string time_of(const QualityEstimate& one) {
+    return fmt::format("{} of {} frames are there; about {} more on this machine", one.there, one.frames,
+                       duration_text(one.seconds_left));
+}
+
+} // namespace
+
+std::string needs_of_person(const BakeEstimate& estimate, const Protocol& protocol) {
+    std::string text = "Before a session with a person\n\n";
+    if (estimate.wanted == BakeQuality::live)
+        return text + fmt::format("  Nothing: the protocol asks for live frames, {}.\n\n", what_live_lacks);
+    const QualityEstimate* const wanted = estimate_of(estimate, estimate.wanted);
+    if (!wanted)
+        return text + "  Nothing: all frames are given.\n\n";
+    if (estimate.for_session)
+        return text + fmt::format("  Nothing: all its frames are there, of {}.\n\n",
+                                  describe(*estimate.for_session));
+    const std::string bake = fmt::format("overt bake {}", protocol.file.string());
+    text += fmt::format("  It needs {} quality, and is refused until then: {}.\n    {}\n",
+                        name_of(estimate.wanted), time_of(*wanted), bake);
+    const QualityEstimate* const draft = estimate_of(estimate, BakeQuality::draft);
+    if (draft && estimate.wanted > BakeQuality::draft) {
+        text += fmt::format(
+            "  The cheapest way that is honest: drafts, for pilots; {}.\n    {} --quality draft\n"
+            "    and in the protocol [bake] quality = \"draft\", or overt run … --quality draft once\n",
+            time_of(*draft), bake);
+        text += fmt::format(
+            "  The mean error of drafts in CIE Delta-E ab: {}; of {} quality: {}. As overt bench bake "
+            "holds it under the overcast sky; 2.3 is just noticeable side by side. The record names "
+            "the quality.\n",
+            errors_of(draft->quality, protocol), name_of(estimate.wanted),
+            errors_of(wanted->quality, protocol));
+    }
+    text += fmt::format("  Quality live: {}.\n", what_live_lacks);
+    return text +
+           fmt::format(
+               "  Times are estimated from small pictures that were traced just now, on {}, if nothing "
+               "else runs.\n\n",
+               counted(std::max(1u, std::thread::hardware_concurrency()), "processor"));
+}
 
 std::string to_text(const BakeEstimate& estimate) {
     if (estimate.qualities.empty())

@@ -47,6 +47,10 @@ BakeEstimate bake_estimate(const Experiment& experiment, const StimulusLibrary& 
 /// "40 s", "12 min", "7.5 h".
 std::string duration_text(double seconds);
 
+/// For the top of what is said of a protocol: what a session with a person needs before it can begin, how long
+/// that takes here, and the cheapest way that is honest with what it leaves.
+std::string needs_of_person(const BakeEstimate& estimate, const Protocol& protocol);
+
 std::string to_text(const BakeEstimate& estimate);
 nlohmann::ordered_json to_json(const BakeEstimate& estimate);
 

@@ -68,7 +68,8 @@ void add_show(CLI::App& app, ChosenCommand& chosen) {
         add_command(app, chosen, run_tracker_show, "show",
                     "The calibrations of a session: accuracy and precision at each target",
                     "overt tracker show sessions/overt_2019/obs-1_session-1 --picture validation.png");
-    command.add_option("SESSION", options.session, "Folder of a session")->required();
+    command.add_option("SESSION", options.session, "Folder of a session, or one that holds a single one")
+        ->required();
     option(command, "--picture", options.picture, "FILE.png",
            "Draw the last validation: measured gaze beside the targets");
     add_json_flag(command, options.json);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/inputs/session_folders.h"
 #include "app/tracker/calibration_text.h"
 #include "app/tracker/tracker_commands.h"
 #include "experiment/base/error.h"
@@ -44,7 +45,7 @@ nlohmann::ordered_json json_of(int sitting, const RecordedCalibration& calibrati
 } // namespace
 
 int run_tracker_show(const TrackerShowOptions& options) {
-    const SessionRecord record(options.session);
+    const SessionRecord record(session_in(options.session));
     auto json = nlohmann::ordered_json::array();
     std::optional<RecordedCalibration> last;
     for (int sitting = 1; !record.started_utc(sitting).empty(); ++sitting) {

@@ -10,6 +10,7 @@
 #include "app/watch/watch_commands.h"
 #include "devices/operator/operator_server.h"
 #include "experiment/base/error.h"
+#include "experiment/record/session_schema.h"
 
 namespace overt {
 
@@ -72,18 +73,22 @@ std::filesystem::path socket_of(const WatchOptions& options) {
         if (!std::filesystem::is_directory(options.session))
             throw InputError(fmt::format("{}: is no session's folder: name the folder that overt run prints",
                                          options.session.string()));
-        return options.session / operator_socket_name;
+        const std::filesystem::path socket = options.session / operator_socket_name;
+        if (std::filesystem::exists(options.session / session_file_name) || std::filesystem::exists(socket))
+            return socket;
     }
-    const std::vector<std::filesystem::path> served = served_in(options.sessions);
+    // A folder that is no session's may hold the one that runs.
+    const std::filesystem::path& folder = options.session.empty() ? options.sessions : options.session;
+    const std::vector<std::filesystem::path> served = served_in(folder);
     if (served.size() == 1)
         return served.front();
     if (served.empty())
         throw InputError(
             fmt::format("{}: no session that can be watched runs there: begin one with overt run … "
                         "--operator-socket, or name its folder, or its socket with --operator-socket here",
-                        options.sessions.string()));
-    throw InputError(fmt::format("{}: {} sessions run there: name the folder of one",
-                                 options.sessions.string(), served.size()));
+                        folder.string()));
+    throw InputError(
+        fmt::format("{}: {} sessions run there: name the folder of one", folder.string(), served.size()));
 }
 
 int run_watch(const WatchOptions& options) {

@@ -12,8 +12,9 @@ void add_watch_commands(CLI::App& app, ChosenCommand& chosen) {
                     "  overt watch --terminal --operator-socket /run/user/1000/overt.sock\n"
                     "  overt watch --once --send \"note observer moved the chair\"\n"
                     "The session is begun with overt run … --operator-socket");
-    command.add_option("SESSION", options.session,
-                       "Folder of the session (default: the one that runs in --sessions)");
+    command.add_option(
+        "SESSION", options.session,
+        "Folder of the session, or one that holds it (default: the one that runs in --sessions)");
     option(command, "--operator-socket", options.socket, "FILE", "Its socket, if that is not in its folder");
     add_sessions_option(command, options.sessions);
     command.add_flag("--terminal", options.in_terminal,

@@ -1,7 +1,11 @@
 // Charts and tables as SVG and HTML. Everything that is shown as text goes through textContent.
 'use strict';
 
-const palette = ['#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9', '#d55e00', '#7a6f00', '#444444'];
+// How curves, points and bars are told apart: colours repeat after eight, markers after seven, dashes change with each
+// round of colours. The colours are the page's, which has others by night.
+const curve_colours = 8;
+const colour_of = number => `var(--c${number % curve_colours})`;
+const dash_of = number => ['', '8 4', '2 3', '10 3 2 3'][Math.floor(number / curve_colours) % 4];
 
 function element(name, attributes = {}, ...children) {
   const made = document.createElement(name);
@@ -17,33 +21,30 @@ function shape(name, attributes = {}, text) {
   return made;
 }
 
-// Three or so significant digits, without exponents where they can be had.
-function digits(value, count = 3) {
+// Three or so significant digits, without exponents where they can be had. `least`: nobody can use less than
+// this of the quantity, such as a thousandth of a millimetre.
+function digits(value, count = 3, least = 0) {
   if (value === null || value === undefined || !Number.isFinite(value)) return 'n/a';
   if (value === 0) return '0';
   const size = Math.abs(value);
+  if (size < least / 2) return `< ${least}`;
+  if (least) return String(Number(size >= 10 ** count ? value.toFixed(0) : Number(value.toPrecision(count)).toFixed(Math.max(0, Math.round(-Math.log10(least))))));
   if (size >= 1e6 || size < 1e-4) return value.toExponential(count - 1);
   return size >= 10 ** count ? value.toFixed(0) : String(Number(value.toPrecision(count)));
 }
+const mm_text = value => digits(value, 3, 0.001);
+const p_text = p => (p === null || p === undefined || !Number.isFinite(p) ? 'n/a' : p < 0.001 ? '< 0.001' : p.toFixed(3));
 
 function percent(value) { return value === null || value === undefined ? 'n/a' : (100 * value).toFixed(1) + ' %'; }
 
-// "0.61 [0.55, 0.67]", or why there is none.
+// "0.61 [0.55, 0.67]", or why there is none. With an interval as many decimals as tell its ends apart by two digits.
 function estimate_text(e, count = 3) {
   if (!e || e.v === null || e.v === undefined) return 'n/a' + (e && e.absent ? ' (' + e.absent + ')' : '');
-  return digits(e.v, count) + (e.lo !== undefined ? ` [${digits(e.lo, count)}, ${digits(e.hi, count)}]` : '');
-}
-
-function table(head, rows, note) {
-  const texts = new Set(head.map((name, i) => (typeof name === 'object' ? i : -1)));
-  const line = head.map((name, i) => element('th', texts.has(i) ? {scope: 'col', class: 'text'} : {scope: 'col'},
-                                             typeof name === 'object' ? name.text : name));
-  const body = element('tbody');
-  for (const row of rows)
-    body.append(element('tr', {}, ...row.map((cell, i) => element('td', texts.has(i) ? {class: 'text'} : {}, String(cell)))));
-  const box = element('div', {class: 'scroll', tabindex: '0'},
-                      element('table', {}, element('thead', {}, element('tr', {}, ...line)), body));
-  return note ? element('div', {}, box, element('p', {class: 'note'}, note)) : box;
+  const width = e.lo === undefined || e.lo === null ? 0 : e.hi - e.lo;
+  if (!(width > 0)) return digits(e.v, count) + (e.lo === undefined || e.lo === null ? '' : ` [${digits(e.lo, count)}, ${digits(e.hi, count)}]`);
+  const decimals = Math.min(9, Math.max(0, 1 - Math.floor(Math.log10(width))));
+  const text = v => v.toFixed(decimals).replace(/^-(0(\.0*)?)$/, '$1');
+  return `${text(e.v)} [${text(e.lo)}, ${text(e.hi)}]`;
 }
 
 // Even steps of 1, 2 or 5 times a power of ten.
@@ -56,68 +57,191 @@ function ticks(low, high, wanted = 5) {
   return list;
 }
 
-// A plot with axes; gives functions from values to pixels.
-function plot({width, height, x, y, x_label, y_label, log, left = 62, bottom = 44, label}) {
+// Widths of texts as the page's charts have them, in pixels.
+const ruler = document.createElement('canvas').getContext('2d');
+function width_of(text) {
+  ruler.font = '12px system-ui, "DejaVu Sans", sans-serif';
+  return ruler.measureText(text).width;
+}
+
+// A text in pieces after which it may be broken: its words, and those that other marks join, as in names of conditions.
+const pieces_of = text => String(text).split(/(?<=[\s_\-/.:])/);
+
+// A text in lines no wider than `most`: broken between pieces, and within a piece that is wider than a line.
+function lines_of(text, most) {
+  const lines = [];
+  let line = '';
+  for (let piece of pieces_of(String(text).replace(/\s+/g, ' ').trim())) {
+    if (width_of((line + piece).trimEnd()) <= most) { line += piece; continue; }
+    if (line) lines.push(line.trimEnd());
+    while (width_of(piece.trimEnd()) > most) {
+      const letters = Array.from(piece);
+      let count = 1;
+      while (count < letters.length && width_of(letters.slice(0, count + 1).join('')) <= most) ++count;
+      lines.push(letters.slice(0, count).join(''));
+      piece = letters.slice(count).join('');
+    }
+    line = piece;
+  }
+  if (line || !lines.length) lines.push(line.trimEnd());
+  return lines;
+}
+const line_px = 15;
+
+// The text about a place, its lines one below the other; `y` is the first baseline.
+function lines_at(lines, x, y, attributes = {}) {
+  return lines.map((line, i) => shape('text', {x, y: y + line_px * i, ...attributes}, line));
+}
+
+// The steps that fit beside each other on an axis of so many pixels.
+function fitting_ticks(range, length, wanted, log) {
+  const of = v => (log ? Math.log10(v) : v), place = v => (of(v) - of(range[0])) / (of(range[1]) - of(range[0]) || 1) * length;
+  for (let count = wanted; count > 0; --count) {
+    let list = [];
+    if (log) {
+      const decades = [], all = [];
+      for (let p = Math.floor(Math.log10(range[0])); p <= Math.ceil(Math.log10(range[1])); ++p)
+        for (const factor of [1, 2, 5]) {
+          const v = Number((factor * 10 ** p).toPrecision(3));
+          if (v < range[0] || v > range[1]) continue;
+          all.push(v);
+          if (factor === 1) decades.push(v);
+        }
+      list = (decades.length < 3 ? all : decades).filter((v, i) => i % (wanted - count + 1) === 0);
+    } else list = ticks(range[0], range[1], count);
+    let end = -Infinity;
+    const fit = list.every(v => {
+      const half = width_of(digits(v, 4)) / 2, free = place(v) - half > end;
+      end = place(v) + half + 8;
+      return free;
+    });
+    if (fit && list.length) return list;
+  }
+  return [range[0]];
+}
+
+// Draws a chart as wide as its box, and anew when that changes or the page is printed.
+function responsive(box, draw) {
+  let width = 0;
+  const renew = wanted => {
+    if (!wanted || Math.abs(wanted - width) < 1) return;
+    width = wanted;
+    draw(Math.max(240, width));
+  };
+  new ResizeObserver(() => renew(box.clientWidth)).observe(box);
+  // Before the page is laid out on paper: half of it where charts stand side by side.
+  window.addEventListener('beforeprint', () => renew(box.closest('.two, .trial, .panels') ? 345 : 690));
+  window.addEventListener('afterprint', () => renew(box.clientWidth));
+  renew(box.clientWidth);
+}
+
+// A plot with axes; gives functions from values to pixels. Room for numbers and labels is taken as they need it.
+function plot({width, height, x, y, x_label, y_label, log, label}) {
   const svg = shape('svg', {width, height, viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': label || y_label});
-  const right = width - 12, top = 14, floor = height - bottom;
-  const of = v => (log ? Math.log10(v) : v);
+  const of = v => (log ? Math.log10(v) : v), top = 12;
+  const x_lines = x_label ? lines_of(x_label, width - 40) : [];
+  const floor = height - 24 - line_px * x_lines.length;
+  const y_lines = lines_of(y_label, floor - top);
+  const y_ticks = log ? fitting_ticks(y, (floor - top) * 1.6, 6, true) : ticks(...y);
+  const left = Math.ceil(10 + line_px * y_lines.length + Math.max(...y_ticks.map(v => width_of(digits(v, 4)))) + 6);
+  let right = width - 12;
+  const x_ticks = fitting_ticks(x, right - left - 10, Math.max(3, Math.round(width / 90)), log);
+  right = Math.floor(width - 2 - Math.max(10, ...x_ticks.map(v => width_of(digits(v, 4)) / 2)));
   const px = v => left + (of(v) - of(x[0])) / (of(x[1]) - of(x[0]) || 1) * (right - left);
   const py = v => floor - (of(v) - of(y[0])) / (of(y[1]) - of(y[0]) || 1) * (floor - top);
-  const decades = range => {
-    const list = [];
-    for (let p = Math.ceil(Math.log10(range[0])); p <= Math.log10(range[1]); ++p) list.push(10 ** p);
-    return list;
-  };
-  for (const v of log ? decades(y) : ticks(...y)) {
-    svg.append(shape('line', {x1: left, x2: right, y1: py(v), y2: py(v), stroke: '#e4e8ee'}));
-    svg.append(shape('text', {x: left - 6, y: py(v) + 4, 'text-anchor': 'end'}, digits(v)));
+  for (const v of y_ticks) {
+    svg.append(shape('line', {x1: left, x2: right, y1: py(v), y2: py(v), class: 'grid'}));
+    svg.append(shape('text', {x: left - 6, y: py(v) + 4, 'text-anchor': 'end'}, digits(v, 4)));
   }
-  if (x_label !== null)
-    for (const v of log ? decades(x) : ticks(...x, Math.max(3, Math.round(width / 90))))
-      svg.append(shape('text', {x: px(v), y: floor + 17, 'text-anchor': 'middle'}, digits(v)));
-  svg.append(shape('path', {d: `M${left} ${top}V${floor}H${right}`, fill: 'none', stroke: '#5b6675'}));
-  if (x_label) svg.append(shape('text', {x: (left + right) / 2, y: height - 6, 'text-anchor': 'middle', class: 'soft'}, x_label));
-  svg.append(shape('text', {x: 14, y: (top + floor) / 2, 'text-anchor': 'middle', class: 'soft',
-                            transform: `rotate(-90 14 ${(top + floor) / 2})`}, y_label));
+  for (const v of x_ticks) svg.append(shape('text', {x: px(v), y: floor + 17, 'text-anchor': 'middle'}, digits(v, 4)));
+  svg.append(shape('path', {d: `M${left} ${top}V${floor}H${right}`, class: 'axis'}));
+  svg.append(...lines_at(x_lines, (left + right) / 2, floor + 33, {'text-anchor': 'middle', class: 'soft'}));
+  y_lines.forEach((line, i) => {
+    const at = 13 + line_px * i;
+    svg.append(shape('text', {x: at, y: (top + floor) / 2, 'text-anchor': 'middle', class: 'soft', transform: `rotate(-90 ${at} ${(top + floor) / 2})`}, line));
+  });
   return {svg, px, py, left, right, top, floor};
 }
 
-function whisker(svg, x, low, high) {
-  svg.append(shape('path', {d: `M${x} ${low}V${high}M${x - 4} ${low}h8M${x - 4} ${high}h8`, stroke: '#1c2430', fill: 'none'}));
+// A point of a curve with a number.
+function marker(number, x, y) {
+  const r = 4, fill = colour_of(number), stroke = {fill: 'none', stroke: fill, 'stroke-width': 2};
+  const corners = list => shape('polygon', {points: list.map(([a, b]) => `${(x + r * a).toFixed(1)},${(y + r * b).toFixed(1)}`).join(' '), fill});
+  return [() => shape('circle', {cx: x, cy: y, r: 3.2, fill}), () => corners([[-0.8, -0.8], [0.8, -0.8], [0.8, 0.8], [-0.8, 0.8]]),
+          () => corners([[0, -1], [0.95, 0.75], [-0.95, 0.75]]), () => corners([[0, -1.1], [1.1, 0], [0, 1.1], [-1.1, 0]]),
+          () => corners([[0, 1], [0.95, -0.75], [-0.95, -0.75]]), () => shape('path', {d: `M${x - r} ${y}h${2 * r}M${x} ${y - r}v${2 * r}`, ...stroke}),
+          () => shape('path', {d: `M${x - 3} ${y - 3}l6 6M${x - 3} ${y + 3}l6 -6`, ...stroke})][number % 7]();
 }
 
-// Bars in clusters; each bar {label, estimate}. Clusters {name, bars}.
-// Bars from 0; `each` of a bar: dots of single observers, side by side.
-function bars(clusters, {y_label, label, most, least = 0, width = 1120}) {
-  const count = clusters.reduce((sum, c) => sum + c.bars.length + 1, 0);
-  const names = [...new Set(clusters.flatMap(c => c.bars.map(b => b.label)))];
-  const frame = plot({width, height: 300, x: [0, count], y: [least, most], x_label: null, y_label, label, bottom: 60});
-  let at = 0.5;
-  for (const cluster of clusters) {
-    const begin = at;
-    for (const bar of cluster.bars) {
-      const e = bar.estimate, x = frame.px(at + 0.5);
-      if (e && e.v !== null && e.v !== undefined) {
-        const wide = (frame.px(1) - frame.px(0)) * 0.84;
-        const top = frame.py(Math.max(0, e.v)), foot = frame.py(Math.min(0, e.v));
-        const rect = shape('rect', {x: x - wide / 2, width: wide, y: top, height: Math.max(0, foot - top),
-                                    fill: palette[names.indexOf(bar.label) % palette.length]});
-        rect.append(shape('title', {}, `${cluster.name}, ${bar.label}: ${estimate_text(e)}`));
-        frame.svg.append(rect);
-        (bar.each || []).forEach((v, i, all) => frame.svg.append(shape('circle',
-            {cx: (x + wide * 0.8 * ((i + 0.5) / all.length - 0.5)).toFixed(1), cy: frame.py(v).toFixed(1), r: 1.7, fill: '#1c2430', 'fill-opacity': 0.55})));
-        if (e.lo !== undefined) whisker(frame.svg, x, frame.py(e.lo), frame.py(Math.min(e.hi, most)));
-      } else frame.svg.append(shape('text', {x, y: frame.floor - 4, 'text-anchor': 'middle', class: 'soft'}, 'n/a'));
-      ++at;
-    }
-    frame.svg.append(shape('text', {x: (frame.px(begin) + frame.px(at)) / 2, y: frame.floor + 17, 'text-anchor': 'middle'}, cluster.name));
-    ++at;
+function curve(number, points) {
+  return shape('polyline', {points: points.map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`).join(' '), fill: 'none', stroke: colour_of(number),
+                            'stroke-width': 2, 'stroke-dasharray': dash_of(number)});
+}
+
+// Which curve is whose.
+function curve_names(names) {
+  return element('ul', {class: 'curves', 'aria-label': 'Curves'}, ...names.map((name, i) => {
+    const sample = shape('svg', {width: 40, height: 14, viewBox: '0 0 40 14', 'aria-hidden': 'true'});
+    sample.append(curve(i, [[0, 7], [40, 7]]), marker(i, 20, 7));
+    return element('li', {}, sample, name);
+  }));
+}
+
+// Many points as what can be told apart of them: each is shown, darker where there are several.
+function point_cloud(frame, points, colour) {
+  const cell = 2, cells = new Map();
+  for (const [x, y] of points) {
+    const key = Math.floor(frame.px(x) / cell) + ',' + Math.floor(frame.py(y) / cell);
+    cells.set(key, (cells.get(key) || 0) + 1);
   }
-  let x = frame.left;
-  for (const name of names) {
-    frame.svg.append(shape('rect', {x, y: 284, width: 11, height: 11, fill: palette[names.indexOf(name) % palette.length]}));
-    frame.svg.append(shape('text', {x: x + 15, y: 294}, name));
-    x += 32 + 7 * name.length;
+  for (const [key, count] of cells) {
+    const [x, y] = key.split(',').map(Number);
+    frame.svg.append(shape('circle', {cx: (x + 0.5) * cell, cy: (y + 0.5) * cell, r: 1.7, fill: colour, 'fill-opacity': (1 - 0.65 ** count).toFixed(3)}));
   }
-  return frame.svg;
+}
+
+// Rows of bars from 0, in a panel for each {name, bars}; each bar {label, estimate, each}: `each` are dots of single
+// observers. All panels have one axis.
+function bars(box, panels, {x_label, label, most, least = 0}) {
+  const values = panels.flatMap(p => p.bars.flatMap(b => [b.estimate.v, b.estimate.lo, b.estimate.hi, ...(b.each || [])])).filter(v => Number.isFinite(v));
+  const range = [Math.min(least, ...values), Math.max(most, ...values)];
+  const grid = element('div', {class: panels.length > 1 ? 'panels' : ''});
+  box.replaceChildren(grid);
+  panels.forEach((panel, number) => {
+    const chart = element('div');
+    grid.append(element('div', {}, ...(panel.name ? [element('h3', {}, ...breakable(panel.name))] : []), chart));
+    responsive(chart, width => chart.replaceChildren(bar_rows(panel, width, range, {x_label, label, colour: colour_of(number)})));
+  });
+}
+
+function bar_rows(panel, width, range, {x_label, label, colour}) {
+  const room = Math.min(0.42 * width, Math.max(...panel.bars.map(b => width_of(b.label))) + 1);
+  const names = panel.bars.map(b => lines_of(b.label, room));
+  const heights = names.map(lines => Math.max(24, line_px * lines.length + 8));
+  const left = Math.ceil(room + 10), x_lines = lines_of(x_label, width - left);
+  const top = 4, floor = top + heights.reduce((a, b) => a + b, 0), height = floor + 24 + line_px * x_lines.length;
+  const svg = shape('svg', {width, height, viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': `${label}${panel.name ? ', ' + panel.name : ''}: ` +
+      panel.bars.map(b => `${b.label} ${estimate_text(b.estimate)}`).join('; ')});
+  const inset = 14, px = v => left + inset + (v - range[0]) / (range[1] - range[0] || 1) * (width - left - 2 * inset);
+  for (const v of fitting_ticks(range, width - left - 2 * inset, 6)) {
+    svg.append(shape('line', {x1: px(v), x2: px(v), y1: top, y2: floor, class: 'grid'}));
+    svg.append(shape('text', {x: px(v), y: floor + 16, 'text-anchor': 'middle'}, digits(v, 4)));
+  }
+  let y = top;
+  panel.bars.forEach((bar, i) => {
+    const e = bar.estimate, middle = y + heights[i] / 2, half = 7.5;
+    svg.append(...lines_at(names[i], room, middle + 4 - line_px * (names[i].length - 1) / 2, {'text-anchor': 'end'}));
+    if (e && e.v !== null && e.v !== undefined) {
+      const from = px(Math.min(0, e.v)), to = px(Math.max(0, e.v));
+      const rect = shape('rect', {x: from, width: Math.max(0, to - from), y: middle - half, height: 2 * half, fill: colour});
+      rect.append(shape('title', {}, `${panel.name ? panel.name + ', ' : ''}${bar.label}: ${estimate_text(e)}`));
+      svg.append(rect);
+      (bar.each || []).forEach((v, o, all) => svg.append(shape('circle', {cx: px(v).toFixed(1), cy: (middle + 1.6 * half * ((o + 0.5) / all.length - 0.5)).toFixed(1), r: 1.7, class: 'dot'})));
+      if (e.lo !== undefined) svg.append(shape('path', {d: `M${px(e.lo)} ${middle}H${px(e.hi)}M${px(e.lo)} ${middle - 4}v8M${px(e.hi)} ${middle - 4}v8`, class: 'mark'}));
+    } else svg.append(shape('text', {x: px(0) + 4, y: middle + 4, class: 'soft'}, 'n/a'));
+    y += heights[i];
+  });
+  svg.append(shape('path', {d: `M${px(0)} ${top}V${floor}`, class: 'axis'}), shape('path', {d: `M${left} ${floor}H${width - 1}`, class: 'axis'}));
+  svg.append(...lines_at(x_lines, (left + width) / 2, floor + 32, {'text-anchor': 'middle', class: 'soft'}));
+  return svg;
 }

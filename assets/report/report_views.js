@@ -30,11 +30,12 @@ function geometry_of(sculpture, index) {
 
 function renderer_in(stage) {
   let renderer;
-  try { renderer = new THREE.WebGLRenderer({antialias: true, preserveDrawingBuffer: true}); } catch (failure) {
+  try { renderer = new THREE.WebGLRenderer({antialias: true, alpha: true, preserveDrawingBuffer: true}); } catch (failure) {
     stage.append(element('p', {class: 'note'}, 'This browser shows no WebGL: the maps are in the folder of surfaces, too.'));
     return null;
   }
-  renderer.setClearColor(0xffffff);
+  // The page's own ground shows through, by day, by night and on paper.
+  renderer.setClearColor(0xffffff, 0);
   renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
   stage.prepend(renderer.domElement);
   return renderer;
@@ -211,13 +212,13 @@ class TrialView {
     });
     for (let i = 1; i < places.length; ++i)
       this.overlay.append(shape('line', {x1: places[i - 1][0], y1: places[i - 1][1], x2: places[i][0], y2: places[i][1],
-                                         stroke: '#1f5fa8', 'stroke-width': 2, opacity: 0.5}));
+                                         stroke: 'var(--mark)', 'stroke-width': 2, opacity: 0.5}));
     circles.forEach((circle, i) => {
       const [x, y] = places[i];
       this.overlay.append(shape('circle', {cx: x, cy: y, r: circle.radius, fill: circle.now ? '#d55e00' : '#1f5fa8',
                                            'fill-opacity': circle.counted ? 0.45 : 0.08, stroke: circle.now ? '#d55e00' : '#0d3d73',
                                            'stroke-width': 2, 'stroke-dasharray': circle.counted ? '' : '5 4'}));
-      const text = shape('text', {x, y: y + 6, 'text-anchor': 'middle', style: 'font-size:18px;font-weight:600;fill:#111'}, circle.number);
+      const text = shape('text', {x, y: y + 6, 'text-anchor': 'middle'}, circle.number);
       this.overlay.append(text);
     });
   }

@@ -99,6 +99,7 @@ bool ButtonBoxPanel::next_change(Change& into) noexcept {
     for (std::size_t i = 0; i < hands_.size(); ++i) {
         into.hand = i;
         into.trial = trial_;
+        into.screen = pressed_on_.screen();
         if (hands_[i].in_hand.box->poll(into.change))
             return true;
     }
@@ -133,6 +134,7 @@ void ButtonBoxPanel::await(Awaited what, SessionTime since, const Trial* trial) 
     while (const std::optional<ResponsePress> press = next_press())
         if (is_operators(press->key) && kept_count_ < kept_.size())
             kept_[kept_count_++] = *press;
+    pressed_on_.waits_for(what);
     awaited_ = what;
     since_ = since;
     box_answered_ = false;
@@ -164,6 +166,7 @@ std::string ButtonBoxPanel::answer() {
 
 void ButtonBoxPanel::entered(SessionPhase phase, int trial) noexcept {
     trial_ = trial;
+    pressed_on_.entered(phase, trial);
     // Between trials there is time to read the boxes' clocks.
     if (phase == SessionPhase::trial || !is_in_trial(phase))
         for (const Hand& hand : hands_)
@@ -208,6 +211,7 @@ void ButtonBoxPanel::write_down(SessionLog& log) {
     }
     if (!changes_.empty()) {
         std::vector<RecordedButton> buttons;
+        std::vector<RecordedKeyPress> presses;
         for (const Change& one : changes_) {
             const Hand& hand = hands_[one.hand];
             const ButtonMeaning* const means = meaning(hand, one.change.button);
@@ -221,9 +225,21 @@ void ButtonBoxPanel::write_down(SessionLog& log) {
                                .is_down = one.change.is_down,
                                .device_time = one.change.device_time,
                                .meaning = means ? means->words : std::string()});
+            if (!one.change.is_down || !one.screen)
+                continue;
+            presses.push_back({.at = one.change.at,
+                               .uncertainty = one.change.uncertainty,
+                               .trial = one.trial,
+                               .device = buttons.back().box,
+                               .name = buttons.back().name,
+                               .code = one.change.button,
+                               .screen = *one.screen,
+                               .meaning = buttons.back().meaning});
         }
         changes_.clear();
         log.buttons(buttons);
+        if (!presses.empty())
+            log.key_presses(presses);
     }
     if (answering_)
         answering_->write_down(log);

@@ -10,6 +10,7 @@
 
 #include "devices/buttons/threaded_button_box.h"
 #include "experiment/ports/button_meaning.h"
+#include "experiment/ports/pressed_on.h"
 #include "experiment/ports/recorded_button.h"
 #include "experiment/ports/response_panel.h"
 
@@ -56,6 +57,7 @@ class ButtonBoxPanel final : public ResponsePanel {
         std::size_t hand = 0;
         ButtonChange change;
         int trial = -1;
+        std::optional<SessionPhase> screen; ///< that stood there; nothing where keys are not recorded
     };
     const ButtonMeaning* meaning(const Hand& hand, int button) const noexcept;
     bool next_change(Change& into) noexcept;
@@ -69,6 +71,7 @@ class ButtonBoxPanel final : public ResponsePanel {
     ResponsePanel* answering_;
     std::function<void(const std::string&)> tell_;
     ButtonMeaning goes_on_;
+    PressedOn pressed_on_;
     Awaited awaited_ = Awaited::key;
     SessionTime since_;
     int trial_ = -1;

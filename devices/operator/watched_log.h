@@ -34,6 +34,8 @@ class WatchedLog final : public SessionLog {
     }
     void consent(const RecordedConsent& consent) override { record_.consent(consent); }
     void buttons(const std::vector<RecordedButton>& buttons) override { record_.buttons(buttons); }
+    void key_presses(const std::vector<RecordedKeyPress>& presses) override { record_.key_presses(presses); }
+    void gaze_came(const GazeYield& gaze) override { record_.gaze_came(gaze); }
     void markers(const std::vector<RecordedMarker>& markers) override { record_.markers(markers); }
     void answer_recorded(const RecordedAnswer& answer) override { record_.answer_recorded(answer); }
     void trial_started(const Trial& trial, SessionTime at) override;

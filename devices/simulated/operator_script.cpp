@@ -18,6 +18,13 @@ using Key = ResponsePress::Key;
 constexpr Key keys[] = {Key::pause,  Key::recalibrate, Key::drift_check, Key::repeat,
                         Key::reject, Key::skip,        Key::abort};
 
+/// As at a keyboard: what writes a character, space and enter.
+bool goes_on(std::string_view name) {
+    const auto letters = std::ranges::count_if(
+        name, [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0) != 0x80; });
+    return letters == 1 || name == "space" || name == "enter";
+}
+
 [[noreturn]] void refuse(std::string_view text, std::string_view why) {
     std::string phases;
     for (int i = 0; i < session_phase_count; ++i)
@@ -25,7 +32,8 @@ constexpr Key keys[] = {Key::pause,  Key::recalibrate, Key::drift_check, Key::re
     throw InputError(
         fmt::format("--simulate-operator {}: {}; write PHASE[@TRIAL]+SECONDS=KEY[,ANSWER], as "
                     "\"stimulus@3+0.5=skip,2\". Phases: {}. Keys: pause, recalibrate, drift check, repeat, "
-                    "reject, skip, abort. Answers: yes, no, or the digit of a reason",
+                    "reject, skip, abort; or press and the name of a key of the observer's, as \"press 7\". "
+                    "Answers: yes, no, or the digit of a reason",
                     text, why, phases));
 }
 
@@ -58,6 +66,14 @@ ScriptedOperatorKey read_operator_key(std::string_view text, int reasons) {
     if (!seconds || !(*seconds >= 0.0 && *seconds < 86400.0))
         refuse(text, "the seconds are no number of seconds");
     scripted.after_s = *seconds;
+    constexpr std::string_view press = "press ";
+    if (const std::string_view name = text.substr(equals + 1); name.starts_with(press)) {
+        scripted.pressed = name.substr(press.size());
+        if (scripted.pressed.empty())
+            refuse(text, "the key has no name");
+        scripted.key = goes_on(scripted.pressed) ? Key::next : Key::up;
+        return scripted;
+    }
     const std::string_view rest = text.substr(equals + 1), key = rest.substr(0, rest.find(','));
     const auto known = std::ranges::find(keys, key, [](Key one) { return name_of(one); });
     if (known == std::end(keys))

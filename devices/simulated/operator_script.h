@@ -1,4 +1,4 @@
-/// An operator who is not there: keys that a simulated session is led by.
+/// An operator who is not there: keys that a simulated session is led by, and keys that its observer presses.
 #pragma once
 
 #include <optional>
@@ -17,12 +17,15 @@ struct ScriptedOperatorKey {
     double after_s = 0.0;     ///< the phase began
     ResponsePress::Key key = ResponsePress::Key::pause;
     char32_t answer = U'y'; ///< to the question that follows: y, n, or the digit of a reason
-    std::string text;       ///< as it was written
+    /// The observer's, by the name on it, instead of one of the operator's: `key` is `next` if it goes on.
+    std::string pressed = {};
+    std::string text; ///< as it was written
 };
 
 /// Reads "PHASE[@TRIAL]+SECONDS=KEY[,ANSWER]", as "stimulus@3+0.5=skip,2": trials count from 1, the answer is
-/// yes, no or, to skip, the digit of one of so many reasons, and yes if it is left out. Throws InputError
-/// that says what may stand there.
+/// yes, no or, to skip, the digit of one of so many reasons, and yes if it is left out. KEY may also be
+/// "press" and the name of a key that the observer presses, as "response screen@2+0.5=press 7": keys that
+/// write, space and enter go on, as at a keyboard. Throws InputError that says what may stand there.
 ScriptedOperatorKey read_operator_key(std::string_view text, int reasons);
 
 } // namespace overt

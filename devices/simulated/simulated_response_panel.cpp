@@ -2,6 +2,10 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "experiment/ports/session_log.h"
+
 namespace overt {
 
 namespace {
@@ -23,6 +27,7 @@ SimulatedResponsePanel::SimulatedResponsePanel(const Clock& clock, const Simulat
 }
 
 void SimulatedResponsePanel::await(Awaited what, SessionTime since, const Trial* trial) {
+    pressed_on_.waits_for(what);
     if (what == Awaited::decision) {
         next_press_ = since + operators_decision;
         // To what is asked without a key, such as whether a calibration is good enough, yes; but not for
@@ -48,6 +53,7 @@ void SimulatedResponsePanel::await(Awaited what, SessionTime since, const Trial*
 
 void SimulatedResponsePanel::entered(SessionPhase phase, int trial) noexcept {
     own_decisions_ = 0;
+    pressed_on_.entered(phase, trial);
     if (phase == SessionPhase::pause && !resumes_at_)
         resumes_at_ = clock_->now() + operators_pause;
     for (Operator& one : operators_) {
@@ -67,7 +73,31 @@ std::vector<std::string> SimulatedResponsePanel::closing_warnings() const {
     return warnings;
 }
 
-std::optional<ResponsePress> SimulatedResponsePanel::operators_press() noexcept {
+void SimulatedResponsePanel::note(SessionTime at, const ScriptedOperatorKey* scripted,
+                                  bool goes_on) noexcept {
+    if (const std::optional<SessionPhase> screen = pressed_on_.screen();
+        screen && noted_count_ < noted_.size())
+        noted_[noted_count_++] = {at, *screen, pressed_on_.trial(), scripted, goes_on};
+}
+
+void SimulatedResponsePanel::write_down(SessionLog& log) {
+    if (noted_count_ == 0)
+        return;
+    std::vector<RecordedKeyPress> presses;
+    for (std::size_t i = 0; i < noted_count_; ++i) {
+        const Noted& noted = noted_[i];
+        presses.push_back({.at = noted.at,
+                           .trial = noted.trial,
+                           .device = std::string(simulated_observer_device),
+                           .name = noted.scripted ? noted.scripted->pressed : "space",
+                           .screen = noted.screen,
+                           .meaning = noted.goes_on && goes_on_at(noted.screen) ? "next" : ""});
+    }
+    noted_count_ = 0;
+    log.key_presses(presses);
+}
+
+std::optional<ResponsePress> SimulatedResponsePanel::scripted_press() noexcept {
     const SessionTime now = clock_->now();
     if (resumes_at_ && now >= *resumes_at_) {
         const ResponsePress press{Key::pause, *resumes_at_};
@@ -78,6 +108,13 @@ std::optional<ResponsePress> SimulatedResponsePanel::operators_press() noexcept 
         if (!one.due || one.is_done || now < *one.due)
             continue;
         one.is_done = true;
+        if (!one.scripted.pressed.empty()) {
+            const bool goes_on = one.scripted.key == Key::next;
+            note(*one.due, &one.scripted, goes_on);
+            if (goes_on)
+                return ResponsePress{Key::next, *one.due};
+            continue;
+        }
         operators_answer_ = one.scripted.answer;
         return ResponsePress{one.scripted.key, *one.due};
     }
@@ -85,12 +122,15 @@ std::optional<ResponsePress> SimulatedResponsePanel::operators_press() noexcept 
 }
 
 std::optional<ResponsePress> SimulatedResponsePanel::poll() noexcept {
-    if (const std::optional<ResponsePress> press = operators_press())
+    if (const std::optional<ResponsePress> press = scripted_press())
         return press;
     if (!next_press_ || clock_->now() < *next_press_)
         return std::nullopt;
     ResponsePress press = pressed_with_;
     press.pressed_at = *next_press_;
+    // What it presses because nobody asked it otherwise is no key at a stimulus.
+    if (press.key == Key::next && pressed_on_.screen() && goes_on_at(*pressed_on_.screen()))
+        note(press.pressed_at, nullptr, true);
     next_press_ = *next_press_ + pressed_again_after;
     return press;
 }

@@ -1,6 +1,7 @@
 /// The key and the voice of a simulated observer, and the keys of a simulated operator.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "devices/simulated/operator_script.h"
 #include "devices/simulated/simulated_observer.h"
 #include "experiment/ports/clock.h"
+#include "experiment/ports/pressed_on.h"
 #include "experiment/ports/response_panel.h"
 #include "experiment/ports/session_phase.h"
 
@@ -27,6 +29,8 @@ class SimulatedResponsePanel final : public ResponsePanel {
     std::string answer() override { return answer_; }
     void entered(SessionPhase phase, int trial) noexcept override;
 
+    /// Records what the observer pressed.
+    void write_down(SessionLog& log) override;
     /// Names the keys of the script for which the session had no moment.
     std::vector<std::string> closing_warnings() const override;
 
@@ -36,7 +40,17 @@ class SimulatedResponsePanel final : public ResponsePanel {
         std::optional<SessionTime> due; ///< nothing: its phase has not come yet
         bool is_done = false;
     };
-    std::optional<ResponsePress> operators_press() noexcept;
+    /// A key of the observer's, to be recorded.
+    struct Noted {
+        SessionTime at;
+        SessionPhase screen = SessionPhase::trial;
+        int trial = -1;
+        const ScriptedOperatorKey* scripted = nullptr; ///< null: the usual one
+        bool goes_on = true;
+    };
+    /// Of the script: an operator's, or one of the observer's that goes on.
+    std::optional<ResponsePress> scripted_press() noexcept;
+    void note(SessionTime at, const ScriptedOperatorKey* scripted, bool goes_on) noexcept;
 
     const Clock* clock_;
     const SimulatedObserver* observer_;
@@ -48,6 +62,9 @@ class SimulatedResponsePanel final : public ResponsePanel {
     std::optional<char32_t> operators_answer_; ///< to the question that a scripted key leads to
     int own_decisions_ = 0;                    ///< of this phase, to questions that no scripted key led to
     std::string answer_;
+    PressedOn pressed_on_;
+    std::array<Noted, 64> noted_{}; ///< with room for those of a presentation
+    std::size_t noted_count_ = 0;
 };
 
 } // namespace overt

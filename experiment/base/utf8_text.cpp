@@ -33,6 +33,25 @@ bool is_utf8(std::string_view text) {
     return true;
 }
 
+void append_utf8(std::string& text, char32_t character) {
+    const auto byte = [&](char32_t value) { text += static_cast<char>(static_cast<unsigned char>(value)); };
+    if (character < 0x80) {
+        byte(character);
+    } else if (character < 0x800) {
+        byte(0xC0 | (character >> 6));
+        byte(0x80 | (character & 0x3F));
+    } else if (character < 0x10000) {
+        byte(0xE0 | (character >> 12));
+        byte(0x80 | ((character >> 6) & 0x3F));
+        byte(0x80 | (character & 0x3F));
+    } else {
+        byte(0xF0 | (character >> 18));
+        byte(0x80 | ((character >> 12) & 0x3F));
+        byte(0x80 | ((character >> 6) & 0x3F));
+        byte(0x80 | (character & 0x3F));
+    }
+}
+
 std::string utf8_of_latin1(std::string_view text) {
     std::string utf8;
     for (const char c : text) {

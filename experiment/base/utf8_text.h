@@ -9,6 +9,9 @@ namespace overt {
 /// Well-formed UTF-8: no overlong forms, no surrogates, nothing beyond U+10FFFF.
 bool is_utf8(std::string_view text);
 
+/// Adds a character, which is none of the surrogates and not beyond U+10FFFF.
+void append_utf8(std::string& text, char32_t character);
+
 /// Each byte as the character of its number.
 std::string utf8_of_latin1(std::string_view text);
 

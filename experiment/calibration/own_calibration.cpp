@@ -60,6 +60,11 @@ std::vector<ScreenPoint> calibration_targets(int points, double area, const Scre
     return targets;
 }
 
+std::vector<ScreenPoint> validation_targets(const CalibrationSettings& settings,
+                                            const ScreenGeometry& screen) {
+    return calibration_targets(settings.validation_points, validation_shrinks * settings.area, screen);
+}
+
 CalibratedTracker::CalibratedTracker(std::unique_ptr<EyeTracker> tracker, Clock& clock,
                                      const CalibrationSettings& settings, std::uint64_t seed)
     : tracker_(std::move(tracker)), clock_(&clock), settings_(settings), seed_(seed) {}
@@ -258,9 +263,9 @@ SetupOutcome CalibratedTracker::set_up(SetupScreen& setup_screen) {
     ++set_ups_;
     screen_ = setup_screen.geometry();
     fits_ = {};
-    const auto visits_to = [&](int points, double area) {
+    const auto visits_to = [](const std::vector<ScreenPoint>& targets) {
         std::vector<Visit> visits;
-        for (const ScreenPoint target : calibration_targets(points, area, screen_))
+        for (const ScreenPoint target : targets)
             visits.push_back({target, {}});
         return visits;
     };
@@ -273,7 +278,7 @@ SetupOutcome CalibratedTracker::set_up(SetupScreen& setup_screen) {
         return SetupOutcome{kind, {}, {}, std::move(message)};
     };
     tracker_->start_recording();
-    std::vector<Visit> visits = visits_to(settings_.points, settings_.area);
+    std::vector<Visit> visits = visits_to(calibration_targets(settings_.points, settings_.area, screen_));
     if (!visit_all(setup_screen, visits))
         return ended(SetupOutcome::Kind::cancelled, "cancelled");
     if (!visit(setup_screen, visits, to_visit_again(visits, screen_)))
@@ -289,7 +294,7 @@ SetupOutcome CalibratedTracker::set_up(SetupScreen& setup_screen) {
     } catch (const InputError& error) {
         return ended(SetupOutcome::Kind::failed, error.what());
     }
-    visits = visits_to(settings_.validation_points, validation_shrinks * settings_.area);
+    visits = visits_to(validation_targets(settings_, screen_));
     if (!visit_all(setup_screen, visits)) {
         fits_ = {};
         return ended(SetupOutcome::Kind::cancelled, "cancelled in the validation");

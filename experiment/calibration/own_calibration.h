@@ -20,6 +20,10 @@ namespace overt {
 /// where every output mode can show them. `area`: share of the screen that they span.
 std::vector<ScreenPoint> calibration_targets(int points, double area, const ScreenGeometry& screen);
 
+/// Where those of the validation stand, likewise, at other places.
+std::vector<ScreenPoint> validation_targets(const CalibrationSettings& settings,
+                                            const ScreenGeometry& screen);
+
 /// A tracker whose gaze is calibrated by the program. All but calibration is the tracker's own.
 class CalibratedTracker final : public EyeTracker {
   public:

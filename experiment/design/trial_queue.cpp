@@ -93,14 +93,22 @@ AttemptVerdict TrialQueue::judge(const AttemptResult& result) const {
     if (result.is_skipped)
         return {TrialFailure::skipped, RepeatWhen::never, false};
     if (result.is_repeated)
-        return {TrialFailure::repeated, RepeatWhen::now, false};
+        return {result.is_tracker_lost ? TrialFailure::tracker_lost : TrialFailure::repeated, RepeatWhen::now,
+                false};
     if (result.is_rejected)
         return {TrialFailure::rejected, repeat.rejected, false};
+    if (result.is_over())
+        return {result.is_tracker_lost    ? TrialFailure::tracker_lost
+                : result.has_clock_jumped ? TrialFailure::clock_jumped
+                                          : TrialFailure::broken_off,
+                repeat.rejected, false};
     if (repeat.missed_refreshes != RepeatWhen::never &&
         result.missed_refreshes > repeat.missed_refreshes_limit)
         return {TrialFailure::missed_refreshes, repeat.missed_refreshes, false};
     if (repeat.gaze_lost != RepeatWhen::never && result.gaze_lost_share > repeat.gaze_lost_limit)
         return {TrialFailure::gaze_lost, repeat.gaze_lost, false};
+    if (result.gaze_lost_share > hardly_any_gaze)
+        return {TrialFailure::gaze_lost, RepeatWhen::never, true};
     return {};
 }
 
@@ -111,7 +119,7 @@ AttemptVerdict TrialQueue::tell(const AttemptResult& result) {
     running_.reset();
     if (verdict.failure == TrialFailure::none)
         return verdict;
-    if (again.number > protocol_.repeat.most_attempts && verdict.failure != TrialFailure::repeated)
+    if (again.number > protocol_.repeat.most_attempts && !result.is_repeated)
         verdict.comes_again = RepeatWhen::never;
     if (verdict.comes_again == RepeatWhen::never)
         verdict.counts = verdict.failure < TrialFailure::rejected;

@@ -30,18 +30,40 @@ struct SessionStep {
 /// What decides whether an attempt counts.
 struct AttemptResult {
     int missed_refreshes = 0;
-    double gaze_lost_share = 0.0; ///< of the samples taken during the presentation, 0 … 1
+    double gaze_lost_share = 0.0; ///< of the samples that the presentation should have given, 0 … 1
     // By the operator.
     bool is_rejected = false;
-    bool is_repeated = false; ///< to come again at once, however often it was attempted
-    bool is_skipped = false;  ///< not to come again
+    bool is_repeated = false;   ///< to come again at once, however often it was attempted
+    bool is_skipped = false;    ///< not to come again
+    bool is_broken_off = false; ///< the animation, by a key
+    // By the eye tracker.
+    bool is_tracker_lost = false;
+    bool has_clock_jumped = false; ///< so that nothing tells when its samples were taken
+
+    /// It does not go on, and never counts.
+    bool is_over() const { return is_rejected || is_broken_off || is_tracker_lost || has_clock_jumped; }
 };
 
-enum class TrialFailure : std::uint8_t { none, missed_refreshes, gaze_lost, rejected, repeated, skipped };
+/// Those from `rejected` on never count.
+enum class TrialFailure : std::uint8_t {
+    none,
+    missed_refreshes,
+    gaze_lost,
+    rejected,
+    repeated,
+    skipped,
+    broken_off,
+    tracker_lost,
+    clock_jumped
+};
 template <>
-inline constexpr auto names_of<TrialFailure> = enum_names<TrialFailure>("none", "missed refreshes",
-                                                                        "gaze lost", "rejected", "repeated",
-                                                                        "skipped");
+inline constexpr auto
+    names_of<TrialFailure> = enum_names<TrialFailure>("none", "missed refreshes", "gaze lost", "rejected",
+                                                      "repeated", "skipped", "broken off", "eye tracker lost",
+                                                      "eye tracker's clock jumped");
+
+/// With a larger share of its gaze lost an attempt is said to have none, whatever the protocol repeats for.
+inline constexpr double hardly_any_gaze = 0.95;
 
 /// What is made of an attempt.
 struct AttemptVerdict {

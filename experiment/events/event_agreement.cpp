@@ -23,9 +23,9 @@ bool are_the_same(const GazeEvent& a, const GazeEvent& b) {
     return shared > TrackerClock::duration::zero() && 2 * shared > whole;
 }
 
-double median_size(std::vector<double> values) {
+std::optional<double> median_size(std::vector<double> values) {
     if (values.empty())
-        return 0.0;
+        return std::nullopt;
     for (double& value : values)
         value = std::abs(value);
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -66,8 +66,10 @@ double EventAgreement::f1() const {
     return all > 0 ? 2.0 * matched() / all : 1.0;
 }
 
-double EventAgreement::median_onset_error_ms() const { return median_size(onset_errors_ms_); }
-double EventAgreement::median_offset_error_ms() const { return median_size(offset_errors_ms_); }
+std::optional<double> EventAgreement::median_onset_error_ms() const { return median_size(onset_errors_ms_); }
+std::optional<double> EventAgreement::median_offset_error_ms() const {
+    return median_size(offset_errors_ms_);
+}
 
 void SampleAgreement::add(bool in_reference, bool detected) {
     ++samples_;

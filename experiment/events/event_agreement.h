@@ -1,6 +1,7 @@
 /// How well detected events agree with those of a reference: a tracker's own, a person's, or planted ones.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,9 +25,9 @@ class EventAgreement {
     int matched() const { return static_cast<int>(onset_errors_ms_.size()); }
     /// Harmonic mean of the shares of both that have a partner; 1 if there are no events at all.
     double f1() const;
-    /// Medians of the sizes of errors of those with a partner; 0 without any.
-    double median_onset_error_ms() const;
-    double median_offset_error_ms() const;
+    /// Medians of the sizes of errors of those with a partner; nothing without any.
+    std::optional<double> median_onset_error_ms() const;
+    std::optional<double> median_offset_error_ms() const;
 
   private:
     GazeEvent::Kind kind_;

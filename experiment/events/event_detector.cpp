@@ -46,9 +46,7 @@ EyeMovementDetector::EyeMovementDetector(Eye eye, const EventSettings& settings,
       recent_speed_(duration_of_ms(pursuit_window_ms)) {}
 
 void EyeMovementDetector::push(const GazeSample& sample) {
-    // Differences of times must not overflow: what a damaged recording holds beyond 30,000 years is left out.
-    constexpr TrackerClock::duration farthest(1'000'000'000'000'000'000);
-    if (sample.sampled_at.time_since_epoch() > farthest || sample.sampled_at.time_since_epoch() < -farthest)
+    if (!is_a_time(sample.sampled_at))
         return;
     const TrackerClock::duration gap = duration_of_ms(longest_gap_ms);
     if (!window_.is_empty()) {

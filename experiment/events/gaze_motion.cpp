@@ -25,6 +25,11 @@ double seconds(TrackerClock::duration time) { return 1e-6 * static_cast<double>(
 
 TrackerClock::duration duration_of_ms(double ms) { return TrackerClock::duration(std::llround(1e3 * ms)); }
 
+bool is_a_time(TrackerTime at) {
+    constexpr TrackerClock::duration farthest(1'000'000'000'000'000'000);
+    return at.time_since_epoch() <= farthest && at.time_since_epoch() >= -farthest;
+}
+
 MotionWindow::MotionWindow(const GazeAngles& angles)
     : angles_(angles),
       samples_(rooms * most_samples_within(2.0 * std::max(velocity_window_ms, acceleration_window_ms))),

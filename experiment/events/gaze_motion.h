@@ -23,6 +23,10 @@ struct TrackedGaze {
 
 TrackerClock::duration duration_of_ms(double ms);
 
+/// Whether differences of times with this one cannot overflow: what a damaged recording holds beyond 30,000
+/// years is left out.
+bool is_a_time(TrackerTime at);
+
 /// Samples around the one that is looked at. Each becomes ready when its window is full, and then has the
 /// motion that the samples around it tell: the slope of the line of least squares through the directions
 /// within velocity_window_ms, and twice the curvature of the parabola within acceleration_window_ms. Samples

@@ -65,7 +65,8 @@ inline constexpr std::string_view display_box_event = "display box";
 inline constexpr std::string_view display_box_lost_event = "display box lost";
 inline constexpr std::string_view display_box_left_event = "display box left";
 inline constexpr std::string_view display_fault_event = "display fault"; ///< a simulated one that struck
-/// The text of the faults that a display was made to have.
+/// The text of the faults that a display was made to have, and an eye tracker.
 inline constexpr std::string_view simulated_faults_event = "simulated display faults";
+inline constexpr std::string_view simulated_tracker_faults_event = "simulated eye tracker faults";
 
 } // namespace overt

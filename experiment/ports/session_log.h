@@ -13,6 +13,7 @@
 #include "experiment/ports/recorded_button.h"
 #include "experiment/ports/recorded_calibration.h"
 #include "experiment/ports/recorded_consent.h"
+#include "experiment/ports/recorded_key_press.h"
 #include "experiment/ports/recorded_marker.h"
 #include "experiment/ports/tracker_items.h"
 #include "experiment/ports/trial_outcome.h"
@@ -48,6 +49,10 @@ class SessionLog {
     virtual void consent(const RecordedConsent& /*consent*/) {}
     /// Of response boxes. Those of a trial come before its trial_finished().
     virtual void buttons(const std::vector<RecordedButton>& /*buttons*/) {}
+    /// Keys and buttons that were pressed in trials. The same.
+    virtual void key_presses(const std::vector<RecordedKeyPress>& /*presses*/) {}
+    /// Of the attempt that was started last, by this record's tracker; before its trial_finished().
+    virtual void gaze_came(const GazeYield& /*gaze*/) {}
     /// What became of markers at their outputs. The same.
     virtual void markers(const std::vector<RecordedMarker>& /*markers*/) {}
     /// Of the attempt that was started last.

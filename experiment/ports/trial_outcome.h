@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "experiment/ports/gaze_yield.h"
 #include "experiment/session_time.h"
 #include "experiment/swap_modes.h"
 #include "experiment/units.h"
@@ -26,6 +27,9 @@ struct TrialOutcome {
     int missed_refreshes = 0;
     /// Of the presentation's pictures and the dark screen after them; nothing where no server tells it.
     std::optional<SwapModes> swaps = {};
+    /// Of the recording around the presentation, by the session's own tracker; nothing without one, and of an
+    /// attempt that did not come to it.
+    std::optional<GazeYield> gaze = {};
     std::optional<Degrees> drift;
     std::string answer;
 };

@@ -41,7 +41,9 @@ std::vector<Key> repeat() {
          "When a trial comes again in which the eye was lost for longer than `gaze_lost_limit`."},
         {"gaze_lost_limit", &R::gaze_lost_limit, range(0, 1),
          "Largest share of a presentation's samples without gaze (blinks among them) with which it counts."},
-        {"rejected", &R::rejected, "When a trial comes again that the operator rejected."},
+        {"rejected", &R::rejected,
+         "When a trial comes again that the operator rejected or broke off, or in which the eye tracker was "
+         "lost or its clock jumped."},
         {"most_attempts", &R::most_attempts, range(1, 100),
          "At one trial. The last one counts however it went, unless it was rejected."},
     };

@@ -1,3 +1,4 @@
+#include "experiment/events/event_thresholds.h"
 #include "experiment/protocol/key_rows.h"
 
 namespace overt::key_rows {
@@ -194,28 +195,16 @@ std::vector<Key> calibration() {
 
 std::vector<Key> events() {
     using E = EventDetectionSettings;
-    return {
+    std::vector<Key> keys{
         {"method", &E::method,
          "Who says what the eye did. `tracker`: the eye tracker where it does, else the program. `overt`: "
-         "the program. `none`: neither while the session runs; exports then find them with the default "
-         "thresholds, and say so."},
-        {"velocity_deg_s", member_of<E>(&E::velocity_deg_s), range(1, 1000, "deg/s"),
-         "An eye that is faster makes a saccade."},
-        {"acceleration_deg_s2", member_of<E>(&E::acceleration_deg_s2), range(0, 1e6, "deg/s2"),
-         "Or one whose velocity changes faster; 0: velocity alone decides, which ends saccades where people "
-         "who label raw gaze end them."},
-        {"motion_deg", member_of<E>(&E::motion_deg), range(0, 10, "deg"),
-         "What moves the eye less far is no saccade."},
-        {"pursuit_deg_s", member_of<E>(&E::pursuit_deg_s), range(0, 1000, "deg/s"),
-         "By so much at most `velocity_deg_s` is raised while the eye moves anyway: by its mean speed of the "
-         "last 40 ms. 0: it stays as it is."},
-        {"onset_verify_ms", member_of<E>(&E::onset_verify_ms), range(0, 1000, "ms"),
-         "For so long the eye has to be fast for a saccade."},
-        {"offset_verify_ms", member_of<E>(&E::offset_verify_ms), range(0, 1000, "ms"),
-         "For so long it has to be slow for the saccade's end."},
-        {"blink_verify_ms", member_of<E>(&E::blink_verify_ms), range(0, 1000, "ms"),
-         "For so long the pupil has to be there for the end of a blink."},
+         "the program. `none`: neither while the session runs; exports then find them by thresholds that "
+         "go with the gaze's rate and noise, and say so."},
     };
+    for (const EventThreshold& threshold : event_thresholds)
+        keys.emplace_back(threshold.key, member_of<E>(threshold.setting),
+                          range(threshold.least, threshold.most, threshold.unit), threshold.what);
+    return keys;
 }
 
 std::vector<Key> screens() {

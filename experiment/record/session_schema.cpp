@@ -139,6 +139,10 @@ CREATE TABLE IF NOT EXISTS gaze_event (
     amplitude_deg REAL, peak_velocity_deg_s REAL, text TEXT NOT NULL,
     PRIMARY KEY (trial_id, n)
 ) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS trial_gaze (
+    trial_id INTEGER PRIMARY KEY, samples INTEGER NOT NULL, without_gaze INTEGER NOT NULL,
+    missing INTEGER NOT NULL
+) STRICT;
 CREATE TABLE IF NOT EXISTS sample_detail (
     trial_id INTEGER NOT NULL, n INTEGER NOT NULL, tracker_us INTEGER NOT NULL, eye INTEGER NOT NULL,
     confidence REAL, eye_x_mm REAL, eye_y_mm REAL, eye_z_mm REAL,
@@ -174,6 +178,11 @@ CREATE TABLE IF NOT EXISTS button_change (
     used_by TEXT NOT NULL CHECK (used_by IN ('observer', 'operator')), button INTEGER NOT NULL,
     name TEXT NOT NULL, is_down INTEGER NOT NULL CHECK (is_down IN (0, 1)), device_us INTEGER,
     meaning TEXT NOT NULL
+) STRICT;
+CREATE TABLE IF NOT EXISTS key_press (
+    id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting, at_ns INTEGER NOT NULL,
+    uncertainty_ns INTEGER NOT NULL, trial INTEGER, attempt_id INTEGER, device TEXT NOT NULL, name TEXT NOT NULL,
+    code INTEGER, modifiers TEXT NOT NULL, text TEXT NOT NULL, screen TEXT NOT NULL, meaning TEXT NOT NULL
 ) STRICT;
 CREATE TABLE IF NOT EXISTS marker (
     id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting, at_ns INTEGER NOT NULL,

@@ -40,7 +40,7 @@ extern const char* const ledger_tables_sql;
 /// The same for the tables of what a tracker said besides samples, or the program said of them.
 extern const char* const gaze_tables_sql;
 
-/// The same for the tables of response boxes and of markers.
+/// The same for the tables of response boxes, of keys that were pressed, and of markers.
 extern const char* const device_tables_sql;
 
 /// The same for the table of the options that sittings were run with.

@@ -11,8 +11,8 @@
 namespace overt {
 namespace {
 
-/// Traces in the page: enough to see a saccade.
-constexpr double most_trace_hz = 125.0;
+/// Samples of all traces that a page holds, some 30 MB of it: a larger study's traces are thinned further.
+constexpr std::size_t most_trace_samples = 3'000'000;
 
 Json json_of_quality(const StudyQuality& q) {
     return {{"accuracy", number(q.accuracy_deg)},
@@ -64,46 +64,69 @@ Json json_of_trials(const StudyResults& results) {
     return trials;
 }
 
-// Tenths of pixels; -32768 where the eye was lost. Time in ten-thousandths of a second, pupil in the
-// tracker's unit over 65535 of its largest.
-Json json_of_traces(const StudyResults& results) {
+// Places in tenths of pixels; -32768 where the eye was lost. Times as the steps from sample to sample in
+// ten-thousandths of a second, the first one from the onset; a step that is longer than the number can hold
+// is several without gaze. Pupil in the tracker's unit over 255 of its largest.
+Json json_of_trace(const StudyTrace& trace, std::size_t every) {
     constexpr std::int16_t lost = -32768;
-    Json traces = Json::array();
-    for (const StudyTrace& trace : results.traces) {
-        std::vector<std::int32_t> times;
-        std::vector<std::int16_t> places;
-        std::vector<std::uint16_t> pupils;
-        float widest = 0.0f;
-        for (const StudyTracePoint& point : trace.points)
-            widest = std::max(widest, point.pupil);
-        double next = -1e9;
-        const auto tenths = [](double px) {
-            return static_cast<std::int16_t>(std::lround(std::clamp(10.0 * px, -32767.0, 32767.0)));
-        };
-        for (const StudyTracePoint& point : trace.points) {
-            if (point.time_s < next)
-                continue;
-            next = point.time_s + (1.0 - 1e-3) / most_trace_hz;
-            times.push_back(static_cast<std::int32_t>(std::lround(1e4 * point.time_s)));
-            places.push_back(point.gaze ? tenths(point.gaze->x_px) : lost);
-            places.push_back(point.gaze ? tenths(point.gaze->y_px) : lost);
-            pupils.push_back(static_cast<std::uint16_t>(
-                std::lround(widest > 0.0f ? 65535.0f * std::max(0.0f, point.pupil) / widest : 0.0f)));
-        }
-        Json events = Json::array();
-        for (const StudyTraceEvent& event : trace.events) {
-            const char* kind = event.kind == GazeEvent::Kind::fixation  ? "f"
-                               : event.kind == GazeEvent::Kind::saccade ? "s"
-                                                                        : "b";
-            events.push_back({kind, number(event.onset_s, 5), number(event.duration_s, 4)});
-        }
-        traces.push_back({{"trial", trace.trial},
-                          {"times", packed(times)},
-                          {"places", packed(places)},
-                          {"pupils", packed(pupils)},
-                          {"widest", number(widest)},
-                          {"events", events}});
+    constexpr std::int64_t longest_step = 65535;
+    std::vector<std::uint16_t> steps;
+    std::vector<std::int16_t> places;
+    std::vector<std::uint8_t> pupils;
+    float widest = 0.0f;
+    for (const StudyTracePoint& point : trace.points)
+        widest = std::max(widest, point.pupil);
+    const auto tenths = [](double px) {
+        return static_cast<std::int16_t>(std::lround(std::clamp(10.0 * px, -32767.0, 32767.0)));
+    };
+    const auto add = [&](std::int64_t step, std::int16_t x, std::int16_t y, float pupil) {
+        steps.push_back(static_cast<std::uint16_t>(step));
+        places.insert(places.end(), {x, y});
+        pupils.push_back(static_cast<std::uint8_t>(
+            std::lround(widest > 0.0f ? 255.0f * std::max(0.0f, pupil) / widest : 0.0f)));
+    };
+    std::int64_t before = 0;
+    for (std::size_t i = 0; i < trace.points.size(); i += every) {
+        const StudyTracePoint& point = trace.points[i];
+        const std::int64_t time = std::max<std::int64_t>(std::llround(1e4 * point.time_s), before);
+        for (; time - before > longest_step; before += longest_step)
+            add(longest_step, lost, lost, 0.0f);
+        add(time - before, point.gaze ? tenths(point.gaze->x_px) : lost,
+            point.gaze ? tenths(point.gaze->y_px) : lost, point.pupil);
+        before = time;
     }
+    Json events = Json::array();
+    for (const StudyTraceEvent& event : trace.events) {
+        const char* kind = event.kind == GazeEvent::Kind::fixation  ? "f"
+                           : event.kind == GazeEvent::Kind::saccade ? "s"
+                                                                    : "b";
+        Json json{kind, number(event.onset_s, 5), number(event.duration_s, 4)};
+        if (event.kind == GazeEvent::Kind::saccade) {
+            json.push_back(number(event.amplitude_deg, 4));
+            json.push_back(number(event.peak_velocity_deg_s, 4));
+        }
+        events.push_back(std::move(json));
+    }
+    return {{"trial", trace.trial},
+            {"steps", packed(steps)},
+            {"places", packed(places)},
+            {"pupils", packed(pupils)},
+            {"events", events}};
+}
+
+/// Every how many samples the page has of each trace.
+std::size_t thinning_of(const std::vector<StudyTrace>& traces) {
+    std::size_t samples = 0;
+    for (const StudyTrace& trace : traces)
+        samples += trace.points.size();
+    return 1 + samples / most_trace_samples;
+}
+
+Json json_of_traces(const StudyResults& results) {
+    const std::size_t every = thinning_of(results.traces);
+    Json traces = Json::array();
+    for (const StudyTrace& trace : results.traces)
+        traces.push_back(json_of_trace(trace, every));
     return traces;
 }
 
@@ -118,8 +141,8 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
                             {"observer", s.observer},
                             {"number", s.number},
                             {"protocol", s.protocol},
-                            {"tracker", s.tracker},
-                            {"simulated", s.is_simulated},
+                            {"tracker", s.setup.gaze.tracker},
+                            {"simulated", s.is_simulated()},
                             {"form", json_of(s.form)},
                             {"events", s.events},
                             {"complete", s.is_complete},
@@ -139,6 +162,9 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
     Json reporting = Json::array();
     for (const ReportingItem& item : results.reporting)
         reporting.push_back({item.topic, item.item, item.value, item.is_recorded});
+    Json methods = Json::array();
+    for (const MethodsParagraph& paragraph : results.methods)
+        methods.push_back({paragraph.topic, paragraph.text});
     Json colours = Json::object();
     for (const ColourMap map : {ColourMap::viridis, ColourMap::cividis, ColourMap::coolwarm}) {
         std::vector<std::uint8_t> bytes;
@@ -167,13 +193,15 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
             {"sessions", sessions},
             {"session_quality", quality},
             {"reporting", reporting},
+            {"methods", methods},
             {"sculptures", std::move(maps.sculptures)},
             {"groups", groups},
             {"maps", std::move(maps.maps)},
             {"differences", std::move(maps.differences)},
             {"tables", report_tables(results)},
             {"trials", json_of_trials(results)},
-            {"traces", json_of_traces(results)}};
+            {"traces", json_of_traces(results)},
+            {"trace_hz", number(most_trace_hz / static_cast<double>(thinning_of(results.traces)))}};
 }
 
 } // namespace overt

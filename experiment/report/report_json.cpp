@@ -37,9 +37,9 @@ Json json_of(const std::vector<StudyKey>& keys) {
 
 Json json_of(const SimilarityEstimate& similarity) {
     return {{"value", json_of(similarity.value)},
-            {"ceiling", json_of(similarity.ceiling)},
-            {"null", json_of(similarity.null)},
-            {"p", number(similarity.p)}};
+            {"between", json_of(similarity.between_halves)},
+            {"within", json_of(similarity.within_halves)},
+            {"null", json_of(similarity.null)}};
 }
 
 Json json_of(const glm::dvec3& v) { return {number(v.x, 8), number(v.y, 8), number(v.z, 8)}; }

@@ -43,9 +43,11 @@ std::string report_page(const StudyResults& results) {
     put_in_place(page, "{{TITLE}}", within_html(results.glance.title));
     put_in_place(page, "{{STYLE}}", embedded::report_css);
     put_in_place(page, "{{THREE}}", embedded::three_min_js);
-    std::string script(embedded::report_draw_js);
-    script += embedded::report_views_js;
-    script += embedded::report_js;
+    std::string script;
+    for (const std::string_view part :
+         {embedded::report_draw_js, embedded::report_table_js, embedded::report_views_js, embedded::report_js,
+          embedded::report_maps_js, embedded::report_trials_js})
+        script += part;
     put_in_place(page, "{{SCRIPT}}", script);
     put_in_place(page, "{{DATA}}", within_script(data));
     return page;

@@ -166,15 +166,14 @@ std::vector<std::string> describe(const MeshCleaningReport& report) {
     if (report.rounding > 0.0) {
         sentences.push_back(fmt::format(
             "The mesh lies so far from the origin of its file that 32-bit coordinates from there would be "
-            "wrong by up "
-            "to {:.2g}; the object's coordinates count from ({}, {}, {}), in its own unit and with +z up.",
+            "wrong by up to {:.2g}: its own origin is the point ({}, {}, {}), turned and scaled as the mesh.",
             report.rounding, report.origin.x, report.origin.y, report.origin.z));
     }
     say(report.crossing_faces, "face", "faces",
         "of more than three corners cross themselves and have no inside; they were cut about their first "
         "corner.");
-    say(report.vertices_without_place, "vertex", "vertices",
-        "with coordinates that are no finite numbers left aside: no face uses them.");
+    say(report.vertices_without_place, "vertex was", "vertices were",
+        "left aside: no face uses them, and their coordinates are no finite numbers.");
     // A file that has three vertices for each triangle, as every STL, says nothing by repeating them.
     if (report.vertices_read != 3 * report.triangles_read)
         say(report.vertices_welded - report.vertices_moved, "vertex was", "vertices were",

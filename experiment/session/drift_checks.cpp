@@ -19,7 +19,7 @@ void DriftChecks::check(TrialOutcome& outcome) {
         state_.note_of(state_.own_tracker(), drift_check_failed_event, *failure);
         const bool may_check_again = failed_checks_ < settings.drift_checks;
         if (settings.on_drift == DriftPolicy::reject)
-            control_.reject_trial();
+            control_.reject_trial("the drift check failed");
         if (settings.on_drift == DriftPolicy::recalibrate && may_check_again) {
             control_.calibrate(state_.own_tracker());
             control_.repeat_trial();
@@ -50,7 +50,7 @@ std::optional<std::string> DriftChecks::failed_check(TrialOutcome& outcome) {
         drift = state_.ports.tracker.drift_check(screen_centre_);
     } catch (const DeviceError& error) {
         control_.regain_tracker(error.what());
-        control_.repeat_trial();
+        control_.repeat_for_lost_tracker();
         return {};
     }
     if (drift.kind == DriftOutcome::Kind::set_up_wanted) {

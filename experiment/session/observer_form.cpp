@@ -5,31 +5,14 @@
 
 #include <fmt/format.h>
 
+#include "experiment/base/utf8_text.h"
+
 namespace overt {
 
 namespace {
 
 /// Longer than any answer; a key that is stuck must not fill the memory.
 constexpr std::size_t longest_value = 400;
-
-void append_utf8(std::string& text, char32_t character) {
-    const auto byte = [&](char32_t value) { text += static_cast<char>(static_cast<unsigned char>(value)); };
-    if (character < 0x80) {
-        byte(character);
-    } else if (character < 0x800) {
-        byte(0xC0 | (character >> 6));
-        byte(0x80 | (character & 0x3F));
-    } else if (character < 0x10000) {
-        byte(0xE0 | (character >> 12));
-        byte(0x80 | ((character >> 6) & 0x3F));
-        byte(0x80 | (character & 0x3F));
-    } else {
-        byte(0xF0 | (character >> 18));
-        byte(0x80 | ((character >> 12) & 0x3F));
-        byte(0x80 | ((character >> 6) & 0x3F));
-        byte(0x80 | (character & 0x3F));
-    }
-}
 
 /// What was typed, in a text in which "<b>" is emphasis.
 std::string as_it_is(const std::string& typed) {

@@ -18,7 +18,8 @@ struct TrialDecision {
         skipped   ///< does not come again
     };
     Kind kind = Kind::none;
-    std::string why; ///< of a skipped one
+    std::string why;              ///< empty: no reason is given
+    bool is_tracker_lost = false; ///< of a repeated one: because of that
 };
 
 /// A screen that stands until a key is pressed or a time is up.
@@ -92,7 +93,8 @@ class OperatorControl {
 
     /// What was decided at the tracker's host.
     void repeat_trial() { decision_ = {TrialDecision::Kind::repeated, {}}; }
-    void reject_trial() { decision_ = {TrialDecision::Kind::rejected, {}}; }
+    void repeat_for_lost_tracker() { decision_ = {TrialDecision::Kind::repeated, {}, true}; }
+    void reject_trial(std::string why) { decision_ = {TrialDecision::Kind::rejected, std::move(why)}; }
     void skip_trial(std::string why) { decision_ = {TrialDecision::Kind::skipped, std::move(why)}; }
 
   private:

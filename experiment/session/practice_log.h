@@ -26,6 +26,12 @@ class PracticeLog final : public SessionLog {
             button.trial = -1;
         record_.buttons(outside);
     }
+    void key_presses(const std::vector<RecordedKeyPress>& presses) override {
+        std::vector<RecordedKeyPress> outside = presses;
+        for (RecordedKeyPress& press : outside)
+            press.trial = -1;
+        record_.key_presses(outside);
+    }
     void markers(const std::vector<RecordedMarker>& markers) override { record_.markers(markers); }
     void event(const SessionEvent& event) override {
         record_.event({event.at, -1, event.kind,

@@ -49,7 +49,7 @@ PresentationCheck check_presentation(const Protocol& protocol, const Trial& tria
     ports.presenter.show({});
     ports.log.trial_started(trial, ports.clock.now());
     for (TrackerFeed& feed : feeds)
-        if (!feed.start_recording() && !check.tracker_refusal)
+        if (!feed.start_recording(ports.clock.now()) && !check.tracker_refusal)
             check.tracker_refusal = feed.why_lost();
     for (PresentationListener* listener : ports.listeners)
         listener->presentation_begins(trial);
@@ -68,7 +68,7 @@ PresentationCheck check_presentation(const Protocol& protocol, const Trial& tria
     for (PresentationListener* listener : ports.listeners)
         listener->screen_shown({}, end);
     for (TrackerFeed& feed : feeds)
-        feed.stop_recording();
+        feed.stop_recording(ports.clock.now());
     take_items();
     for (const TrackerFeed& feed : feeds)
         check.samples += feed.sample_count();

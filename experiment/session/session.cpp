@@ -24,7 +24,7 @@ TrialOutcome::Afterwards afterwards_of(const AttemptVerdict& verdict) {
 
 /// Practice is repeated at once: there is no end of a block to move it to.
 bool comes_again(const AttemptResult& practice, const RepeatSettings& repeats) {
-    return practice.is_repeated || (practice.is_rejected && repeats.rejected != RepeatWhen::never);
+    return practice.is_repeated || (practice.is_over() && repeats.rejected != RepeatWhen::never);
 }
 
 } // namespace
@@ -112,8 +112,11 @@ void Session::run_step(TrialQueue& queue, const SessionStep& step, SessionResult
 
 /// Decides whether an attempt counts. One during which the session ended does not.
 void Session::judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& attempt) {
-    if (state_.is_over())
+    if (state_.is_over()) {
+        if (attempt.result.is_tracker_lost)
+            attempt.outcome.failure = name_of(TrialFailure::tracker_lost);
         return;
+    }
     const AttemptVerdict verdict = queue.tell(attempt.result);
     attempt.outcome.status = verdict.counts ? TrialOutcome::Status::completed : TrialOutcome::Status::aborted;
     attempt.outcome.afterwards = afterwards_of(verdict);
@@ -122,7 +125,7 @@ void Session::judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& at
     attempt.outcome.failure = name_of(verdict.failure);
     constexpr std::string_view afterwards[] = {"does not come again", "comes again now",
                                                "comes again at the end of the block"};
-    const std::string& why = control_.decision().why;
+    const std::string why = control_.decision().why;
     state_.record().event({state_.now(), trial.index, trial_failed_event,
                            fmt::format("{}{}{} ({} missed, {:.1f} % of samples without gaze): {}{}",
                                        name_of(verdict.failure), why.empty() ? "" : ": ", why,
@@ -152,7 +155,7 @@ void Session::run_practice(const SessionStep& step, const std::optional<Conditio
         if (state_.is_over())
             return;
     } while (comes_again(attempt.result, state_.protocol.repeat));
-    if (attempt.result.is_skipped || attempt.result.is_rejected) {
+    if (attempt.result.is_skipped || attempt.result.is_over()) {
         state_.record().event({state_.now(), -1, practice_skipped_event, control_.decision().why});
         return;
     }

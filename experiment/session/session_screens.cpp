@@ -1,7 +1,10 @@
 #include "experiment/session/session_screens.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
+#include "experiment/calibration/own_calibration.h"
 #include "experiment/session/observer_form.h"
 
 namespace overt::screens {
@@ -124,10 +127,35 @@ Screen please_wait(const Protocol& protocol) {
     return {.kind = Screen::Kind::text, .text = protocol.words.please_wait};
 }
 
+namespace {
+
+/// What a validation of the protocol's targets may find: gaze so many degrees off, in both eyes, each
+/// target's in another direction. `misses_one`: one target was not seen.
+ValidationResult example_of_validation(const Protocol& protocol, double error_deg, bool misses_one) {
+    const ScreenGeometry screen = screen_geometry_of(protocol);
+    ValidationResult found;
+    double turn = 0.7;
+    for (const ScreenPoint target : validation_targets(protocol.calibration, screen)) {
+        for (const Eye eye : {Eye::left, Eye::right}) {
+            const double off_px = error_deg * screen.px_per_deg_at_centre();
+            const ScreenPoint gaze{target.x_px + off_px * std::cos(turn),
+                                   target.y_px + off_px * std::sin(turn)};
+            found.targets.push_back({eye, target, gaze, screen.angle_between(gaze, target), {}, {}});
+            turn += 2.4;
+        }
+    }
+    if (misses_one)
+        found.targets.back().gaze.reset();
+    found.sum_up();
+    return found;
+}
+
+} // namespace
+
 std::vector<std::pair<std::string, Screen>> all_of(const Protocol& protocol) {
     std::vector<std::pair<std::string, Screen>> all;
     const auto add = [&](std::string name, Screen screen) {
-        if (screen.kind == Screen::Kind::form || !screen.text.empty())
+        if (screen.kind == Screen::Kind::form || screen.kind == Screen::Kind::target || !screen.text.empty())
             all.emplace_back(std::move(name), std::move(screen));
     };
     add("consent", consent(protocol));
@@ -137,6 +165,20 @@ std::vector<std::pair<std::string, Screen>> all_of(const Protocol& protocol) {
     for (std::size_t page = 0; page < protocol.instructions.pages.size(); ++page)
         add(fmt::format("instructions_{}", page + 1), instructions(protocol, page));
     add("please_wait", please_wait(protocol));
+    const CalibrationKeys& calibration = protocol.calibration;
+    const ScreenGeometry geometry = screen_geometry_of(protocol);
+    add("calibration_target",
+        {.kind = Screen::Kind::target,
+         .text = "",
+         .target_place = calibration_targets(calibration.points, calibration.area, geometry)[1],
+         .target_diameter = Degrees{calibration.target_deg}});
+    add("validation",
+        validation(protocol, example_of_validation(protocol, 0.4 * calibration.mean_limit_deg, false),
+                   protocol.words.validation));
+    add("validation_poor",
+        validation(protocol, example_of_validation(protocol, 1.5 * calibration.max_limit_deg, true),
+                   protocol.words.validation_poor));
+    add("drift_check_target", {.kind = Screen::Kind::target, .text = ""});
     for (const BlockSettings& block : protocol.blocks)
         add("block_" + block.id, text(protocol, block.instructions));
     for (std::size_t task = 0; task < protocol.tasks.size(); ++task)

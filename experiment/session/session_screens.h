@@ -40,7 +40,9 @@ Screen validation(const Protocol& protocol, const ValidationResult& found, const
 /// While the session is at work.
 Screen please_wait(const Protocol& protocol);
 
-/// Every screen that this protocol's sessions can show, with a short name for it.
+/// Every screen that this protocol's sessions can show, with a short name for it: results of a validation
+/// with errors that are made up, one within the protocol's limits and one beyond them. A camera's image is
+/// none of them: the tracker makes it.
 std::vector<std::pair<std::string, Screen>> all_of(const Protocol& protocol);
 
 } // namespace overt::screens

@@ -41,6 +41,10 @@ class SharedLog final : public SessionLog {
     void buttons(const std::vector<RecordedButton>& buttons) override {
         in_each([&](SessionLog& log) { log.buttons(buttons); });
     }
+    void key_presses(const std::vector<RecordedKeyPress>& presses) override {
+        in_each([&](SessionLog& log) { log.key_presses(presses); });
+    }
+    void gaze_came(const GazeYield& gaze) override { first_.gaze_came(gaze); }
     void markers(const std::vector<RecordedMarker>& markers) override {
         in_each([&](SessionLog& log) { log.markers(markers); });
     }

@@ -18,8 +18,11 @@ constexpr std::size_t items_of_a_poll = 4096;
 
 TrackerFeed::TrackerFeed(EyeTracker& tracker) : tracker_(tracker), items_(items_of_a_poll) {}
 
-bool TrackerFeed::start_recording() {
-    sample_count_ = lost_count_ = doubled_count_ = 0;
+bool TrackerFeed::start_recording(SessionTime now) {
+    const TrackerDescription description = tracker_.description();
+    yield_.begin(description.sample_rate_hz, description.both_eyes ? 2 : 1);
+    began_ = ended_ = now;
+    doubled_count_ = 0;
     last_at_ = {};
     state_ = RecordingState::running;
     why_lost_.clear();
@@ -35,7 +38,8 @@ bool TrackerFeed::start_recording() {
     return true;
 }
 
-void TrackerFeed::stop_recording() {
+void TrackerFeed::stop_recording(SessionTime now) {
+    ended_ = now;
     if (has_recorded_)
         tracker_.stop_recording();
 }
@@ -43,10 +47,6 @@ void TrackerFeed::stop_recording() {
 void TrackerFeed::look_at_state() noexcept {
     if (state_ == RecordingState::running)
         state_ = tracker_.recording_state();
-}
-
-double TrackerFeed::lost_share() const noexcept {
-    return sample_count_ > 0 ? static_cast<double>(lost_count_) / static_cast<double>(sample_count_) : 0.0;
 }
 
 std::optional<SessionDuration> TrackerFeed::take_jump() noexcept {
@@ -70,8 +70,7 @@ void TrackerFeed::take(int trial, const TrackerItem& item, SessionLog& log) noex
             return;
         }
         last_at = sample->sampled_at;
-        ++sample_count_;
-        lost_count_ += sample->gaze ? 0 : 1;
+        yield_.take(*sample);
         log.sample(trial, *sample);
     } else if (const auto* pair = std::get_if<ClockPair>(&item)) {
         watch(*pair);

@@ -17,10 +17,10 @@ class TrackerFeed {
     /// `tracker` must outlive this.
     explicit TrackerFeed(EyeTracker& tracker);
 
-    /// Forgets the recording before, and begins one. False: the tracker is lost, see why_lost().
-    bool start_recording();
-    /// Ends it, if it was begun. Take what came at last after it.
-    void stop_recording();
+    /// Forgets the recording before, and begins one, now. False: the tracker is lost, see why_lost().
+    bool start_recording(SessionTime now);
+    /// Ends it, if it was begun, now. Take what came at last after it.
+    void stop_recording(SessionTime now);
 
     /// Takes what has arrived. A sample that comes a second time is counted and left out.
     void take_items(int trial, SessionLog& log) noexcept;
@@ -33,10 +33,10 @@ class TrackerFeed {
     RecordingState state() const noexcept { return state_; }
     bool has_recorded() const noexcept { return has_recorded_; } ///< it began
     const std::string& why_lost() const noexcept { return why_lost_; }
-    std::int64_t sample_count() const noexcept { return sample_count_; }
+    std::int64_t sample_count() const noexcept { return yield().samples; }
     std::int64_t doubled_count() const noexcept { return doubled_count_; }
-    /// Share of samples without gaze, 0 … 1; 0 where there are none.
-    double lost_share() const noexcept;
+    /// What it has given since it began, until it ended.
+    GazeYield yield() const noexcept { return yield_.ended_after(ended_ - began_); }
     /// By how much the tracker's clock jumped since this was asked last; nothing if it did not.
     std::optional<SessionDuration> take_jump() noexcept;
 
@@ -46,7 +46,9 @@ class TrackerFeed {
 
     EyeTracker& tracker_;
     std::vector<TrackerItem> items_; ///< room for one poll
-    std::int64_t sample_count_ = 0, lost_count_ = 0, doubled_count_ = 0;
+    GazeYieldCount yield_;
+    SessionTime began_, ended_;
+    std::int64_t doubled_count_ = 0;
     std::array<std::optional<TrackerTime>, 2> last_at_; ///< of each eye's samples
     RecordingState state_ = RecordingState::running;
     bool has_recorded_ = false;

@@ -63,12 +63,14 @@ TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Conditio
     const TrialDecision::Kind decision = control_.decision().kind;
     attempt.result.is_rejected = attempt.result.is_rejected || decision == TrialDecision::Kind::rejected;
     attempt.result.is_repeated = decision == TrialDecision::Kind::repeated;
+    attempt.result.is_tracker_lost =
+        attempt.result.is_tracker_lost || (attempt.result.is_repeated && control_.decision().is_tracker_lost);
     attempt.result.is_skipped = decision == TrialDecision::Kind::skipped;
     return attempt;
 }
 
 bool TrialRun::goes_on(const Attempt& attempt) const {
-    return !state_.is_over() && !attempt.result.is_rejected &&
+    return !state_.is_over() && !attempt.result.is_over() &&
            control_.decision().kind == TrialDecision::Kind::none;
 }
 
@@ -131,7 +133,6 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
     outcome.shown_refreshes = ledger_.shown_refreshes();
     outcome.missed_refreshes = ledger_.missed_refreshes();
     attempt.result.missed_refreshes = outcome.missed_refreshes;
-    attempt.result.gaze_lost_share = own.lost_share();
 
     outcome.presentation_end = state_.show({});
     outcome.swaps = ports.presenter.take_swap_modes();
@@ -139,7 +140,7 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
     state_.ends_by_itself();
     wait_and_take_items(trial.index, state_.now() + lead);
     for (Feed& feed : feeds_)
-        feed.items.stop_recording();
+        feed.items.stop_recording(state_.now());
     take_items(trial.index);
     read_clocks();
     for (Feed& feed : feeds_)
@@ -154,7 +155,7 @@ void TrialRun::start_recording() {
     marked_frame_ = no_frame;
     // The session's own is asked first: without it there is no presentation.
     for (Feed& feed : feeds_)
-        if (!feed.used.is_left_out && !feed.items.start_recording() && !feed.used.is_further())
+        if (!feed.used.is_left_out && !feed.items.start_recording(state_.now()) && !feed.used.is_further())
             return;
 }
 
@@ -164,6 +165,14 @@ void TrialRun::note_what_came(Attempt& attempt) {
     for (Feed& feed : feeds_) {
         if (feed.used.is_left_out)
             continue;
+        if (feed.used.tracker.measures_gaze()) {
+            const GazeYield gaze = feed.items.yield();
+            state_.log_of(feed.used).gaze_came(gaze);
+            if (!feed.used.is_further()) {
+                attempt.outcome.gaze = gaze;
+                attempt.result.gaze_lost_share = 1.0 - gaze.share();
+            }
+        }
         const std::int64_t doubled = feed.items.doubled_count();
         if (doubled > 0)
             state_.note_of(feed.used, tracker_event,
@@ -172,7 +181,7 @@ void TrialRun::note_what_came(Attempt& attempt) {
         if (const std::optional<SessionDuration> jump = feed.items.take_jump()) {
             state_.note_of(feed.used, tracker_clock_jumped_event,
                            fmt::format("by {:+.3f} ms in the trial", 1e3 * to_seconds(*jump)));
-            attempt.result.is_rejected = attempt.result.is_rejected || !feed.used.is_further();
+            attempt.result.has_clock_jumped = attempt.result.has_clock_jumped || !feed.used.is_further();
         }
     }
 }
@@ -241,7 +250,6 @@ void TrialRun::act_on_tracker(Attempt& attempt) {
     const TrackerFeed& own = feeds_.front().items;
     if (own.state() == RecordingState::running || state_.is_over())
         return;
-    attempt.result.is_rejected = true;
     if (own.has_recorded() && !ledger_.is_complete())
         state_.note(presentation_broken_off_event,
                     fmt::format("by the eye tracker, after {}",
@@ -262,6 +270,7 @@ void TrialRun::act_on_tracker(Attempt& attempt) {
         state_.end_session("aborted at the eye tracker");
         break;
     case RecordingState::lost:
+        attempt.result.is_tracker_lost = true;
         control_.regain_tracker(own.why_lost());
         break;
     }
@@ -277,7 +286,7 @@ void TrialRun::act_on_pressed_keys(Attempt& attempt) {
                                         counted(attempt.outcome.shown_refreshes, "refresh", "refreshes"))});
     control_.act_on(*pressed_);
     // The observer saw only a part of the animation: this attempt does not count, whatever was answered.
-    attempt.result.is_rejected = attempt.result.is_rejected || was_broken_off;
+    attempt.result.is_broken_off = attempt.result.is_broken_off || was_broken_off;
 }
 
 /// While a machine sleeps its screen shows nothing, whatever the ledger says. A wall clock that was set

@@ -21,8 +21,9 @@
 #include "experiment/study/light_at_gaze.h"
 #include "experiment/study/map_predictions.h"
 #include "experiment/study/map_reliability.h"
+#include "experiment/study/methods/methods_text.h"
+#include "experiment/study/methods/reporting.h"
 #include "experiment/study/point_distributions.h"
-#include "experiment/study/read/reporting.h"
 #include "experiment/study/results/study_observers.h"
 #include "experiment/study/study_maps.h"
 #include "experiment/study/study_pairs.h"
@@ -31,21 +32,29 @@ namespace overt {
 
 namespace {
 
-void glance_at(StudyResults& results) {
+void glance_at(StudyResults& results, const ExclusionRules& rules) {
     StudyGlance& glance = results.glance;
     std::vector<std::string> protocols;
     for (const StudySession& session : results.sessions) {
         if (std::find(protocols.begin(), protocols.end(), session.protocol) == protocols.end())
             protocols.push_back(session.protocol);
-        glance.any_simulated |= session.is_simulated;
+        glance.any_simulated |= session.is_simulated();
     }
     glance.title = fmt::format("{}", fmt::join(protocols, "; "));
     results.observers = study_observers(results);
     glance.observers = static_cast<int>(std::ranges::count_if(results.observers, &StudyObserver::counts));
     glance.sessions = static_cast<int>(results.sessions.size());
     glance.trials = static_cast<int>(results.trials.size());
-    for (const StudyTrial& trial : results.trials)
+    std::map<ExclusionRule, int> excluded_by;
+    for (const StudyTrial& trial : results.trials) {
         glance.excluded_trials += trial.excluded;
+        const std::optional<ExclusionRule> rule = broken_rule(trial.quality, rules);
+        if (!trial.has_gaze)
+            ++glance.without_gaze;
+        else if (rule)
+            ++excluded_by[*rule];
+    }
+    glance.excluded_by.assign(excluded_by.begin(), excluded_by.end());
     std::map<NotCounted, int> reasons;
     for (const StudyFixation& fixation : results.fixations) {
         ++glance.fixations;
@@ -182,7 +191,7 @@ StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const S
     results.parameters = parameters_of(options);
     results.by = options.by;
     results.confidence = options.confidence;
-    glance_at(results);
+    glance_at(results, options.exclude);
     results.groups = make_groups(results, options.by, study.levels);
 
     add_maps(study, options, progress);
@@ -205,6 +214,7 @@ StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const S
     results.motions = gaze_motions(results, study.levels, options);
     results.lights = lights_at_gaze(results, study.levels, options);
     results.reporting = reporting_items(results, options);
+    results.methods = methods_text(results, options);
     progress("metrics", 1, 1);
     return std::move(study.results);
 }

@@ -4,11 +4,12 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <numeric>
+#include <utility>
 
 #include "experiment/base/parallel.h"
 #include "experiment/base/random.h"
 #include "experiment/statistics/map_similarity.h"
-#include "experiment/statistics/split_half.h"
 #include "experiment/statistics/swap_test.h"
 #include "experiment/study/level_comparisons.h"
 #include "experiment/study/study_maps.h"
@@ -32,7 +33,7 @@ Similarities similarities(std::span<const double> a, std::span<const double> b,
 /// A comparison, and what is reckoned of it.
 struct Comparison : LevelComparison {
     std::optional<double> wss_difference_mm2, wss_difference_deg2, head_difference;
-    Similarities found, ceiling;
+    Similarities found, between_halves, within_halves;
     std::vector<Similarities> permuted;
     std::vector<double> map_a, map_b; ///< empty without maps
 };
@@ -44,36 +45,62 @@ Fixations chosen(const Fixations& from, std::span<const std::uint32_t> indices) 
     return found;
 }
 
-/// Mean over random halves of both levels; CC at the full number of fixations.
-Similarities ceiling_of(const Comparison& of, const FixationMaps& maps, const StudyOptions& options,
-                        std::uint64_t stream) {
-    std::array<double, Similarities::count> sums{};
-    std::array<int, Similarities::count> counts{};
-    for (const Fixations* level : {&of.a, &of.b}) {
-        if (level->size() < 4)
-            continue;
-        for (int split = 0; split < options.splits; ++split) {
-            const auto [first, second] =
-                random_halves(static_cast<std::uint32_t>(level->size()), options.seed,
-                              stream * 1000 + static_cast<std::uint64_t>(split) * 2 + (level == &of.b));
-            const Similarities halves = similarities(maps.sum_of(chosen(*level, first)),
-                                                     maps.sum_of(chosen(*level, second)), maps.areas());
-            for (std::size_t i = 0; i < halves.values.size(); ++i) {
-                if (halves.values[i]) {
-                    sums[i] += *halves.values[i];
-                    ++counts[i];
-                }
+/// Two draws of `count` fixations that have none in common, at random.
+std::pair<Fixations, Fixations> two_draws(const Fixations& from, std::size_t count, RandomStream& random) {
+    std::vector<std::uint32_t> all(from.size());
+    std::iota(all.begin(), all.end(), 0u);
+    random.shuffle(std::span(all));
+    return {chosen(from, std::span(all).first(count)), chosen(from, std::span(all).subspan(count, count))};
+}
+
+/// A mean of each similarity, of those that there are.
+class SimilarityMeans {
+  public:
+    void add(const Similarities& one) {
+        for (std::size_t i = 0; i < one.values.size(); ++i) {
+            if (one.values[i]) {
+                sums_[i] += *one.values[i];
+                ++counts_[i];
             }
         }
     }
-    Similarities ceiling;
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-        if (counts[i] > 0)
-            ceiling.values[i] = sums[i] / counts[i];
+    Similarities means() const {
+        Similarities means;
+        for (std::size_t i = 0; i < sums_.size(); ++i) {
+            if (counts_[i] > 0)
+                means.values[i] = sums_[i] / counts_[i];
+        }
+        return means;
     }
-    if (ceiling.values[0] && *ceiling.values[0] > 0.0)
-        ceiling.values[0] = spearman_brown(*ceiling.values[0]);
-    return ceiling;
+
+  private:
+    std::array<double, Similarities::count> sums_{};
+    std::array<int, Similarities::count> counts_{};
+};
+
+/// Random halves of both levels, each of half as many fixations as the level with fewer has: of both levels,
+/// and of the same one.
+void compare_halves(Comparison& of, const FixationMaps& maps, const StudyOptions& options,
+                    std::uint64_t stream) {
+    const std::size_t half = std::min(of.a.size(), of.b.size()) / 2;
+    if (half < 2)
+        return;
+    SimilarityMeans between, within;
+    for (int split = 0; split < options.splits; ++split) {
+        RandomStream random(options.seed, "halves of levels",
+                            stream * 1000 + static_cast<std::uint64_t>(split));
+        const auto map_of = [&](const Fixations& fixations) { return maps.sum_of(fixations); };
+        const auto [a_first, a_second] = two_draws(of.a, half, random);
+        const auto [b_first, b_second] = two_draws(of.b, half, random);
+        const std::vector<double> a1 = map_of(a_first), a2 = map_of(a_second), b1 = map_of(b_first),
+                                  b2 = map_of(b_second);
+        within.add(similarities(a1, a2, maps.areas()));
+        within.add(similarities(b1, b2, maps.areas()));
+        between.add(similarities(a1, b1, maps.areas()));
+        between.add(similarities(a2, b2, maps.areas()));
+    }
+    of.between_halves = between.means();
+    of.within_halves = within.means();
 }
 
 void reckon(Comparison& of, const FixationMaps* maps, const ObjectScale& scale, const StudyOptions& options,
@@ -85,7 +112,7 @@ void reckon(Comparison& of, const FixationMaps* maps, const ObjectScale& scale, 
     of.map_a = maps->sum_of(of.a);
     of.map_b = maps->sum_of(of.b);
     of.found = similarities(of.map_a, of.map_b, maps->areas());
-    of.ceiling = ceiling_of(of, *maps, options, stream);
+    compare_halves(of, *maps, options, stream);
     std::vector<double> both(of.map_a.size());
     for (std::size_t v = 0; v < both.size(); ++v)
         both[v] = of.map_a[v] + of.map_b[v];
@@ -113,7 +140,14 @@ SimilarityEstimate similarity_of(std::span<const Comparison> comparisons, std::s
         return estimated_mean(observer_means(comparisons, value), options.bootstrap(), absent);
     };
     estimate.value = mean([&](const Comparison& of) { return of.found.values[which]; });
-    estimate.ceiling = mean([&](const Comparison& of) { return of.ceiling.values[which]; });
+    const std::string too_few = "no observer has four fixations in both levels";
+    const auto mean_of_halves = [&](Similarities Comparison::*halves) {
+        return estimated_mean(
+            observer_means(comparisons, [&](const Comparison& of) { return (of.*halves).values[which]; }),
+            options.bootstrap(), too_few);
+    };
+    estimate.between_halves = mean_of_halves(&Comparison::between_halves);
+    estimate.within_halves = mean_of_halves(&Comparison::within_halves);
     std::vector<double> permuted;
     for (int i = 0; i < permutations; ++i) {
         const std::vector<double> means = observer_means(comparisons, [&](const Comparison& of) {
@@ -233,7 +267,7 @@ std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<
                 std::vector<Comparison> comparisons;
                 for (LevelComparison& one : level_comparisons(results, group.trials, surfaces,
                                                               options.compare, compared[a], compared[b]))
-                    comparisons.push_back({std::move(one), {}, {}, {}, {}, {}, {}, {}, {}});
+                    comparisons.push_back({std::move(one), {}, {}, {}, {}, {}, {}, {}, {}, {}});
                 const std::uint64_t stream = rows.size() * 10000;
                 parallel_for(static_cast<int>(comparisons.size()), [&](int i) {
                     Comparison& one = comparisons[static_cast<std::size_t>(i)];

@@ -14,8 +14,11 @@ namespace overt {
 /// (sculptures together). Observers are compared with themselves on each sculpture that they saw in both
 /// levels, and their comparisons averaged. Beside each similarity:
 ///
-/// - the ceiling: of halves of one level's fixations, stepped up to the full number after Spearman and Brown,
-///   as if the similarity were a correlation; SIM, which is none, stays that of halves;
+/// - halves: of random halves of both levels, one of each, and of both halves of the same level. All are of
+/// as
+///   many fixations, half of what the level with fewer has, so that the two can be held against each other:
+///   without a difference they are alike but for what fixations of one trial have in common, such as its
+///   error of calibration, which makes those of the same level more alike;
 /// - the null: of the same numbers of fixations drawn without regard to the level from both, and p, how often
 ///   that gives as small a mean similarity as was found.
 ///

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "experiment/base/plain_text.h"
+
 namespace overt {
 
 namespace {
@@ -28,21 +30,6 @@ std::string cut(const std::string& line, int columns) {
         if ((static_cast<unsigned char>(line[end]) & 0xC0u) != 0x80u && ++characters > columns)
             break;
     return line.substr(0, end);
-}
-
-/// Words of the session may have newlines and marks of emphasis, which a line has not.
-std::string plain(const std::string& text) {
-    std::string words;
-    bool is_mark = false;
-    for (const char letter : text) {
-        if (letter == '<')
-            is_mark = true;
-        if (!is_mark)
-            words += static_cast<unsigned char>(letter) < 0x20 ? ' ' : letter;
-        if (letter == '>')
-            is_mark = false;
-    }
-    return words;
 }
 
 std::string bar(double share, int length) {
@@ -127,7 +114,7 @@ std::vector<std::string> figures_of(const ViewText& of) {
                     duration_text(view.time_s)));
     if (!view.task.empty())
         lines.push_back(
-            fmt::format("stimulus  {}, {}: {}", view.sculpture, view.material, plain(view.question)));
+            fmt::format("stimulus  {}, {}: {}", view.sculpture, view.material, plain_line_of(view.question)));
     lines.push_back("display   missed refreshes: " + missed_text(facts, view));
     if (!facts.has_tracker)
         lines.emplace_back("tracker   none");
@@ -154,14 +141,14 @@ std::vector<std::string> figures_of(const ViewText& of) {
         lines.push_back(fmt::format("voice     [{}]{}", bar(std::sqrt(view.level_peak.value_or(0.0)), 20),
                                     view.is_clipping ? " too loud" : ""));
     else if (!view.answer.empty())
-        lines.push_back(fmt::format("answer    {}", plain(view.answer)));
+        lines.push_back(fmt::format("answer    {}", plain_line_of(view.answer)));
     if (view.dropped > 0)
         lines.push_back(fmt::format("view      {} pieces of news found no room here; the record has them all",
                                     view.dropped));
     if (of.is_silent && !view.is_over)
         lines.emplace_back("view      the session has said nothing for seconds");
     if (!view.asks.empty())
-        lines.push_back(fmt::format("ASKED     {}", plain(view.asks)));
+        lines.push_back(fmt::format("ASKED     {}", plain_line_of(view.asks)));
     return lines;
 }
 
@@ -174,7 +161,7 @@ std::string screen_of(const ViewText& of, int columns, int rows) {
     for (std::size_t i = of.events.size() - static_cast<std::size_t>(messages); i < of.events.size(); ++i) {
         const ViewedEvent& event = of.events[i];
         lines.push_back(fmt::format("{:8.1f} s  {}{}{}", event.at_s, event.kind,
-                                    event.detail.empty() ? "" : ": ", plain(event.detail)));
+                                    event.detail.empty() ? "" : ": ", plain_line_of(event.detail)));
     }
     std::string screen;
     for (const std::string& line : lines)
@@ -189,7 +176,7 @@ std::string summary_of(const ViewText& of) {
                        duration_text(view.is_over ? std::optional(0.0) : time_left_s(of.facts, view)),
                        missed_text(of.facts, view), share_text(lost_share(view.samples, view.lost)),
                        degrees_text(view.drift_deg, of.facts.drift_limit_deg),
-                       view.asks.empty() ? "" : "; asked: " + plain(view.asks));
+                       view.asks.empty() ? "" : "; asked: " + plain_line_of(view.asks));
 }
 
 } // namespace overt

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "render/image/linear_image.h"
 
@@ -30,6 +31,10 @@ class InkCanvas {
     void line(glm::dvec2 from, glm::dvec2 to, double strength, double line_px);
     void ring(glm::dvec2 middle, double radius, double strength, double line_px);
 
+    /// A text was put there: who lays out a screen can be asked whether its texts meet.
+    void note_text(const InkBox& box) { texts_.push_back(box); }
+    const std::vector<InkBox>& texts() const { return texts_; }
+
     /// Whether what follows takes ink away, instead of putting it on.
     void takes_away(bool now);
 
@@ -49,6 +54,7 @@ class InkCanvas {
     glm::ivec2 size_px_;
     std::unique_ptr<cairo_surface_t, Release> surface_;
     std::unique_ptr<cairo_t, Release> cairo_;
+    std::vector<InkBox> texts_;
 };
 
 } // namespace overt

@@ -84,6 +84,8 @@ void put_text(InkCanvas& canvas, const std::string& text, const TextStyle& style
     const Layout layout = lay_out(cairo, text, style);
     PangoRectangle extent{};
     pango_layout_get_pixel_extents(layout.get(), nullptr, &extent);
+    canvas.note_text({static_cast<double>(top_left_px.x), static_cast<double>(top_left_px.y),
+                      extent.width + 4.0, extent.height + 4.0});
     cairo_save(cairo);
     cairo_translate(cairo, top_left_px.x + 2 - extent.x, top_left_px.y + 2 - extent.y);
     cairo_set_source_rgba(cairo, 0.0, 0.0, 0.0, strength);

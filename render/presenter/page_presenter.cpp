@@ -178,14 +178,9 @@ void PagePresenter::put_on(const Framebuffer& target, const LinearImage& picture
 
 FlipReport PagePresenter::show(const Screen& screen) {
     clear_picture();
-    const auto background = static_cast<float>(display_.background),
-               grey = static_cast<float>(screens_.text_grey);
     PlacedPicture placed;
-    if (screen.kind != Screen::Kind::blank && screen.kind != Screen::Kind::target) {
+    if (screen.kind != Screen::Kind::blank)
         placed = draw_screen(screen, geometry_, screens_, display_.background);
-    } else if (screen.kind == Screen::Kind::target) {
-        placed = draw_target(screen, geometry_, grey, background);
-    }
     if (!placed.picture.pixels.empty()) {
         // It stands on the background already.
         for (glm::vec4& pixel : placed.picture.pixels)

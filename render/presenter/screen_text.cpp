@@ -10,6 +10,7 @@
 
 #include "render/image/text_markup.h"
 #include "render/presenter/form_layout.h"
+#include "render/presenter/validation_layout.h"
 
 namespace overt {
 
@@ -17,6 +18,7 @@ namespace {
 
 // Shares of the screen's size. What stands in the middle ends above the keys, and these above the meter.
 constexpr double safe_width = 0.8, highest = 0.05, lowest = 0.79, keys_middle = 0.86, pages_middle = 0.93;
+constexpr double widest_keys = 0.9;
 constexpr double frame_inset = 0.025;
 constexpr double meter_width = 0.2, meter_height = 0.05; // a text's margin below is a twentieth of the screen
 
@@ -28,6 +30,11 @@ constexpr double title_size = 1.35, form_size = 0.8, keys_size = 0.75, pages_siz
 constexpr double largest_keys = 0.033, largest_pages = 0.022;
 
 constexpr int smallest_line_px = 8;
+
+/// The rows that what stands in the middle has for itself.
+struct Rows {
+    int first = 0, end = 0;
+};
 
 TextStyle style_of(const ScreenGeometry& geometry, double text_height_deg) {
     TextStyle style;
@@ -46,8 +53,8 @@ TextStyle scaled(TextStyle style, double factor) {
 class Middle {
   public:
     Middle(const Screen& screen, const ScreenGeometry& geometry, const TextStyle& letters)
-        : screen_(&screen), words_(split_title(screen.text)), body_(letters),
-          title_(scaled(letters, title_size)), below_(scaled(letters, form_size)) {
+        : words_(split_title(screen.text)), body_(letters), title_(scaled(letters, title_size)),
+          below_(scaled(letters, form_size)) {
         const int widest = static_cast<int>(safe_width * geometry.screen_px.x);
         body_.wrap_width_px =
             std::min(widest, static_cast<int>(longest_line * letters.line_height_px)) / 2 * 2;
@@ -76,11 +83,10 @@ class Middle {
 
     const TextMeasure& measure() const { return measure_; }
 
-    void put_on(InkCanvas& canvas) const {
+    void put_on(InkCanvas& canvas, const Rows& rows) const {
         const glm::ivec2 screen = canvas.size_px();
-        const int room_end = static_cast<int>(lowest * screen.y);
-        int top = std::min((screen.y - measure_.size_px.y) / 2, room_end - measure_.size_px.y);
-        top = std::max(top, static_cast<int>(highest * screen.y));
+        int top = std::min((screen.y - measure_.size_px.y) / 2, rows.end - measure_.size_px.y);
+        top = std::max(top, rows.first);
         if (!words_.title.empty()) {
             put_centred(canvas, words_.title, title_, top);
             top += title_height_px_ + gap_px_;
@@ -93,10 +99,6 @@ class Middle {
         } else if (!words_.body.empty()) {
             put_centred(canvas, words_.body, body_, top);
         }
-    }
-
-    bool begins_at_the_right() const {
-        return overt::begins_at_the_right(form_ ? screen_->rows.front().label : screen_->text);
     }
 
   private:
@@ -116,7 +118,6 @@ class Middle {
         put_text(canvas, text, style, {(canvas.size_px().x - width) / 2, top});
     }
 
-    const Screen* screen_;
     TitledText words_;
     TextStyle body_, title_, below_;
     std::optional<FormLayout> form_;
@@ -124,53 +125,97 @@ class Middle {
     int gap_px_ = 0, title_height_px_ = 0, body_height_px_ = 0;
 };
 
-/// Keys as caps, each with what it does, in a line at the foot.
-void put_keys(InkCanvas& canvas, const std::vector<KeyHint>& keys, TextStyle style, bool at_the_right) {
+/// Keys as caps, each with what it does, in a line at the foot; in several where one is too short even for
+/// the smallest letters.
+class KeyLines {
+  public:
+    KeyLines(const std::vector<KeyHint>& keys, glm::ivec2 screen_px, TextStyle style)
+        : keys_(&keys), screen_px_(screen_px), style_(style) {
+        style_.wrap_width_px = static_cast<int>(widest_keys * screen_px.x);
+        style_.one_line = true;
+        for (;;) {
+            lay_out();
+            if (lines_.size() <= 1 || style_.line_height_px <= smallest_line_px)
+                break;
+            style_ = scaled(style_, 0.9);
+        }
+        // The last line stands where the only one would.
+        top_ = static_cast<int>(keys_middle * screen_px.y) - line_px_ / 2 -
+               static_cast<int>(std::max<std::size_t>(lines_.size(), 1) - 1) * line_px_;
+    }
+
+    int top() const { return top_; }
+    int end() const { return top_ + static_cast<int>(lines_.size()) * line_px_; }
+
+    void put_on(InkCanvas& canvas, bool at_the_right) const {
+        for (std::size_t i = 0; i < lines_.size(); ++i)
+            put_line(canvas, lines_[i], top_ + static_cast<int>(i) * line_px_, at_the_right);
+    }
+
+  private:
     struct Part {
-        int key_px, does_px;
+        const KeyHint* hint;
+        int key_px, does_px, all_px;
     };
-    const glm::ivec2 screen = canvas.size_px();
-    std::vector<Part> parts;
-    int all = 0, height = 0;
-    const auto ems = [&](double count) { return static_cast<int>(count * style.line_height_px); };
-    for (;;) {
-        parts.clear();
-        all = 0;
-        for (const KeyHint& hint : keys) {
-            const TextMeasure key = measure_text(hint.key, style), does = measure_text(hint.does, style);
-            parts.push_back({key.size_px.x, does.size_px.x});
-            height = std::max(key.size_px.y, does.size_px.y);
-            all += (hint.key.empty() ? 0 : key.size_px.x + ems(1.2)) + does.size_px.x;
+    struct Line {
+        std::vector<Part> parts;
+        int all_px = 0;
+    };
+
+    int ems(double count) const { return static_cast<int>(count * style_.line_height_px); }
+
+    void lay_out() {
+        lines_.clear();
+        line_px_ = 0;
+        for (const KeyHint& hint : *keys_) {
+            const TextMeasure key = measure_text(hint.key, style_), does = measure_text(hint.does, style_);
+            line_px_ = std::max({line_px_, key.size_px.y, does.size_px.y});
+            const Part part{&hint, key.size_px.x, does.size_px.x,
+                            (hint.key.empty() ? 0 : key.size_px.x + ems(1.2)) + does.size_px.x};
+            const int with_it = lines_.empty() ? 0 : lines_.back().all_px + ems(2.5) + part.all_px;
+            if (lines_.empty() || with_it > widest_keys * screen_px_.x)
+                lines_.push_back({{part}, part.all_px});
+            else {
+                lines_.back().parts.push_back(part);
+                lines_.back().all_px = with_it;
+            }
         }
-        all += ems(2.5) * (static_cast<int>(keys.size()) - 1);
-        if (all <= 0.9 * screen.x || style.line_height_px <= smallest_line_px)
-            break;
-        style = scaled(style, 0.9);
+        line_px_ += std::max(2, line_px_ / 8);
     }
-    const int top = static_cast<int>(keys_middle * screen.y) - height / 2;
-    int start = (screen.x - all) / 2;
-    const auto left_of = [&](int width) { return at_the_right ? screen.x - start - width : start; };
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        if (!keys[i].key.empty()) {
-            const int cap = parts[i].key_px + ems(0.7);
-            const double line = std::max(1.0, style.line_height_px / 20.0);
-            canvas.outline({static_cast<double>(left_of(cap)), top - 0.05 * style.line_height_px,
-                            static_cast<double>(cap), height + 0.1 * style.line_height_px},
-                           0.6, line, 0.25 * style.line_height_px);
-            put_text(canvas, keys[i].key, style, {left_of(cap) + ems(0.35), top}, 0.9);
-            start += cap + ems(0.5);
+
+    void put_line(InkCanvas& canvas, const Line& line, int top, bool at_the_right) const {
+        int start = (screen_px_.x - line.all_px) / 2;
+        const auto left_of = [&](int width) { return at_the_right ? screen_px_.x - start - width : start; };
+        for (const Part& part : line.parts) {
+            if (!part.hint->key.empty()) {
+                const int cap = part.key_px + ems(0.7);
+                const double stroke = std::max(1.0, style_.line_height_px / 20.0);
+                canvas.outline({static_cast<double>(left_of(cap)), top - 0.05 * style_.line_height_px,
+                                static_cast<double>(cap), line_px_ - 0.05 * style_.line_height_px},
+                               0.6, stroke, 0.25 * style_.line_height_px);
+                put_text(canvas, part.hint->key, style_, {left_of(cap) + ems(0.35), top}, 0.9);
+                start += cap + ems(0.5);
+            }
+            put_text(canvas, part.hint->does, style_, {left_of(part.does_px), top}, 0.8);
+            start += part.does_px + ems(2.5);
         }
-        put_text(canvas, keys[i].does, style, {left_of(parts[i].does_px), top}, 0.8);
-        start += parts[i].does_px + ems(2.5);
     }
-}
+
+    const std::vector<KeyHint>* keys_;
+    glm::ivec2 screen_px_;
+    TextStyle style_;
+    std::vector<Line> lines_;
+    int line_px_ = 0, top_ = 0;
+};
 
 /// "2 / 5" above a line of which so much is filled.
-void put_pages(InkCanvas& canvas, int page, int pages, const TextStyle& style, bool at_the_right) {
+/// Not above `first_row`.
+void put_pages(InkCanvas& canvas, int page, int pages, const TextStyle& style, bool at_the_right,
+               int first_row) {
     const glm::ivec2 screen = canvas.size_px();
     const std::string count = fmt::format("{} / {}", page, pages);
     const glm::ivec2 size = measure_text(count, style).size_px;
-    const int middle = static_cast<int>(pages_middle * screen.y);
+    const int middle = std::max(static_cast<int>(pages_middle * screen.y), first_row + size.y);
     put_text(canvas, count, style, {(screen.x - size.x) / 2, middle - size.y}, 0.8);
     const double width = 0.16 * screen.x, height = std::max(2.0, screen.y / 270.0),
                  left = 0.5 * (screen.x - width), done = width * page / pages;
@@ -179,26 +224,92 @@ void put_pages(InkCanvas& canvas, int page, int pages, const TextStyle& style, b
 }
 
 /// Around everything, with whom it is for at its top.
-void put_frame(InkCanvas& canvas, const std::string& whom, const TextStyle& style) {
-    const glm::dvec2 screen(canvas.size_px());
-    const double inset = frame_inset * screen.y, line = std::max(3.0, screen.y / 200.0);
-    canvas.outline({inset, inset, screen.x - 2 * inset, screen.y - 2 * inset}, 0.9, line, 2 * line);
-    const glm::ivec2 size = measure_text(whom, style).size_px;
-    const int left = (canvas.size_px().x - size.x) / 2;
-    const double padding = 0.8 * style.line_height_px;
-    canvas.fill({left - padding, inset, size.x + 2 * padding, static_cast<double>(size.y)}, 0.9);
-    // Its letters are left free of the ink.
-    canvas.takes_away(true);
-    put_text(canvas, whom, style, {left, static_cast<int>(inset)});
-    canvas.takes_away(false);
-}
+class TitledFrame {
+  public:
+    TitledFrame(const std::string& whom, glm::ivec2 screen_px, TextStyle style)
+        : whom_(&whom), inset_(frame_inset * screen_px.y), style_(style) {
+        style_.wrap_width_px = static_cast<int>(safe_width * screen_px.x) / 2 * 2;
+        style_.one_line = true;
+        size_px_ = measure_text(whom, style_).size_px;
+    }
 
-} // namespace
+    /// Below its title.
+    int end() const { return static_cast<int>(inset_) + size_px_.y; }
 
-ScreenTextFit fit_screen(const Screen& screen, const ScreenGeometry& geometry, double text_height_deg) {
+    void put_on(InkCanvas& canvas) const {
+        const glm::dvec2 screen(canvas.size_px());
+        const double line = std::max(3.0, screen.y / 200.0);
+        canvas.outline({inset_, inset_, screen.x - 2 * inset_, screen.y - 2 * inset_}, 0.9, line, 2 * line);
+        const int left = (canvas.size_px().x - size_px_.x) / 2;
+        const double padding = 0.8 * style_.line_height_px;
+        canvas.fill({left - padding, inset_, size_px_.x + 2 * padding, static_cast<double>(size_px_.y)}, 0.9);
+        // Its letters are left free of the ink.
+        canvas.takes_away(true);
+        put_text(canvas, *whom_, style_, {left, static_cast<int>(inset_)});
+        canvas.takes_away(false);
+    }
+
+  private:
+    const std::string* whom_;
+    double inset_;
+    TextStyle style_;
+    glm::ivec2 size_px_{0};
+};
+
+/// What stands around the middle of a screen, and the rows that it leaves.
+class Surroundings {
+  public:
+    /// `text_height_deg`: of the letters as the protocol has them. The screen must outlive this.
+    Surroundings(const Screen& screen, const ScreenGeometry& geometry, double text_height_deg)
+        : screen_(&screen), screen_px_(geometry.screen_px) {
+        plain_ = style_of(geometry, text_height_deg);
+        plain_.centred = false;
+        plain_.wrap_width_px = 20 * screen_px_.x;
+        if (!screen.keys.empty())
+            keys_.emplace(screen.keys, screen_px_, at_most(keys_size, largest_keys));
+        if (!screen.frame.empty())
+            frame_.emplace(screen.frame, screen_px_, at_most(keys_size, largest_keys));
+    }
+
+    Rows middle() const {
+        const int gap = screen_px_.y / 100;
+        Rows rows{static_cast<int>(highest * screen_px_.y), static_cast<int>(lowest * screen_px_.y)};
+        if (frame_)
+            rows.first = std::max(rows.first, frame_->end() + gap);
+        if (keys_)
+            rows.end = std::min(rows.end, keys_->top() - gap);
+        return rows;
+    }
+
+    void put_on(InkCanvas& canvas, bool at_the_right) const {
+        if (keys_)
+            keys_->put_on(canvas, at_the_right);
+        if (screen_->pages > 1)
+            put_pages(canvas, screen_->page, screen_->pages, at_most(pages_size, largest_pages), at_the_right,
+                      keys_ ? keys_->end() : 0);
+        if (frame_)
+            frame_->put_on(canvas);
+    }
+
+  private:
+    TextStyle at_most(double size, double largest) const {
+        TextStyle smaller = scaled(plain_, size);
+        smaller.line_height_px = std::max(
+            smallest_line_px, std::min(smaller.line_height_px, static_cast<int>(largest * screen_px_.y)));
+        return smaller;
+    }
+
+    const Screen* screen_;
+    glm::ivec2 screen_px_;
+    TextStyle plain_;
+    std::optional<KeyLines> keys_;
+    std::optional<TitledFrame> frame_;
+};
+
+ScreenTextFit fit_middle(const Screen& screen, const ScreenGeometry& geometry, double text_height_deg,
+                         const Rows& rows) {
     TextStyle style = style_of(geometry, text_height_deg);
-    const int wanted = style.line_height_px,
-              most = static_cast<int>((lowest - highest) * geometry.screen_px.y);
+    const int wanted = style.line_height_px, most = rows.end - rows.first;
     TextMeasure measure = Middle(screen, geometry, style).measure();
     const auto is_too_large = [&] {
         return measure.size_px.y > most || measure.size_px.x > geometry.screen_px.x;
@@ -210,44 +321,39 @@ ScreenTextFit fit_screen(const Screen& screen, const ScreenGeometry& geometry, d
     return {measure, style.line_height_px, style.line_height_px < wanted, !is_too_large()};
 }
 
+} // namespace
+
+ScreenTextFit fit_screen(const Screen& screen, const ScreenGeometry& geometry, double text_height_deg) {
+    return fit_middle(screen, geometry, text_height_deg,
+                      Surroundings(screen, geometry, text_height_deg).middle());
+}
+
 PlacedPicture draw_screen(const Screen& screen, const ScreenGeometry& geometry, const ScreenSettings& screens,
                           double background) {
+    const auto grey = static_cast<float>(screens.text_grey), behind = static_cast<float>(background);
+    if (screen.kind == Screen::Kind::target)
+        return draw_target(screen, geometry, grey, behind);
+    const Surroundings surroundings(screen, geometry, screens.text_height_deg);
+    const Rows rows = surroundings.middle();
     TextStyle style = style_of(geometry, screens.text_height_deg);
-    const TextStyle as_written = style;
-    style.line_height_px = fit_screen(screen, geometry, screens.text_height_deg).line_height_px;
     InkCanvas canvas(geometry.screen_px);
-    const Middle middle(screen, geometry, style);
-    const bool has_marks = screen.kind == Screen::Kind::validation,
-               has_camera = screen.kind == Screen::Kind::camera;
-    if (has_marks)
-        put_validation(canvas, screen, style);
-    else if (!has_camera)
-        middle.put_on(canvas);
-    const bool at_the_right = middle.begins_at_the_right();
-    TextStyle plain = as_written;
-    plain.centred = false;
-    plain.wrap_width_px = 20 * geometry.screen_px.x;
-    const auto at_most = [&](double size, double largest) {
-        TextStyle smaller = scaled(plain, size);
-        smaller.line_height_px =
-            std::max(smallest_line_px,
-                     std::min(smaller.line_height_px, static_cast<int>(largest * geometry.screen_px.y)));
-        return smaller;
-    };
-    if (!screen.keys.empty())
-        put_keys(canvas, screen.keys, at_most(keys_size, largest_keys), at_the_right);
-    if (screen.pages > 1)
-        put_pages(canvas, screen.page, screen.pages, at_most(pages_size, largest_pages), at_the_right);
-    if (!screen.frame.empty())
-        put_frame(canvas, screen.frame, at_most(keys_size, largest_keys));
+    if (screen.kind == Screen::Kind::validation) {
+        put_validation(canvas, lay_out_validation(screen, geometry.screen_px, rows.first, rows.end, style));
+    } else if (screen.kind != Screen::Kind::camera) {
+        style.line_height_px = fit_middle(screen, geometry, screens.text_height_deg, rows).line_height_px;
+        const Middle middle(screen, geometry, style);
+        middle.put_on(canvas, rows);
+    }
+    surroundings.put_on(canvas,
+                        begins_at_the_right(screen.rows.empty() ? screen.text : screen.rows.front().label));
     PlacedPicture placed;
-    if (has_camera) {
-        placed.picture = canvas.tinted(static_cast<float>(screens.text_grey), static_cast<float>(background));
-        put_camera(placed.picture, screen, static_cast<float>(screens.text_grey));
+    placed.texts = canvas.texts();
+    if (screen.kind == Screen::Kind::camera) {
+        placed.picture = canvas.tinted(grey, behind);
+        put_camera(placed.picture, screen, grey);
         return placed;
     }
-    placed.picture = canvas.tinted_ink(static_cast<float>(screens.text_grey), static_cast<float>(background),
-                                       placed.origin_px);
+    placed.picture = canvas.tinted_ink(grey, behind, placed.origin_px);
     return placed;
 }
 

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "experiment/ports/presenter.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/screen_geometry.h"
+#include "render/image/ink_canvas.h"
 #include "render/image/linear_image.h"
 #include "render/image/text_layout.h"
 
@@ -21,19 +23,20 @@ struct ScreenTextFit {
 };
 
 /// Lines are no longer than about sixty letters (34 times their height) and eight tenths of the screen's
-/// width, and end where the middle three quarters of its height end; what is too high for that is set
-/// smaller. A paragraph of more than two lines is set flush where its script begins, the rest is centred.
-/// Keys, and how far this is, stand below. Throws InputError for a text that is not UTF-8, or whose emphasis
-/// is not closed.
+/// width, and end where the middle three quarters of its height end, or above the keys and below the frame's
+/// title; what is too high for that is set smaller. A paragraph of more than two lines is set flush where its
+/// script begins, the rest is centred. Keys, and how far this is, stand below. Throws InputError for a text
+/// that is not UTF-8, or whose emphasis is not closed.
 ScreenTextFit fit_screen(const Screen& screen, const ScreenGeometry& geometry, double text_height_deg);
 
 /// A picture at its place on the screen; empty if nothing is drawn.
 struct PlacedPicture {
     LinearImage picture;
     glm::ivec2 origin_px{0};
+    std::vector<InkBox> texts = {}; ///< where each text of it stands on the screen
 };
 
-/// The screen as it is shown, in the grey of the texts on the display's background. Of a text or a form.
+/// The screen as it is shown, in the grey of the texts on the display's background.
 PlacedPicture draw_screen(const Screen& screen, const ScreenGeometry& geometry, const ScreenSettings& screens,
                           double background);
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "render/image/stored_values.h"
 #include "render/image/text_layout.h"
 
@@ -13,9 +11,6 @@ namespace overt {
 
 namespace {
 
-constexpr double ring_of_letters = 0.8, cross_of_letters = 0.35;
-/// Of the screen's height: where the text of a validation ends, above the keys.
-constexpr double text_ends = 0.9;
 constexpr double camera_height = 0.7, camera_width = 0.9;
 
 int to_even(double value) { return 2 * static_cast<int>(std::lround(0.5 * value)); }
@@ -47,32 +42,23 @@ PlacedPicture draw_target(const Screen& screen, const ScreenGeometry& geometry, 
     return placed;
 }
 
-void put_validation(InkCanvas& canvas, const Screen& screen, const TextStyle& letters) {
-    const double em = letters.line_height_px, line = std::max(1.5, em / 14.0);
-    TextStyle small = letters;
-    small.line_height_px = std::max(8, static_cast<int>(0.7 * em));
-    for (const ValidatedTarget& target : screen.validated) {
-        const glm::dvec2 at(target.target.x_px, target.target.y_px);
-        canvas.ring(at, 0.5 * ring_of_letters * em, 0.6, line);
-        const bool is_left = target.eye == Eye::left;
-        std::string label = "–";
-        if (target.gaze) {
-            const glm::dvec2 gaze(target.gaze->x_px, target.gaze->y_px);
-            canvas.line(at, gaze, 0.6, line);
-            put_cross(canvas, gaze, cross_of_letters * em, is_left, line);
-            label = fmt::format("{:.2f}°", target.error.value);
-        }
-        const glm::ivec2 size = measure_text(label, small).size_px;
-        // Of two eyes, the left one's stands left.
-        const double left = is_left ? at.x - ring_of_letters * em - size.x : at.x + ring_of_letters * em;
-        const glm::ivec2 origin =
-            glm::clamp(glm::ivec2(static_cast<int>(left), static_cast<int>(at.y - 0.5 * size.y)),
-                       glm::ivec2(0), canvas.size_px() - size);
-        put_text(canvas, label, small, origin, 0.9);
+void put_validation(InkCanvas& canvas, const ValidationLayout& layout) {
+    const double line = std::max(1.5, layout.ring_px / 6.0);
+    if (layout.screen.width > 0.0)
+        canvas.outline(layout.screen, 0.25, std::max(1.0, 0.5 * line), 2.0 * line);
+    for (const ValidationLayout::Mark& mark : layout.marks) {
+        canvas.ring(mark.target_px, layout.ring_px, 0.6, line);
+        if (!mark.gaze_px)
+            continue;
+        canvas.line(mark.target_px, *mark.gaze_px, 0.6, line);
+        // What was measured beyond the screen ends at its edge, without a cross.
+        if (mark.gaze_is_inside)
+            put_cross(canvas, *mark.gaze_px, layout.arm_px, mark.eye == Eye::left, line);
     }
-    const glm::ivec2 size = measure_text(screen.text, letters).size_px;
-    put_text(canvas, screen.text, letters,
-             {(canvas.size_px().x - size.x) / 2, static_cast<int>(text_ends * canvas.size_px().y) - size.y});
+    for (const PlacedText& error : layout.errors)
+        put_text(canvas, error.text, error.style, error.origin_px, 0.9);
+    if (!layout.words.text.empty())
+        put_text(canvas, layout.words.text, layout.words.style, layout.words.origin_px);
 }
 
 void put_camera(LinearImage& onto, const Screen& screen, float grey) {

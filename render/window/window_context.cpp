@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,6 +27,9 @@ struct WindowContext::State {
     GLFWmonitor* held_monitor = nullptr;
     WindowDisturbance disturbance = WindowDisturbance::none;
     bool has_lost_focus = false;
+    // GLFW tells a held key by its own number alone: of keys that it does not know, by the scancode.
+    std::bitset<1024> is_down;
+    WindowKeyPress last_key{WindowKey::other};
     ~State() {
         if (window)
             glfwDestroyWindow(window);
@@ -64,7 +68,9 @@ struct WindowContext::State {
     }
 
     static void on_focus(GLFWwindow* window, int has_it) {
-        static_cast<State*>(glfwGetWindowUserPointer(window))->has_lost_focus = has_it == GLFW_FALSE;
+        auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+        state.has_lost_focus = has_it == GLFW_FALSE;
+        state.is_down.reset(); // what is let go elsewhere is not told
     }
 
     static void on_pointer(GLFWwindow* window, double x, double y) {
@@ -95,15 +101,33 @@ struct WindowContext::State {
             presses[(first + count++) % presses.size()] = press;
     }
 
-    static void on_key(GLFWwindow* window, int key, int, int action, int modifiers) {
-        if (action != GLFW_RELEASE)
-            static_cast<State*>(glfwGetWindowUserPointer(window))
-                ->push({window_key_of(key, modifiers), 0, action == GLFW_REPEAT});
+    /// Whether it was down already.
+    bool set_down(int code, bool is_pressed) {
+        if (code < 0 || static_cast<std::size_t>(code) >= is_down.size())
+            return false;
+        const auto at = static_cast<std::size_t>(code);
+        const bool was_down = is_down[at];
+        is_down[at] = is_pressed;
+        return was_down;
     }
 
+    static void on_key(GLFWwindow* window, int key, int code, int action, int modifiers) {
+        auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+        const bool was_down = state.set_down(code, action != GLFW_RELEASE);
+        if (action == GLFW_RELEASE)
+            return;
+        state.last_key = {
+            window_key_of(key, modifiers), 0, action == GLFW_REPEAT || was_down, code, key, modifiers};
+        state.push(state.last_key);
+    }
+
+    /// Comes after the key that wrote it.
     static void on_character(GLFWwindow* window, unsigned character) {
-        static_cast<State*>(glfwGetWindowUserPointer(window))
-            ->push({WindowKey::character, static_cast<char32_t>(character)});
+        auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+        WindowKeyPress written = state.last_key;
+        written.key = WindowKey::character;
+        written.character = static_cast<char32_t>(character);
+        state.push(written);
     }
 };
 

@@ -62,6 +62,9 @@ struct WindowKeyPress {
     WindowKey key;
     char32_t character = 0;   ///< of WindowKey::character
     bool is_repeated = false; ///< the key is held
+    int code = 0;      ///< the system's scancode of the key, of a character that of the key that wrote it
+    int glfw_key = -1; ///< by GLFW's number; -1: it knows no such key
+    int modifiers = 0; ///< held with it, GLFW's bits
 };
 
 /// A screen as the window system knows it.

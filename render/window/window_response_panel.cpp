@@ -4,8 +4,13 @@
 #include <span>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "experiment/base/counted.h"
+#include "experiment/base/utf8_text.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/ports/session_log.h"
+#include "render/window/window_keys.h"
 
 namespace overt {
 
@@ -110,7 +115,7 @@ std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPres
         return std::nullopt;
     switch (awaited_) {
     case Awaited::response:
-    case Awaited::key: // the space bar was a key already
+    case Awaited::key: // the space bar was a key already; a key that is held from before answers nothing
         return is_held || (is_character && press.character == U' ')
                    ? std::nullopt
                    : meant(meaning_in<ResponseKey>(when_reading, press.key));
@@ -149,19 +154,93 @@ void WindowResponsePanel::write_down(SessionLog& log) {
                    focus_changes_[i].is_lost ? "went to another window: keys did not reach the session"
                                              : "came back to the session's window"});
     focus_change_count_ = 0;
+    write_presses(log);
     if (answering_)
         answering_->write_down(log);
+}
+
+void WindowResponsePanel::write_presses(SessionLog& log) {
+    if (noted_count_ == 0)
+        return;
+    std::vector<RecordedKeyPress> presses;
+    for (std::size_t i = 0; i < noted_count_; ++i) {
+        const Noted& noted = noted_[i];
+        RecordedKeyPress press{.at = noted.at,
+                               .uncertainty = noted.uncertainty,
+                               .trial = noted.trial,
+                               .device = std::string(keyboard_device),
+                               .name = key_name(noted.press),
+                               .code = noted.press.code,
+                               .modifiers = modifier_names(noted.press),
+                               .screen = noted.screen};
+        if (noted.press.character > U' ')
+            append_utf8(press.text, noted.press.character);
+        if (noted.meaning == ResponseKey::next)
+            press.meaning = goes_on_at(noted.screen) ? "next" : "";
+        else if (noted.meaning)
+            press.meaning = name_of(*noted.meaning);
+        presses.push_back(std::move(press));
+    }
+    noted_count_ = 0;
+    is_last_noted_ = false;
+    log.key_presses(presses);
+}
+
+std::vector<std::string> WindowResponsePanel::closing_warnings() const {
+    std::vector<std::string> warnings;
+    if (answering_)
+        warnings = answering_->closing_warnings();
+    if (unnoted_ > 0)
+        warnings.push_back(fmt::format("keyboard: {} could not be recorded: too many in one presentation",
+                                       counted(unnoted_, "key press", "key presses")));
+    return warnings;
+}
+
+bool WindowResponsePanel::next_press(WindowKeyPress& press) noexcept {
+    if (!window_->next_key_press(press))
+        return false;
+    // What a key wrote comes after it, and is noted with it.
+    if (press.key == WindowKey::character) {
+        if (is_last_noted_ && !press.is_repeated && noted_[noted_count_ - 1].press.character == 0)
+            noted_[noted_count_ - 1].press.character = press.character;
+        return true;
+    }
+    is_last_noted_ = false;
+    const std::optional<SessionPhase> screen = pressed_on_.screen();
+    if (press.is_repeated || !screen)
+        return true;
+    if (noted_count_ == noted_.size()) {
+        ++unnoted_;
+        return true;
+    }
+    noted_[noted_count_++] = {press, looked_, looked_ - looked_before_, *screen, pressed_on_.trial(), {}};
+    is_last_noted_ = true;
+    return true;
+}
+
+std::optional<ResponsePress> WindowResponsePanel::next_meant() noexcept {
+    WindowKeyPress press{};
+    while (next_press(press)) {
+        const std::optional<ResponsePress> meant = meaning_of(press);
+        if (!meant)
+            continue;
+        if (is_last_noted_ && (meant->key == ResponseKey::next || is_operators(meant->key)))
+            noted_[noted_count_ - 1].meaning = meant->key;
+        return meant;
+    }
+    return std::nullopt;
 }
 
 void WindowResponsePanel::await(Awaited what, SessionTime since, const Trial* trial) {
     look();
     // The operator's stay: they may have been pressed while something was prepared.
-    WindowKeyPress press{};
-    while (window_->next_key_press(press)) {
-        const std::optional<ResponsePress> meant = meaning_of(press);
-        if (meant && is_operators(meant->key) && kept_count_ < kept_.size())
+    while (const std::optional<ResponsePress> meant = next_meant()) {
+        if (is_operators(meant->key) && kept_count_ < kept_.size())
             kept_[kept_count_++] = *meant;
+        else if (is_last_noted_)
+            noted_[noted_count_ - 1].meaning.reset(); // it came too early to mean anything
     }
+    pressed_on_.waits_for(what);
     awaited_ = what == Awaited::response ? Awaited::key : what;
     if (answering_)
         answering_->await(what, since, trial);
@@ -170,7 +249,7 @@ void WindowResponsePanel::await(Awaited what, SessionTime since, const Trial* tr
 std::optional<SetupKey> WindowResponsePanel::next_setup_key() {
     look();
     WindowKeyPress press{};
-    while (window_->next_key_press(press))
+    while (next_press(press))
         if (const std::optional<SetupKey> key = setup_key_of(press))
             return key;
     return answering_ ? answering_->next_setup_key() : std::nullopt;
@@ -184,10 +263,8 @@ std::optional<ResponsePress> WindowResponsePanel::poll() noexcept {
         return press;
     }
     look();
-    WindowKeyPress press{};
-    while (window_->next_key_press(press))
-        if (const std::optional<ResponsePress> meant = meaning_of(press))
-            return meant;
+    if (const std::optional<ResponsePress> meant = next_meant())
+        return meant;
     return answering_ ? answering_->poll() : std::nullopt;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "experiment/ports/clock.h"
+#include "experiment/ports/pressed_on.h"
 #include "experiment/ports/response_panel.h"
 #include "experiment/ports/session_phase.h"
 #include "experiment/protocol/sitting_settings.h"
@@ -36,13 +37,30 @@ class WindowResponsePanel final : public ResponsePanel {
     std::string answer() override { return answering_ ? answering_->answer() : std::string(); }
     bool has_keyboard() const noexcept override { return !window_->has_lost_focus(); }
     void write_down(SessionLog& log) override;
+    std::vector<std::string> closing_warnings() const override;
     void entered(SessionPhase phase, int trial) noexcept override {
+        pressed_on_.entered(phase, trial);
         if (answering_)
             answering_->entered(phase, trial);
     }
 
   private:
+    /// A key that was pressed, to be recorded.
+    struct Noted {
+        WindowKeyPress press{WindowKey::other};
+        SessionTime at;
+        SessionDuration uncertainty{};
+        SessionPhase screen = SessionPhase::trial;
+        int trial = -1;
+        std::optional<ResponsePress::Key> meaning;
+    };
+
     void look() noexcept;
+    /// The next one of the window, noted where keys are recorded.
+    bool next_press(WindowKeyPress& press) noexcept;
+    /// The same until one means something; what it means is noted with it.
+    std::optional<ResponsePress> next_meant() noexcept;
+    void write_presses(SessionLog& log);
     std::optional<ResponsePress> meaning_of(const WindowKeyPress& press) const noexcept;
 
     WindowContext* window_;
@@ -64,6 +82,12 @@ class WindowResponsePanel final : public ResponsePanel {
     std::array<FocusChange, 16> focus_changes_{};
     std::size_t focus_change_count_ = 0;
     bool is_focus_lost_ = false; ///< by the last of them
+    // Keys that were pressed, with room for those of a presentation.
+    PressedOn pressed_on_;
+    std::array<Noted, 256> noted_{};
+    std::size_t noted_count_ = 0;
+    bool is_last_noted_ = false; ///< the press that next_press() gave last is the last of them
+    int unnoted_ = 0;            ///< for want of room
 };
 
 } // namespace overt

@@ -22,18 +22,24 @@ class Keyboard {
     }
 
     /// Presses and releases a key.
-    void type(KeySym symbol, unsigned modifiers = 0) {
-        for (const int kind : {KeyPress, KeyRelease}) {
+    void type(KeySym symbol, unsigned modifiers = 0) { hold(symbol, 1, modifiers); }
+
+    /// Holds a key down until it has come so often.
+    void hold(KeySym symbol, int times, unsigned modifiers = 0) {
+        hold_code(XKeysymToKeycode(display_, symbol), times, modifiers);
+    }
+    void hold_code(unsigned code, int times, unsigned modifiers = 0) {
+        for (int i = 0; i <= times; ++i) {
             XKeyEvent event{};
-            event.type = kind;
+            event.type = i < times ? KeyPress : KeyRelease;
             event.display = display_;
             event.window = window_;
             event.root = XDefaultRootWindow(display_);
             event.same_screen = True;
-            event.keycode = XKeysymToKeycode(display_, symbol);
+            event.keycode = code;
             event.state = modifiers;
             event.time = time_ += 50;
-            XSendEvent(display_, window_, True, kind == KeyPress ? KeyPressMask : KeyReleaseMask,
+            XSendEvent(display_, window_, True, event.type == KeyPress ? KeyPressMask : KeyReleaseMask,
                        reinterpret_cast<XEvent*>(&event));
         }
         XSync(display_, False);

@@ -130,7 +130,7 @@ void SittingExport::write_beginning(std::int64_t ms) {
     if (is_imported_)
         record_.read_gaze_events_before([&](const GazeEvent& event) { said.push_back(event); });
     const TrackerTime at{std::chrono::milliseconds(ms)};
-    AscTrial lines(said, writer_.layout());
+    AscTrial lines(said, {}, writer_.layout());
     lines.finish(recordings_);
     write_screen(at, said);
     if (!is_imported_)
@@ -237,7 +237,7 @@ void SittingExport::write_trial(const TrialRecord& trial, AscExportCounts& count
         return;
     std::vector<GazeEvent> said;
     record_.read_gaze_events_after(trial, [&](const GazeEvent& event) { said.push_back(event); });
-    AscTrial after(std::move(said), writer_.layout());
+    AscTrial after(std::move(said), record_.event_origin(trial.sitting), writer_.layout());
     write(
         after, [&](std::size_t most, const auto& take) { record_.read_samples_after(trial, most, take); },
         counts);

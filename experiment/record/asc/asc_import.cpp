@@ -257,6 +257,7 @@ AscImportSummary import_asc(const AscFiles& files, const AscImportOptions& optio
         files.parse(parser, part_of(options.reading.progress, 2, 1, 3));
         sink.end();
     });
+    note_detection(session_file.parent_path(), 1, files.path(), options, summary);
     finish_imported_session(session_file.parent_path(), options.program);
     if (by_place)
         by_place->publish();

@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include "experiment/events/event_thresholds.h"
 #include "experiment/record/asc/asc_survey.h"
 #include "experiment/record/session_directory.h"
 #include "experiment/record/session_header.h"
@@ -22,9 +23,11 @@ struct AscImportOptions {
     std::filesystem::path out;                 ///< the session's folder itself; empty: by `place`
     std::optional<glm::dvec2> screen_mm;       ///< what the file says of it otherwise
     std::optional<double> viewing_distance_mm; ///< the same
-    ProgramBuild program;                      ///< that imports
-    std::string now_utc;                       ///< for files without a date
-    AscSurveyOptions reading;                  ///< how the file is read; its report and progress, too
+    /// It is noted that fixations, saccades and blinks are to be found in the samples, by these thresholds.
+    std::optional<ChosenThresholds> detect_events;
+    ProgramBuild program;     ///< that imports
+    std::string now_utc;      ///< for files without a date
+    AscSurveyOptions reading; ///< how the file is read; its report and progress, too
 };
 
 struct AscImportSummary {
@@ -55,6 +58,11 @@ AscImportSummary import_asc_into(const AscFiles& files, const std::filesystem::p
 
 /// What every import keeps of its file besides rows.
 GazeSource gaze_source_of(const AscFiles& files, const AscSurvey& survey);
+/// Notes by which thresholds the sitting's events are to be found, if that was asked for, and says so in a
+/// remark; else says how events are had where the file has none. `folder`: of the session, whose rows are all
+/// there; `file`: for messages. Throws InputError if angles are unknown, or if there are no samples.
+void note_detection(const std::filesystem::path& folder, int sitting, const std::string& file,
+                    const AscImportOptions& options, AscImportSummary& summary);
 /// Remarks on what no import keeps.
 void add_asc_remarks(AscImportSummary& summary);
 

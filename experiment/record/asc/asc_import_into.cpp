@@ -218,6 +218,7 @@ AscImportSummary import_asc_into(const AscFiles& files, const fs::path& session,
             insert_values(database, "INTO clock_pair (sitting, before_ns, tracker_us, after_ns)",
                           match.sitting, pair.before, pair.other, pair.after);
     });
+    note_detection(partial.path(), match.sitting, files.path(), options, summary);
     finish_imported_session(partial.path(), options.program);
     partial.publish();
     summary.session = partial.path();

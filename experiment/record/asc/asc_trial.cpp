@@ -126,6 +126,19 @@ void AscTrial::insert(Line line) {
     settle_places();
 }
 
+/// As keep() above, but for those that no file had.
+void AscTrial::keep(std::vector<GazeEvent> events, const SessionRecord::EventOrigin& origin) {
+    std::vector<GazeEvent> detected;
+    if (origin.from == SessionRecord::EventOrigin::From::reading) {
+        const auto of_file = std::stable_partition(
+            events.begin(), events.end(), [](const GazeEvent& event) { return !is_eye_event(event.kind); });
+        detected.assign(of_file, events.end());
+        events.erase(of_file, events.end());
+    }
+    keep(std::move(events));
+    insert_detected(std::move(detected));
+}
+
 /// Fixations, saccades and blinks that no file had, by their times; a blink lies in a saccade.
 void AscTrial::insert_detected(std::vector<GazeEvent> events) {
     std::stable_sort(events.begin(), events.end(), [](const GazeEvent& a, const GazeEvent& b) {
@@ -238,6 +251,11 @@ void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
         if (const std::string answer = answer_text(trial); !answer.empty())
             add(span->second, answer);
     }
+    // Of response boxes there are lines BUTTON.
+    if (clock_map)
+        for (const RecordedKeyPress& press : record.key_presses())
+            if (press.attempt_id == trial.id && !is_of_box(press))
+                add(at(press.at), "KEY " + press.name);
     if (clock_map)
         for (const RecordedButton& button : record.button_changes())
             if (button.attempt_id == trial.id) {
@@ -357,16 +375,7 @@ AscTrial::AscTrial(const SessionRecord& record, const TrialRecord& trial,
                    std::optional<TrackerTime> after)
     : layout_(layout) {
     if (record.gaze_source(trial.sitting)) {
-        std::vector<GazeEvent> events = events_of(record, trial), detected;
-        if (record.event_origin(trial.sitting).from == SessionRecord::EventOrigin::From::reading) {
-            const auto of_file =
-                std::stable_partition(events.begin(), events.end(),
-                                      [](const GazeEvent& event) { return !is_eye_event(event.kind); });
-            detected.assign(of_file, events.end());
-            events.erase(of_file, events.end());
-        }
-        keep(std::move(events));
-        insert_detected(std::move(detected));
+        keep(events_of(record, trial), record.event_origin(trial.sitting));
         add_missing(record, trial, clock_map);
     } else {
         write_down(record, trial, clock_map, after);
@@ -382,8 +391,10 @@ AscTrial::AscTrial(const SessionRecord& record, const TrialRecord& trial,
         frame_for_opensesame(record, trial);
 }
 
-AscTrial::AscTrial(std::vector<GazeEvent> events, const AscLayout& layout) : layout_(layout) {
-    keep(std::move(events));
+AscTrial::AscTrial(std::vector<GazeEvent> events, const SessionRecord::EventOrigin& origin,
+                   const AscLayout& layout)
+    : layout_(layout) {
+    keep(std::move(events), origin);
 }
 
 namespace {

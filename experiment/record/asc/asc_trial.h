@@ -27,8 +27,10 @@ class AscTrial {
     AscTrial(const SessionRecord& record, const TrialRecord& trial, const std::optional<ClockMap>& clock_map,
              const AscLayout& layout, Messages messages, std::optional<TrackerTime> after);
 
-    /// The tracker's own lines outside of trials, in their order.
-    AscTrial(std::vector<GazeEvent> events, const AscLayout& layout);
+    /// The tracker's own lines outside of trials, in their order; `origin`: of the fixations, saccades and
+    /// blinks among them.
+    AscTrial(std::vector<GazeEvent> events, const SessionRecord::EventOrigin& origin,
+             const AscLayout& layout);
 
     /// Writes what stands before the samples of this instant.
     void write_until(AscRecordings& to, std::span<const GazeSample> instant);
@@ -55,6 +57,7 @@ class AscTrial {
     Line message_at(TrackerTime at, std::string text) const;
     TrackerTime rounded(TrackerTime at) const;
     void keep(std::vector<GazeEvent> events);
+    void keep(std::vector<GazeEvent> events, const SessionRecord::EventOrigin& origin);
     void insert(Line line);
     void insert_detected(std::vector<GazeEvent> events);
     void add_missing(const SessionRecord& record, const TrialRecord& trial,

@@ -10,6 +10,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/json_text.h"
+#include "experiment/base/plain_text.h"
 #include "experiment/record/bids/bids_names.h"
 #include "experiment/record/preview_file.h"
 #include "experiment/record/tables/attempt_cells.h"
@@ -55,7 +56,7 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
                                    const std::optional<ClockMap>& clock_map) {
     Levels tasks, blocks;
     for (const RecordedTask& task : header.tasks)
-        tasks.emplace_back(task.id, task.question.empty() ? task.id : task.question);
+        tasks.emplace_back(task.id, task.question.empty() ? task.id : plain_line_of(task.question));
     for (const std::string& block : header.blocks)
         blocks.emplace_back(block, "the block of that name");
     return {
@@ -75,6 +76,7 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
                {"presentation", "the stimulus"},
                {"response", "the screen during the answer"},
                {"button", "a button of a response box was pressed"},
+               {"key", "a key of a keyboard was pressed"},
                {"marker", "another device was told of an event"}}},
              &BidsEvent::what},
             {{"response_time", "From the onset of the response screen to the end of the answer", "s"},
@@ -121,9 +123,10 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
               "Refreshes of the display that went by with an old picture; n/a also where timing is unproven"},
              of_ended(missed_refreshes_of(header))},
             {{"drift_deg", "Gaze error at the drift check", "deg"}, of_ended(attempt_drift)},
-            {{"value", "Of a button, its name; of a marker, its code, or its text where it has none"},
+            {{"value",
+              "Of a button or a key, its name; of a marker, its code, or its text where it has none"},
              [](auto& row) { return when(!row.device.empty(), row.value); }},
-            {{"device", "The response box, or the output of markers, as the protocol calls it"},
+            {{"device", "The response box, or the output of markers, as the protocol calls it; or keyboard"},
              &BidsEvent::device},
             {{"answer", "The answer, where it was taken down"},
              of_ended([](auto& attempt) { return attempt.outcome.answer; })},
@@ -175,9 +178,18 @@ void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTim
     }
 }
 
-/// Presses of buttons in an attempt, and markers of it that were sent.
+/// Presses of buttons and keys in an attempt, and markers of it that were sent.
 void add_devices(std::vector<BidsEvent>& to, const TrialRecord& trial,
-                 const std::vector<RecordedButton>& buttons, const std::vector<RecordedMarker>& markers) {
+                 const std::vector<RecordedButton>& buttons, const std::vector<RecordedKeyPress>& presses,
+                 const std::vector<RecordedMarker>& markers) {
+    for (const RecordedKeyPress& press : presses)
+        if (press.attempt_id == trial.id && !is_of_box(press))
+            to.push_back({.attempt = &trial,
+                          .what = "key",
+                          .from = press.at,
+                          .to = press.at,
+                          .value = press.name,
+                          .device = press.device});
     for (const RecordedButton& button : buttons)
         if (button.attempt_id == trial.id && button.is_down)
             to.push_back({.attempt = &trial,
@@ -233,12 +245,13 @@ void write_bids_events(const SessionRecord& record, int run, std::optional<Sessi
                        TableWriter::Header::names);
     std::vector<BidsEvent> events;
     const std::vector<RecordedButton> buttons = record.button_changes();
+    const std::vector<RecordedKeyPress> presses = record.key_presses();
     const std::vector<RecordedMarker> markers = record.markers();
     for (const TrialRecord& trial : record.trials()) {
         if (trial.sitting != run)
             continue;
         add_events(events, trial, end_of(record, trial, clock_map), stimulus_file);
-        add_devices(events, trial, buttons, markers);
+        add_devices(events, trial, buttons, presses, markers);
     }
     std::stable_sort(events.begin(), events.end(),
                      [](const BidsEvent& a, const BidsEvent& b) { return a.from < b.from; });
@@ -248,7 +261,7 @@ void write_bids_events(const SessionRecord& record, int run, std::optional<Sessi
 
     std::string questions;
     for (const RecordedTask& task : header.tasks)
-        questions += (questions.empty() ? "" : "\n") + task.question;
+        questions += (questions.empty() ? "" : "\n") + plain_line_of(task.question);
     Json json;
     json["TaskName"] = bids_task_name(header);
     if (was_recorded_elsewhere(header)) {

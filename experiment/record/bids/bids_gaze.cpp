@@ -12,7 +12,7 @@
 #include "experiment/record/bids/bids_tracker.h"
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/record/tables/joined_cells.h"
-#include "experiment/record/tables/pupil_words.h"
+#include "experiment/record/read/tracker_facts.h"
 #include "experiment/record/tables/sample_rows.h"
 
 namespace fs = std::filesystem;
@@ -35,11 +35,11 @@ JoinedColumns first_columns() {
 }
 
 /// BIDS has one name for it, and wants the words area or diameter.
-RowLayout<JoinedRow> physio_layout(const PupilWords& pupil) {
+RowLayout<JoinedRow> physio_layout(const PupilWords& words) {
     RowLayout<JoinedRow> layout("", "", first_columns());
     layout.add<JoinedRow>({
-        {{"pupil_size", pupil.meaning + (pupil.unit == "mm" ? "" : ", in the tracker's own unit"),
-          pupil.unit == "mm" ? "mm" : "arbitrary"},
+        {{"pupil_size", words.meaning + (words.unit == "mm" ? "" : ", in the tracker's own unit"),
+          words.unit == "mm" ? "mm" : "arbitrary"},
          pupil_size},
     });
     return layout;
@@ -145,7 +145,7 @@ std::optional<SessionTime> bids_zero(const SessionRecord& record, int run) {
 BidsGazeCounts write_bids_gaze(const SessionRecord& record, int run, const LookupFor& lookup_for,
                                const fs::path& raw, const fs::path& derived) {
     const SessionRecord::Eyes eyes = record.eyes(run);
-    const PupilWords pupil = pupil_words(record);
+    const PupilWords pupil = pupil_words(record, run);
     std::vector<std::unique_ptr<EyeFiles>> files;
     for (const Eye eye : {Eye::left, Eye::right})
         if (eye == Eye::left ? eyes.left : eyes.right)

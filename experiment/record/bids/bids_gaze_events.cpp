@@ -10,9 +10,9 @@
 #include "experiment/record/asc/asc_trial.h"
 #include "experiment/record/bids/bids_names.h"
 #include "experiment/record/tables/export_tables.h"
+#include "experiment/record/read/tracker_facts.h"
 #include "experiment/record/tables/gaze_event_rows.h"
 #include "experiment/record/tables/joined_cells.h"
-#include "experiment/record/tables/pupil_words.h"
 #include "experiment/record/tables/table_writer.h"
 
 namespace overt {
@@ -112,7 +112,7 @@ void write_events(TableWriter& to, const RowLayout<PhysioEvent>& layout, std::ve
 
 void write_bids_gaze_events(const SessionRecord& record, int run, Eye eye,
                             const std::filesystem::path& stem) {
-    const RowLayout<PhysioEvent> layout = physio_events_layout(pupil_words(record));
+    const RowLayout<PhysioEvent> layout = physio_events_layout(pupil_words(record, run));
     TableWriter writer(stem.string() + ".tsv.gz", layout.table(), TableFormat::tsv, Packing::gzip,
                        TableWriter::Header::none);
     const bool is_imported = record.gaze_source(run).has_value();

@@ -8,6 +8,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/json_text.h"
+#include "experiment/base/plain_text.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/record/tables/participant_rows.h"
@@ -122,7 +123,7 @@ std::vector<std::string> add_bids_participant(const fs::path& dataset, const Ses
         set(name, "", "");
     for (const RecordedObserverField& field : participant.fields) {
         if (is_usual_value(field.id, field.value))
-            set(field.id, field.title, field.value);
+            set(field.id, plain_line_of(field.title), field.value);
         else
             remarks.push_back(
                 fmt::format("{}: {} is \"{}\" in this session, which BIDS does not know: left out.", id,

@@ -1,4 +1,4 @@
-/// What response boxes and outputs of markers did in a session.
+/// What response boxes, keyboards and outputs of markers did in a session.
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/sql.h"
 
@@ -18,6 +18,26 @@ std::vector<RecordedButton> SessionRecord::button_changes() const {
                 if (device_us)
                     button.device_time = BoxTime(BoxClock::duration(*device_us));
                 return button;
+            });
+    });
+}
+
+std::vector<RecordedKeyPress> SessionRecord::key_presses() const {
+    return reading_session(file_, [&] {
+        return read_later_rows(
+            *database_, "key_press",
+            "SELECT sitting, at_ns, uncertainty_ns, COALESCE(trial, -1), attempt_id, device, name, code, "
+            "modifiers, text, screen, meaning FROM key_press ORDER BY id",
+            [](Query& row) {
+                RecordedKeyPress press;
+                std::string screen;
+                row.read(press.sitting, press.at, press.uncertainty, press.trial, press.attempt_id,
+                         press.device, press.name, press.code, press.modifiers, press.text, screen,
+                         press.meaning);
+                for (int phase = 0; phase < session_phase_count; ++phase)
+                    if (screen == name_of(static_cast<SessionPhase>(phase)))
+                        press.screen = static_cast<SessionPhase>(phase);
+                return press;
             });
     });
 }

@@ -1,11 +1,16 @@
 /// Fixations, saccades and blinks of a session, and what else its tracker said.
+#include <algorithm>
+#include <map>
+#include <mutex>
 #include <set>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
-#include "experiment/events/event_detector.h"
+#include "experiment/events/recording_events.h"
 #include "experiment/record/gaze_rows.h"
 #include "experiment/record/read/session_record.h"
+#include "experiment/record/read/settings_words.h"
 #include "experiment/record/sql.h"
 
 namespace overt {
@@ -13,17 +18,57 @@ namespace {
 
 constexpr std::size_t samples_at_once = 65536;
 
-/// Gives events on to a function.
-class EventTaker final : public EventListener {
+/// The settings of a detection that this program noted; nothing if its parameters are not such.
+std::optional<EventSettings> settings_of(const EventDetection& detection) {
+    const nlohmann::json parameters = nlohmann::json::parse(detection.parameters, nullptr, false);
+    if (detection.name != event_detector_name || !parameters.is_object())
+        return std::nullopt;
+    EventSettings settings;
+    for (const EventThreshold& threshold : event_thresholds) {
+        const auto value = parameters.find(threshold.key);
+        if (value == parameters.end() || !value->is_number())
+            return std::nullopt;
+        settings.*threshold.setting = value->get<double>();
+    }
+    return settings;
+}
+
+/// Puts each event to the trial that its last sample is of.
+class EventsByTrial final : public EventListener {
   public:
-    explicit EventTaker(const std::function<void(const GazeEvent&)>& take) : take_(take) {}
-    void detected(const GazeEvent& event) override { take_(event); }
+    explicit EventsByTrial(std::map<std::int64_t, std::vector<GazeEvent>>& events) : events_(events) {}
+
+    void begin(std::int64_t trial_id, TrackerTime first) { begun_.emplace_back(first, trial_id); }
+    void detected(const GazeEvent& event) override {
+        // An event is told soon after its end: the trials that matter are the last ones.
+        std::size_t i = begun_.size() - 1;
+        while (i > 0 && begun_[i].first > event.end)
+            --i;
+        events_[begun_[i].second].push_back(event);
+    }
 
   private:
-    const std::function<void(const GazeEvent&)>& take_;
+    std::map<std::int64_t, std::vector<GazeEvent>>& events_;
+    std::vector<std::pair<TrackerTime, std::int64_t>> begun_;
 };
 
 } // namespace
+
+/// What is found in a sitting's samples.
+struct SessionRecord::FoundEvents {
+    EventSettings settings;
+    EventDetection detection;
+    bool are_found = false;
+    std::map<std::int64_t, std::vector<GazeEvent>> by_trial; ///< by the trial_id that samples are under
+};
+
+/// What is to be found, and was found so far; for all readers that work together.
+struct SessionRecord::FindingEvents {
+    bool in_imports = false;
+    std::optional<ChosenThresholds> everywhere;
+    std::mutex mutex; ///< of what follows
+    std::map<int, FoundEvents> found;
+};
 
 std::string sentence_on(const SessionRecord::EventOrigin& origin) {
     using From = SessionRecord::EventOrigin::From;
@@ -31,25 +76,143 @@ std::string sentence_on(const SessionRecord::EventOrigin& origin) {
         return "";
     if (origin.from == From::tracker)
         return "Fixations, saccades and blinks are those of the eye tracker itself.";
-    return fmt::format(
-        "Fixations, saccades and blinks were found {}, by the detector of {}, version {}, with {}.",
-        origin.from == From::recording ? "while the session was recorded"
-                                       : "in the recorded samples when they were exported",
-        origin.detection.name, origin.detection.version, origin.detection.parameters);
+    if (origin.from == From::no_angles)
+        return "Fixations, saccades and blinks were not looked for, because angles are unknown: the session says "
+               "neither how large its screen is and how far away it was, nor the tracker's pixels per degree. "
+               "Import the recording again with --screen-mm and --distance-mm.";
+    return fmt::format("Fixations, saccades and blinks were found {}, by the detector of {}, version {}: {}.",
+                       origin.from == From::recording ? "while the session was recorded"
+                                                      : "afterwards, in the recorded samples",
+                       origin.detection.name, origin.detection.version,
+                       settings_in_words(origin.detection.parameters));
+}
+
+void SessionRecord::detect_events_of_imports() {
+    finding_ = std::make_shared<FindingEvents>();
+    finding_->in_imports = true;
+    event_origins_.clear();
+}
+
+void SessionRecord::detect_events(const ChosenThresholds& chosen) {
+    finding_ = std::make_shared<FindingEvents>();
+    finding_->everywhere = chosen;
+    event_origins_.clear();
+}
+
+void SessionRecord::detect_events_as(const SessionRecord& other) {
+    finding_ = other.finding_;
+    event_origins_.clear();
+}
+
+void SessionRecord::make_ready_to_find() { finding_ = std::make_shared<FindingEvents>(); }
+
+void SessionRecord::read_sitting(int sitting, const std::function<void(std::int64_t, TrackerTime)>& begin,
+                                 const std::function<void(std::span<const GazeSample>, bool)>& take) const {
+    std::vector<TrackerTime> starts; // of the tracker's own recordings
+    const auto note_starts = [&](std::int64_t trial_id) {
+        read_gaze_events_of(trial_id, [&](const GazeEvent& event) {
+            if (event.kind == GazeEvent::Kind::started)
+                starts.push_back(event.start);
+        });
+    };
+    for (const TrialRecord& trial : trials_)
+        if (trial.sitting == sitting)
+            for (const std::int64_t id : {trial.id, after_trial(trial.id)})
+                note_starts(id);
+    auto next_start = starts.begin();
+    std::optional<TrackerTime> last;
+    const auto read = [&](std::int64_t trial_id) {
+        bool is_first = true;
+        read_samples_of(trial_id, samples_at_once, [&](std::span<const GazeSample> samples) {
+            if (is_first) {
+                // Where the tracker's clock went back, what was open is ended before its next trial begins.
+                if (last && samples.front().sampled_at < *last)
+                    take({}, true);
+                begin(trial_id, samples.front().sampled_at);
+            }
+            is_first = false;
+            std::size_t from = 0;
+            for (std::size_t i = 0; i < samples.size(); ++i) {
+                const TrackerTime at = samples[i].sampled_at;
+                bool begins = false;
+                for (; next_start != starts.end() && *next_start <= at; ++next_start)
+                    begins |= last && *next_start > *last;
+                if (begins) {
+                    take(samples.subspan(from, i - from), false);
+                    take({}, true);
+                    from = i;
+                }
+                last = at;
+            }
+            take(samples.subspan(from), false);
+        });
+    };
+    for (const TrialRecord& trial : trials_)
+        if (trial.sitting == sitting)
+            for (const std::int64_t id : {trial.id, after_trial(trial.id)})
+                read(id);
+}
+
+const SessionRecord::FoundEvents& SessionRecord::found_events(int sitting, bool with_events) const {
+    const std::scoped_lock lock(finding_->mutex);
+    auto known = finding_->found.find(sitting);
+    if (known == finding_->found.end()) {
+        FoundEvents found;
+        const std::optional<EventDetection> noted = reading_session(file_, [&] {
+            return has_table(*database_, "event_detection") ? read_event_detection(*database_, sitting)
+                                                            : std::nullopt;
+        });
+        const std::optional<EventSettings> as_noted = noted ? settings_of(*noted) : std::nullopt;
+        if (as_noted && !finding_->everywhere) {
+            found.settings = *as_noted;
+            found.detection = {noted->name, event_detector_version, noted->parameters};
+        } else {
+            const RecordingThresholds thresholds = thresholds_for(
+                [&](const TakeGaze& take) {
+                    read_sitting(
+                        sitting, [](std::int64_t, TrackerTime) {}, take);
+                },
+                *gaze_angles(sitting), finding_->everywhere.value_or(ChosenThresholds{}));
+            found.settings = thresholds.settings;
+            found.detection = detection_by(thresholds.settings, thresholds.measured);
+        }
+        known = finding_->found.emplace(sitting, std::move(found)).first;
+    }
+    FoundEvents& found = known->second;
+    if (with_events && !found.are_found) {
+        EventsByTrial by_trial(found.by_trial);
+        find_events(
+            [&](const TakeGaze& take) {
+                read_sitting(
+                    sitting, [&](std::int64_t id, TrackerTime first) { by_trial.begin(id, first); }, take);
+            },
+            *gaze_angles(sitting), found.settings, by_trial);
+        found.are_found = true;
+    }
+    return found;
+}
+
+bool SessionRecord::is_found_now(int sitting) const {
+    return event_origin(sitting).from == EventOrigin::From::reading;
+}
+
+void SessionRecord::read_gaze_events_in(int sitting, std::int64_t trial_id,
+                                        const std::function<void(const GazeEvent&)>& take) const {
+    if (!is_found_now(sitting))
+        return read_gaze_events_of(trial_id, take);
+    read_gaze_events_of(trial_id, [&](const GazeEvent& event) {
+        if (!is_eye_event(event.kind))
+            take(event);
+    });
+    const FoundEvents& found = found_events(sitting, true);
+    if (const auto events = found.by_trial.find(trial_id); events != found.by_trial.end())
+        for (const GazeEvent& event : events->second)
+            take(event);
 }
 
 void SessionRecord::read_gaze_events(const TrialRecord& trial,
                                      const std::function<void(const GazeEvent&)>& take) const {
-    read_gaze_events_of(trial.id, take);
-    if (event_origin(trial.sitting).from != EventOrigin::From::reading)
-        return;
-    EventTaker taker(take);
-    EventDetector detector(EventSettings{}, *gaze_angles(trial.sitting), taker);
-    read_samples(trial, samples_at_once, [&](std::span<const GazeSample> samples) {
-        for (const GazeSample& sample : samples)
-            detector.push(sample);
-    });
-    detector.finish();
+    read_gaze_events_in(trial.sitting, trial.id, take);
 }
 
 void SessionRecord::read_gaze_events_of(std::int64_t trial_id,
@@ -61,12 +224,15 @@ void SessionRecord::read_gaze_events_of(std::int64_t trial_id,
 }
 
 void SessionRecord::read_gaze_events_before(const std::function<void(const GazeEvent&)>& take) const {
-    read_gaze_events_of(0, take);
+    // They are of the sitting whose gaze was imported, the only one that has such.
+    const auto imported = std::ranges::find_if(
+        trials_, [&](const TrialRecord& trial) { return gaze_source(trial.sitting).has_value(); });
+    read_gaze_events_in(imported == trials_.end() ? 0 : imported->sitting, 0, take);
 }
 
 void SessionRecord::read_gaze_events_after(const TrialRecord& trial,
                                            const std::function<void(const GazeEvent&)>& take) const {
-    read_gaze_events_of(after_trial(trial.id), take);
+    read_gaze_events_in(trial.sitting, after_trial(trial.id), take);
 }
 
 void SessionRecord::read_gaze_events_outside(const std::function<void(const GazeEvent&)>& take) const {
@@ -85,27 +251,31 @@ SessionRecord::EventOrigin SessionRecord::event_origin(int sitting) const {
 SessionRecord::EventOrigin SessionRecord::find_event_origin(int sitting) const {
     using From = EventOrigin::From;
     const bool is_imported = gaze_source(sitting).has_value();
-    return reading_session(file_, [&]() -> EventOrigin {
-        if (!is_imported && has_table(*database_, "event_detection"))
+    const auto has_rows = [&](const char* sql) {
+        Query row(*database_, sql);
+        row.bind(1, sitting);
+        return row.step() && row.integer() != 0;
+    };
+    const EventOrigin on_record = reading_session(file_, [&]() -> EventOrigin {
+        const bool has_samples =
+            has_rows("SELECT EXISTS (SELECT * FROM sample JOIN trial USING (trial_id) WHERE sitting = ?)");
+        if (finding_->everywhere && has_samples)
+            return {From::reading, {}};
+        if (has_table(*database_, "event_detection"))
             if (const auto detection = read_event_detection(*database_, sitting))
-                return {From::recording, *detection};
-        if (has_table(*database_, "gaze_event")) {
-            Query row(*database_,
-                      "SELECT EXISTS (SELECT * FROM gaze_event JOIN trial USING (trial_id) WHERE sitting = ? "
-                      "AND kind IN ('fixation', 'saccade', 'blink'))");
-            row.bind(1, sitting);
-            if (row.step() && row.integer() != 0)
-                return {From::tracker, {}};
-        }
-        if (is_imported && !detects_imports_)
-            return {};
-        Query samples(*database_,
-                      "SELECT EXISTS (SELECT * FROM sample JOIN trial USING (trial_id) WHERE sitting = ?)");
-        samples.bind(1, sitting);
-        if (!samples.step() || samples.integer() == 0 || !gaze_angles(sitting))
-            return {};
-        return {From::reading, detection_by({})};
+                return {is_imported ? From::reading : From::recording, *detection};
+        if (has_table(*database_, "gaze_event") &&
+            has_rows("SELECT EXISTS (SELECT * FROM gaze_event JOIN trial USING (trial_id) WHERE sitting = ? "
+                     "AND kind IN ('fixation', 'saccade', 'blink'))"))
+            return {From::tracker, {}};
+        return {has_samples && (!is_imported || finding_->in_imports) ? From::reading : From::nobody, {}};
     });
+    if (on_record.from != From::reading)
+        return on_record;
+    if (!gaze_angles(sitting))
+        return {From::no_angles, {}};
+    const FoundEvents& found = found_events(sitting, false);
+    return {From::reading, found.detection, found.settings};
 }
 
 std::string SessionRecord::event_origins() const {

@@ -40,6 +40,7 @@ SessionRecord::SessionRecord(const std::filesystem::path& session)
     : directory_(std::filesystem::is_directory(session) ? session : session.parent_path()),
       file_(std::filesystem::is_directory(session) ? session / session_file_name : session),
       database_(std::make_unique<SQLite::Database>(open_session_file(file_, SessionFileUse::read))) {
+    make_ready_to_find();
     reading_session(file_, [&] {
         header_ = read_session_header(*database_);
         trials_ = read_trials(*database_);
@@ -84,6 +85,10 @@ SessionTime SessionRecord::last_time() const {
                  *database_, "box_clock_pair", "SELECT COALESCE(MAX(after_ns), 0) FROM box_clock_pair",
                  [](Query& box) { return box.session_time(); }))
             last = std::max(last, of_box);
+        for (const SessionTime of_key :
+             read_later_rows(*database_, "key_press", "SELECT COALESCE(MAX(at_ns), 0) FROM key_press",
+                             [](Query& key) { return key.session_time(); }))
+            last = std::max(last, of_key);
         return last;
     });
 }

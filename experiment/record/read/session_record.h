@@ -13,7 +13,7 @@
 
 #include "experiment/analysis/flip_history.h"
 #include "experiment/clock_map.h"
-#include "experiment/events/event_settings.h"
+#include "experiment/events/event_thresholds.h"
 #include "experiment/events/gaze_angles.h"
 #include "experiment/gaze_event.h"
 #include "experiment/ports/observer_field.h"
@@ -21,6 +21,7 @@
 #include "experiment/ports/recorded_button.h"
 #include "experiment/ports/recorded_calibration.h"
 #include "experiment/ports/recorded_consent.h"
+#include "experiment/ports/recorded_key_press.h"
 #include "experiment/ports/recorded_marker.h"
 #include "experiment/ports/session_history.h"
 #include "experiment/ports/trial_outcome.h"
@@ -58,6 +59,9 @@ struct TrialRecord {
     /// empty and nothing of a keyboard, and of sessions of earlier programs.
     std::string response_box = {};
     std::optional<SessionDuration> response_uncertainty = {};
+    /// What was pressed to end the response screen; empty if time ended it, and of sessions of earlier
+    /// programs.
+    std::string response_key = {};
 
     /// It came to its end, in order or not.
     bool has_outcome() const { return status == Status::completed || status == Status::aborted; }
@@ -134,21 +138,31 @@ class SessionRecord {
             nobody,    ///< there are none
             tracker,   ///< it told them, in the file that was imported
             recording, ///< the program found them while it recorded
-            reading    ///< they are found now, from the samples, with the default settings
+            reading,   ///< they are found now, from the samples
+            no_angles  ///< they would be found now, but that nothing tells what an angle is on the screen
         };
         From from = From::nobody;
         EventDetection detection = {}; ///< the program's
+        EventSettings settings = {};   ///< of those that are found now
     };
-    /// Sessions of earlier programs have no events: they are found now. So are those of imported recordings,
-    /// but only after detect_events_of_imports(): an import is otherwise given as its file has it.
+    /// Sessions of earlier programs have no events: they are found now, over a sitting as a whole, by the
+    /// thresholds that go with its rate and noise. So are those of imports that were to have them found
+    /// (with what was noted then), and after detect_events_of_imports() or detect_events(). An import is
+    /// otherwise given as its file has it. The first question after a sitting that is found now reads its
+    /// samples.
     EventOrigin event_origin(int sitting) const;
     /// Also where a recording was imported without any fixation, saccade and blink.
-    void detect_events_of_imports() {
-        detects_imports_ = true;
-        event_origins_.clear();
-    }
+    void detect_events_of_imports();
+    /// In all sittings, in place of those that are on record, which stay there.
+    void detect_events(const ChosenThresholds& chosen);
+    /// Does as `other`, a reader of the same session, and finds together with it what both need; then each
+    /// may be on a thread of its own.
+    void detect_events_as(const SessionRecord& other);
     /// The origins of all sittings as sentences, for who reads an export; empty if there are no events.
     std::string event_origins() const;
+
+    /// By the session's screen, else by the imported recording's resolution; nothing if neither is known.
+    std::optional<GazeAngles> gaze_angles(int sitting) const;
 
     /// The file that a sitting's gaze came from; nothing if it came from the tracker itself.
     std::optional<GazeSource> gaze_source(int sitting) const;
@@ -168,6 +182,9 @@ class SessionRecord {
     /// they were written. Sessions of earlier programs have none.
     std::vector<RecordedButton> button_changes() const;
     std::vector<RecordedMarker> markers() const;
+
+    /// Keys and buttons that were pressed in trials, and on the screens between them, likewise.
+    std::vector<RecordedKeyPress> key_presses() const;
 
     /// Each time that somebody agreed to take part, or did not.
     std::vector<RecordedConsent> consents() const;
@@ -236,9 +253,19 @@ class SessionRecord {
 
   private:
     std::optional<KnownInterval> refresh_interval(int sitting) const;
-    /// By the session's screen, else by the imported recording's resolution; nothing if neither is known.
-    std::optional<GazeAngles> gaze_angles(int sitting) const;
     EventOrigin find_event_origin(int sitting) const;
+    struct FindingEvents;
+    struct FoundEvents;
+    void make_ready_to_find();
+    /// Of a sitting whose events are found now: by what, and if `with_events` the events themselves.
+    const FoundEvents& found_events(int sitting, bool with_events) const;
+    /// All samples of a sitting in their order. `begin` is told the trial_id of those that follow and the
+    /// time of the first; `take` as TakeGaze.
+    void read_sitting(int sitting, const std::function<void(std::int64_t trial_id, TrackerTime first)>& begin,
+                      const std::function<void(std::span<const GazeSample>, bool begins)>& take) const;
+    bool is_found_now(int sitting) const;
+    void read_gaze_events_in(int sitting, std::int64_t trial_id,
+                             const std::function<void(const GazeEvent&)>& take) const;
     void read_samples_of(std::int64_t trial_id, std::size_t most,
                          const std::function<void(std::span<const GazeSample>)>& take) const;
     void read_gaze_events_of(std::int64_t trial_id, const std::function<void(const GazeEvent&)>& take) const;
@@ -250,7 +277,7 @@ class SessionRecord {
     std::vector<TrialRecord> trials_;
     mutable std::map<int, std::optional<KnownInterval>> intervals_; ///< by sitting, once asked for
     mutable std::map<int, EventOrigin> event_origins_;              ///< the same
-    bool detects_imports_ = false;
+    std::shared_ptr<FindingEvents> finding_;                        ///< together with other readers
 };
 
 /// A whole sentence; empty if nobody found any.

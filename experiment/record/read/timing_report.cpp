@@ -6,6 +6,7 @@
 
 #include "experiment/ports/event_kinds.h"
 #include "experiment/record/read/sample_join.h"
+#include "experiment/record/read/session_faults.h"
 
 namespace overt {
 
@@ -113,9 +114,9 @@ TimingReport timing_report(const SessionRecord& record) {
     report.nominal_interval_ms = header.display.refresh_hz > 0.0 ? 1e3 / header.display.refresh_hz : 0.0;
     report.is_virtual = header.clock == ClockKind::virtual_time;
     report.is_unproven = header.display.is_timing_unproven();
+    report.has_simulated_faults = simulated_sides(record).display;
     std::multimap<int, std::string> disturbances;
     for (const RecordedEvent& event : record.events()) {
-        report.has_simulated_faults |= event.kind == simulated_faults_event;
         if (event.trial >= 0 && (event.kind == machine_slept_event || event.kind == wall_clock_set_event))
             disturbances.emplace(event.trial, event.kind + ": " + event.detail);
     }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "experiment/record/read/session_record.h"
@@ -30,6 +31,15 @@ TrackerFacts tracker_facts(const TrackerDescription& tracker);
 
 /// Of a sitting: its gaze may have been imported from another tracker's file.
 TrackerFacts tracker_facts(const SessionRecord& record, int sitting);
+
+/// What a column of pupils is called, means, and is counted in.
+struct PupilWords {
+    std::string column, meaning, unit;
+};
+PupilWords pupil_words(PupilMeasure pupil);
+/// Of a whole session, or of one sitting. Where its trials differ, as those of an imported file may, it is a
+/// size, and the meaning says in which trials it is what. Throws RecordError.
+PupilWords pupil_words(const SessionRecord& record, std::optional<int> sitting = {});
 
 /// How many targets a calibration had, by RecordedCalibration::method: "tracker, 9 points". Nothing where the
 /// tracker does not tell.

@@ -72,6 +72,33 @@ void add_presses(const SQLite::Database& database, std::vector<TrialRecord>& tri
     }
 }
 
+/// The first that meant something at the time of the answer.
+void add_response_keys(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
+    if (!has_table(database, "key_press"))
+        return;
+    for (Query row(database, "SELECT trial.trial_id, name FROM trial JOIN key_press "
+                             "ON attempt_id = trial.trial_id AND at_ns = responded_ns "
+                             "WHERE screen = 'response screen' AND meaning <> '' ORDER BY id DESC");
+         row.step();) {
+        const auto trial = std::ranges::find(trials, row.integer(), &TrialRecord::id);
+        if (trial != trials.end())
+            trial->response_key = row.text();
+    }
+}
+
+void add_gaze(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
+    if (!has_table(database, "trial_gaze"))
+        return;
+    for (Query row(database, "SELECT trial_id, samples, without_gaze, missing FROM trial_gaze");
+         row.step();) {
+        const auto trial = std::ranges::find(trials, row.integer(), &TrialRecord::id);
+        GazeYield gaze;
+        row.read(gaze.samples, gaze.without_gaze, gaze.missing);
+        if (trial != trials.end())
+            trial->outcome.gaze = gaze;
+    }
+}
+
 void add_swap_modes(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
     if (!has_table(database, "swap_modes"))
         return;
@@ -110,6 +137,8 @@ std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
     add_response_boxes(database, trials);
     add_presses(database, trials);
     add_swap_modes(database, trials);
+    add_response_keys(database, trials);
+    add_gaze(database, trials);
     return trials;
 }
 

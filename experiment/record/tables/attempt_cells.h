@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "experiment/base/plain_text.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/tables/joined_cells.h"
 #include "experiment/record/tables/shared_columns.h"
@@ -33,8 +34,8 @@ inline auto task_of(const SessionHeader& header) {
     };
 }
 inline auto question_of(const SessionHeader& header) {
-    return [&header](const TrialRecord& attempt) -> std::string_view {
-        return item(header.tasks, attempt.trial.task).question;
+    return [&header](const TrialRecord& attempt) {
+        return plain_line_of(item(header.tasks, attempt.trial.task).question);
     };
 }
 inline auto sculpture_of(const SessionHeader& header) {

@@ -1,4 +1,4 @@
-/// What response boxes and outputs of markers did, as tables.
+/// What response boxes, keyboards and outputs of markers did, as tables.
 #include "experiment/record/tables/session_tables.h"
 
 namespace overt {
@@ -38,6 +38,48 @@ RowLayout<RecordedButton> buttons_layout() {
                 {{"device_time_us", "By the box's own clock, where it has one", "us"},
                  [](auto& row) { return of_maybe(row.device_time, microseconds_of); }},
             }};
+}
+
+RowLayout<RecordedKeyPress> key_presses_layout() {
+    std::vector<std::pair<std::string, std::string>> screens;
+    for (const auto& [phase, what] :
+         {std::pair(SessionPhase::block, "A block's instructions"),
+          std::pair(SessionPhase::trial, "Nothing: the stimulus was made ready"),
+          std::pair(SessionPhase::task_screen, "The question"),
+          std::pair(SessionPhase::stimulus, "The animation, or the empty screen before and after it"),
+          std::pair(SessionPhase::response_screen, "The screen on which the answer is given"),
+          std::pair(SessionPhase::feedback, "What is said after practice"),
+          std::pair(SessionPhase::rest, "A break"), std::pair(SessionPhase::end, "The farewell")})
+        screens.emplace_back(name_of(phase), what);
+    return {
+        "key_presses",
+        "Keys and buttons that were pressed in all attempts, in practice and on the screens between trials, "
+        "but in no form and at no question to the operator. A key that is held is one press.",
+        {
+            {session_seconds("time_s", "When it was pressed"), &RecordedKeyPress::at},
+            {{"uncertainty_s",
+              "Of a keyboard, which is looked at now and then: it was pressed so long before time_s at most; "
+              "of "
+              "a response box: so far at most time_s is off",
+              "s"},
+             &RecordedKeyPress::uncertainty},
+            {trial_number(), trial_cell},
+            {{"screen", "What stood on the screen", "", screens},
+             [](auto& row) { return name_of(row.screen); }},
+            {{"device", "keyboard, simulated observer, or the response box as the protocol calls it"},
+             &RecordedKeyPress::device},
+            {{"name", "What is written on it by the keyboard's layout, or what it is called"},
+             &RecordedKeyPress::name},
+            {{"code", "The keyboard's scancode, or the button's number"}, &RecordedKeyPress::code},
+            {{"modifiers", "What was held with it, as shift or control+alt; empty: nothing"},
+             &RecordedKeyPress::modifiers},
+            {{"text", "What it wrote; empty: nothing"}, &RecordedKeyPress::text},
+            {{"meaning",
+              "What it means there: next goes on (on the response screen it answers, but not before "
+              "response_min_s), else a key of the operator's, or a button's meaning by the protocol; empty: "
+              "nothing"},
+             &RecordedKeyPress::meaning},
+        }};
 }
 
 RowLayout<RecordedMarker> markers_layout() {

@@ -23,26 +23,27 @@ std::string_view description_of(TableFormat format) {
 
 } // namespace
 
-ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& shared,
+ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& shared, const PupilWords& pupil,
                            std::optional<Degrees> cone_accuracy, const std::string& event_origins,
-                           const std::vector<ParticipantRow>& participant, const PupilWords& pupil)
+                           const std::vector<ParticipantRow>& participant)
     : trials(trials_layout(shared, header)), flips(ledger_layout(shared, header)),
-      samples(samples_layout(shared, header, cone_accuracy, pupil)),
-      gaze_events(gaze_events_layout(header, event_origins, pupil.meaning)), events(events_layout()),
+      samples(samples_layout(shared, header, pupil, cone_accuracy)),
+      gaze_events(gaze_events_layout(header, event_origins, pupil)), events(events_layout()),
       responses(responses_layout(shared, header)), stimuli(stimuli_layout(shared, header)),
-      display_box(display_box_layout()), buttons(buttons_layout()), markers(markers_layout()),
-      participants(participants_layout(participant)) {
+      display_box(display_box_layout()), buttons(buttons_layout()), key_presses(key_presses_layout()),
+      markers(markers_layout()), participants(participants_layout(participant)) {
     const std::vector<LeadingColumn> leading{
         {{"observer", "Label of the observer"}, header.schedule.observer.label},
         {{"session", "Which session of this observer, from 1"}, std::to_string(header.session_number), true}};
     const auto lead = [&](auto&... layouts) { (layouts.lead_with(leading), ...); };
-    lead(trials, flips, samples, gaze_events, events, responses, stimuli, display_box, buttons, markers);
+    lead(trials, flips, samples, gaze_events, events, responses, stimuli, display_box, buttons, key_presses,
+         markers);
 }
 
 std::vector<const Table*> ExportTables::all() const {
-    return {&trials.table(),  &flips.table(),     &samples.table(),     &gaze_events.table(),
-            &events.table(),  &responses.table(), &stimuli.table(),     &display_box.table(),
-            &buttons.table(), &markers.table(),   &participants.table()};
+    return {&trials.table(),  &flips.table(),       &samples.table(), &gaze_events.table(),
+            &events.table(),  &responses.table(),   &stimuli.table(), &display_box.table(),
+            &buttons.table(), &key_presses.table(), &markers.table(), &participants.table()};
 }
 
 nlohmann::ordered_json describe_columns(const std::vector<TableColumn>& columns, TableFormat format) {

@@ -21,14 +21,15 @@ namespace overt {
 /// All tables of one session's export. Levels name the session's own tasks, sculptures and materials.
 class ExportTables {
   public:
-    /// With the columns of a gaze cone if its accuracy is given. `event_origins`: see gaze_events_layout().
-    /// `participant` is the session's; `pupil`: see pupil_words(). All tables begin with the observer and the
-    /// number of the session, so that those of several sessions can be put one below the other. `header` must
-    /// outlive it.
-    explicit ExportTables(const SessionHeader& header, std::optional<Degrees> cone_accuracy = {},
-                          const std::string& event_origins = {},
-                          const std::vector<ParticipantRow>& participant = {}, const PupilWords& pupil = {})
-        : ExportTables(header, SharedColumns(header), cone_accuracy, event_origins, participant, pupil) {}
+    /// `pupil`: what the tracker calls the size of a pupil. With the columns of a gaze cone if its accuracy
+    /// is given. `event_origins`: see gaze_events_layout(). `participant` is the session's. All tables begin
+    /// with the observer and the number of the session, so that those of several sessions can be put one
+    /// below the other. `header` must outlive it.
+    explicit ExportTables(const SessionHeader& header,
+                          const PupilWords& pupil = pupil_words(PupilMeasure::unknown),
+                          std::optional<Degrees> cone_accuracy = {}, const std::string& event_origins = {},
+                          const std::vector<ParticipantRow>& participant = {})
+        : ExportTables(header, SharedColumns(header), pupil, cone_accuracy, event_origins, participant) {}
 
     RowLayout<TrialRow> trials;
     RowLayout<LedgerRow> flips;
@@ -39,15 +40,16 @@ class ExportTables {
     RowLayout<RecordedStimulus> stimuli;
     RowLayout<DisplayBoxRow> display_box;
     RowLayout<RecordedButton> buttons;
+    RowLayout<RecordedKeyPress> key_presses;
     RowLayout<RecordedMarker> markers;
     RowLayout<ParticipantRow> participants;
 
     std::vector<const Table*> all() const;
 
   private:
-    ExportTables(const SessionHeader& header, const SharedColumns& shared,
+    ExportTables(const SessionHeader& header, const SharedColumns& shared, const PupilWords& pupil,
                  std::optional<Degrees> cone_accuracy, const std::string& event_origins,
-                 const std::vector<ParticipantRow>& participant, const PupilWords& pupil);
+                 const std::vector<ParticipantRow>& participant);
 };
 
 /// Of each column Description, Units and Levels, as in BIDS side cars.

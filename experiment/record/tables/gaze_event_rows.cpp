@@ -47,9 +47,9 @@ std::vector<RowLayout<GazeEventRow>::Column> surface_columns(const SessionHeader
     };
     const auto share = [](double StudyFixation::*of) {
         return [of](const GazeEventRow& row) {
-            const bool is_known = row.fixation && row.fixation->samples > 0 &&
-                                  row.fixation->why != NotCounted::no_surface &&
-                                  row.fixation->why != NotCounted::no_stimulus;
+            const bool is_known =
+                row.fixation && row.fixation->samples > 0 && row.fixation->why != NotCounted::no_surface &&
+                row.fixation->why != NotCounted::no_stimulus;
             return when(is_known, Fixed{is_known ? (*row.fixation).*of : 0.0, share_decimals});
         };
     };
@@ -64,9 +64,8 @@ std::vector<RowLayout<GazeEventRow>::Column> surface_columns(const SessionHeader
     for (const auto& [why, meaning] :
          {std::pair{NotCounted::counted, "it counts, and has a place"},
           std::pair{NotCounted::began_before_onset, "it was under way when the presentation began"},
-          std::pair{NotCounted::no_stimulus,
-                    "the session knows of no stimulus, such as an imported recording"},
           std::pair{NotCounted::no_frame_lit, "no frame is known to have been lit during it"},
+          std::pair{NotCounted::no_stimulus, "the session knows of no stimulus, as an imported recording"},
           std::pair{NotCounted::not_on_surface,
                     "fewer than half of its samples met the sculpture, or missed it "
                     "by no more than the error that the validation found"},
@@ -130,7 +129,7 @@ event_value_columns(const std::string& pixels, const std::string& of_pupil, cons
 }
 
 RowLayout<GazeEventRow> gaze_events_layout(const SessionHeader& header, const std::string& origins,
-                                           const std::string& pupil) {
+                                           const PupilWords& pupil) {
     RowLayout<GazeEventRow> layout{
         "gaze_events",
         "Fixations, saccades and blinks in the completed trials, and what the tracker's file said besides "
@@ -173,7 +172,7 @@ RowLayout<GazeEventRow> gaze_events_layout(const SessionHeader& header, const st
              tracker_us_of(&GazeEvent::start)},
             {{"tracker_end_us", "end_s by the tracker's own clock", "us"}, tracker_us_of(&GazeEvent::end)},
         }};
-    layout.add<TrackerEventRow>(event_value_columns("px", "the tracker's own unit", pupil));
+    layout.add<TrackerEventRow>(event_value_columns("px", pupil.unit, pupil.meaning));
     layout.add<GazeEventRow>(surface_columns(header));
     layout.add<GazeEventRow>({
         {{"text", "Words and numbers of what is no fixation, saccade or blink"},
@@ -202,8 +201,9 @@ void write_gaze_events_outside(TableWriter& writer, const RowLayout<GazeEventRow
         if (record.gaze_source(trial.sitting))
             sitting = trial.sitting;
     const std::optional<ClockMap> clock_map = record.clock_map(sitting);
+    const SessionRecord::EventOrigin::From origin = record.event_origin(sitting).from;
     record.read_gaze_events_outside([&](const GazeEvent& event) {
-        layout.write(writer, {{event}, 0, clock_map, SessionRecord::EventOrigin::From::tracker});
+        layout.write(writer, {{event}, 0, clock_map, origin});
     });
 }
 

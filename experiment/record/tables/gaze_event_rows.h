@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiment/record/read/session_record.h"
+#include "experiment/record/read/tracker_facts.h"
 #include "experiment/record/tables/joined_cells.h"
 #include "experiment/record/tables/row_layout.h"
 #include "experiment/study/results/study_results.h"
@@ -34,7 +35,7 @@ struct GazeEventRow : TrackerEventRow {
 /// One row for each fixation, saccade, blink, message, button, input, begin and end of a recording, and note.
 /// `origins`: whole sentences on where fixations, saccades and blinks come from. `header` must outlive it.
 RowLayout<GazeEventRow> gaze_events_layout(const SessionHeader& header, const std::string& origins,
-                                           const std::string& pupil);
+                                           const PupilWords& pupil);
 
 /// Writes those of a trial, `events` with where they met the surface, `fixations`. Throws RecordError.
 void write_gaze_events(TableWriter& writer, const RowLayout<GazeEventRow>& layout,

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "experiment/base/plain_text.h"
+
 namespace overt {
 
 TableColumn participant_column(const std::string& name, const std::string& title) {
@@ -57,7 +59,7 @@ RowLayout<ParticipantRow> participants_layout(const std::vector<ParticipantRow>&
         for (const RecordedObserverField& field : row.fields)
             if (std::none_of(columns.begin(), columns.end(),
                              [&](const TableColumn& column) { return column.name == field.id; }))
-                columns.push_back(participant_column(field.id, field.title));
+                columns.push_back(participant_column(field.id, plain_line_of(field.title)));
     for (TableColumn& column : columns) {
         const std::string name = column.name;
         // A form may have a field of the name of a column that stands here already.

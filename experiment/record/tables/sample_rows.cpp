@@ -15,7 +15,7 @@ constexpr int probability_decimals = 4;
 } // namespace
 
 RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const SessionHeader& header,
-                                      std::optional<Degrees> cone_accuracy, const PupilWords& pupil) {
+                                      const PupilWords& pupil, std::optional<Degrees> cone_accuracy) {
     RowLayout<SampleCells> layout{
         "samples",
         "One row for each gaze sample of the completed trials, and of an imported recording also for those "

@@ -8,8 +8,8 @@
 
 #include "experiment/analysis/gaze_cone.h"
 #include "experiment/record/read/sample_counts.h"
+#include "experiment/record/read/tracker_facts.h"
 #include "experiment/record/tables/joined_cells.h"
-#include "experiment/record/tables/pupil_words.h"
 #include "experiment/record/tables/shared_columns.h"
 #include "experiment/study/fixations/passing_fixations.h"
 
@@ -28,7 +28,7 @@ struct SampleCells : JoinedRow {
 /// With the columns of a gaze cone if its accuracy is given. `pupil`: see pupil_words(). `header` must
 /// outlive it.
 RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const SessionHeader& header,
-                                      std::optional<Degrees> cone_accuracy, const PupilWords& pupil);
+                                      const PupilWords& pupil, std::optional<Degrees> cone_accuracy);
 
 class SampleRows {
   public:

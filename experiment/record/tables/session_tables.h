@@ -14,6 +14,7 @@ RowLayout<RecordedEvent> events_layout();
 RowLayout<RecordedStimulus> stimuli_layout(const SharedColumns& shared, const SessionHeader& header);
 
 RowLayout<RecordedButton> buttons_layout();
+RowLayout<RecordedKeyPress> key_presses_layout();
 RowLayout<RecordedMarker> markers_layout();
 
 struct DisplayBoxRow {

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "experiment/base/plain_text.h"
+
 namespace overt {
 
 SharedColumns::SharedColumns(const SessionHeader& header)
@@ -11,11 +13,11 @@ SharedColumns::SharedColumns(const SessionHeader& header)
       angle{"angle_deg", "Turn of the sculpture in the frame shown, counter-clockwise seen from above",
             "deg"} {
     for (const RecordedTask& entry : header.tasks)
-        task.levels.emplace_back(entry.id, entry.question);
+        task.levels.emplace_back(entry.id, plain_line_of(entry.question));
     for (const RecordedSculpture& entry : header.sculptures)
-        sculpture.levels.emplace_back(entry.id, entry.title);
+        sculpture.levels.emplace_back(entry.id, plain_line_of(entry.title));
     for (const RecordedMaterial& entry : header.materials)
-        material.levels.emplace_back(entry.id, entry.title);
+        material.levels.emplace_back(entry.id, plain_line_of(entry.title));
 }
 
 TableColumn session_seconds(std::string name, const std::string& meaning) {

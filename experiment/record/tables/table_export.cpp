@@ -1,7 +1,6 @@
 #include "experiment/record/tables/table_export.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -13,7 +12,6 @@
 #include "experiment/base/whole_file.h"
 #include "experiment/maps/coordinate_maps.h"
 #include "experiment/record/tables/export_tables.h"
-#include "experiment/record/tables/pupil_words.h"
 #include "experiment/study/fixations/passing_fixations.h"
 #include "experiment/study/fixations/trial_presentation.h"
 
@@ -29,14 +27,17 @@ ExportTables with_words(ExportTables tables, const TrialWords& words) {
     return tables;
 }
 
+/// Of a recording of which nobody knows when a presentation ended.
+constexpr double without_end_s = 1e9;
+
 /// Writes one session's tables into a directory.
 class TableExport {
   public:
     TableExport(const SessionRecord& record, const fs::path& directory, const TableExportOptions& options)
         : record_(record), header_(record.header()), format_(options.format), words_(trial_words(record)),
           participant_(participant_row(record)),
-          tables_(with_words(ExportTables(header_, options.cone_accuracy, record.event_origins(),
-                                          {participant_}, pupil_words(record)),
+          tables_(with_words(ExportTables(header_, pupil_words(record), options.cone_accuracy,
+                                          record.event_origins(), {participant_}),
                              words_)),
           directory_(directory), sample_rows_(tables_.samples, record, format_, options.cone_accuracy),
           validations_(validations_of(record)) {
@@ -135,8 +136,7 @@ void TableExport::join_samples(const TrialRecord& trial) {
                             {},
                             clock_map,
                             presentation.onset,
-                            // All of its events lie in what was recorded.
-                            presentation.duration_s.value_or(std::numeric_limits<double>::infinity()),
+                            presentation.duration_s.value_or(without_end_s),
                             header_.poses.angles,
                             scale_,
                             lookup_ != nullptr,
@@ -183,6 +183,8 @@ void TableExport::write_what_belongs_to_no_trial() {
         write(tables_.stimuli, stimulus);
     for (const RecordedButton& button : record_.button_changes())
         write(tables_.buttons, button);
+    for (const RecordedKeyPress& press : record_.key_presses())
+        write(tables_.key_presses, press);
     for (const RecordedMarker& marker : record_.markers())
         write(tables_.markers, marker);
     for (const auto& [sitting, box] : record_.display_boxes()) {

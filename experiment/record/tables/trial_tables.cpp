@@ -30,6 +30,18 @@ auto swaps_of(int SwapModes::*count) {
     return [count](const TrialRecord& attempt) { return of_maybe(attempt.outcome.swaps, count); };
 }
 
+/// `header` must outlive it.
+auto gaze_share_of(const SessionHeader& header) {
+    return [&header](const TrialRow& row) -> std::optional<Fixed> {
+        constexpr int decimals = 4;
+        if (const std::optional<GazeYield>& gaze = row.trial.outcome.gaze)
+            return Fixed{gaze->share(), decimals};
+        if (!row.samples || header.tracker.sample_rate_hz <= 0.0)
+            return std::nullopt;
+        return Fixed{GazeYield{row.samples->samples, row.samples->without_gaze, 0}.share(), decimals};
+    };
+}
+
 auto samples_of(std::int64_t SampleCounts::*count) {
     return [count](const TrialRow& row) { return of_maybe(row.samples, count); };
 }
@@ -66,8 +78,10 @@ RowLayout<TrialRow> trials_layout(const SharedColumns& shared, const SessionHead
                {"no", "not completed, or its block was begun again later: the attempt there counts"}}},
              attempt_counts},
             {{"failure",
-              "What spoke against the attempt: missed refreshes, gaze lost, rejected, repeated or skipped; "
-              "n/a: nothing"},
+              "What spoke against the attempt: missed refreshes; gaze lost (of one that counts: hardly any "
+              "gaze "
+              "came, or more was lost than the protocol repeats for); eye tracker lost; eye tracker's clock "
+              "jumped; by the operator rejected, repeated, skipped, or broken off; n/a: nothing"},
              once_ended([](const TrialRecord& attempt) { return attempt.outcome.failure; })},
             {{"comes_again",
               "Whether the trial was to be attempted again because of that; n/a: the session ended in it",
@@ -119,6 +133,12 @@ RowLayout<TrialRow> trials_layout(const SharedColumns& shared, const SessionHead
             {{"samples_off_plan",
               "Samples that the planned frame times would have put on a frame that was not lit"},
              samples_of(&SampleCounts::off_plan)},
+            {{"gaze_share", "Share with gaze of the samples that the tracker should have given in the "
+                            "recording, those that never "
+                            "came included; of imported recordings, and of sessions of earlier programs, of "
+                            "those that came; "
+                            "0: none, n/a: not known, or the tracker measures no gaze"},
+             gaze_share_of(header)},
         }};
 }
 
@@ -179,6 +199,10 @@ RowLayout<TrialRecord> responses_layout(const SharedColumns& shared, const Sessi
                  }},
                 {{"answer", "The answer, where the response panel took it down"},
                  [](const TrialRecord& attempt) { return attempt.outcome.answer; }},
+                {{"response_key", "Name of the key or button that ended the response screen, as in "
+                                  "key_presses; n/a: time ended it, "
+                                  "or nobody wrote it down"},
+                 &TrialRecord::response_key},
                 {{"response_box", "The response box at which it was answered; n/a of a keyboard"},
                  &TrialRecord::response_box},
                 {{"response_uncertainty_s",

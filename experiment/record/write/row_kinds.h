@@ -14,6 +14,7 @@
 #include "experiment/ports/recorded_button.h"
 #include "experiment/ports/recorded_calibration.h"
 #include "experiment/ports/recorded_consent.h"
+#include "experiment/ports/recorded_key_press.h"
 #include "experiment/ports/recorded_marker.h"
 #include "experiment/ports/tracker_items.h"
 #include "experiment/ports/trial_outcome.h"
@@ -55,7 +56,8 @@ struct TrialFinish {
 struct RowMessage {
     std::variant<EventRow, TrialStart, TrialFinish, RecordedMap, RecordedBox, std::vector<BoxClockPair>,
                  std::vector<RecordedObserverField>, RecordedConsent, RecordedAnswer, RecordedCalibration,
-                 std::vector<RecordedButton>, std::vector<RecordedMarker>>
+                 std::vector<RecordedButton>, std::vector<RecordedMarker>, std::vector<RecordedKeyPress>,
+                 GazeYield>
         content;
     std::promise<void> written;
 };

@@ -234,6 +234,25 @@ void RowWriter::write(const std::vector<RecordedMarker>& markers) {
                       marker.not_after, marker.planned_refresh, marker.shown_refresh);
 }
 
+void RowWriter::write(const std::vector<RecordedKeyPress>& presses) {
+    begin();
+    database_.exec(device_tables_sql);
+    for (const RecordedKeyPress& press : presses)
+        insert_values(
+            database_,
+            "INTO key_press (sitting, at_ns, uncertainty_ns, trial, attempt_id, device, name, code, "
+            "modifiers, text, screen, meaning)",
+            sitting_, press.at, press.uncertainty, number_of_trial(press.trial),
+            attempt_at(press.trial, press.at), press.device, press.name, press.code, press.modifiers,
+            press.text, name_of(press.screen), press.meaning);
+}
+
+void RowWriter::write(const GazeYield& gaze) {
+    begin();
+    insert_values(database_, "OR REPLACE INTO trial_gaze (trial_id, samples, without_gaze, missing)",
+                  trial_counts_.trial_id, gaze.samples, gaze.without_gaze, gaze.missing);
+}
+
 void RowWriter::write(const ClockPair& pair) {
     begin();
     run_statement(insert_clock_pair_, sitting_, pair.before, pair.other, pair.after);

@@ -31,6 +31,8 @@ class RowWriter {
     void write(const TrackerItemRow& row);
     void write(const std::vector<RecordedButton>& buttons);
     void write(const std::vector<RecordedMarker>& markers);
+    void write(const std::vector<RecordedKeyPress>& presses);
+    void write(const GazeYield& gaze);
     void write(const RecordedCalibration& calibration);
     void write(const ClockPair& pair);
     void write(const EventRow& event);

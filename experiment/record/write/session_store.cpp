@@ -37,6 +37,10 @@ void SessionStore::calibration(const RecordedCalibration& calibration) { writer_
 
 void SessionStore::buttons(const std::vector<RecordedButton>& buttons) { writer_->send(buttons); }
 
+void SessionStore::key_presses(const std::vector<RecordedKeyPress>& presses) { writer_->send(presses); }
+
+void SessionStore::gaze_came(const GazeYield& gaze) { writer_->send(gaze); }
+
 void SessionStore::markers(const std::vector<RecordedMarker>& markers) { writer_->send(markers); }
 
 void SessionStore::clock_pair(const ClockPair& pair) noexcept { writer_->push(Row(pair)); }

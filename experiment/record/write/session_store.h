@@ -69,6 +69,8 @@ class SessionStore final : public SessionLog {
     void event(const SessionEvent& event) override;
     void calibration(const RecordedCalibration& calibration) override;
     void buttons(const std::vector<RecordedButton>& buttons) override;
+    void key_presses(const std::vector<RecordedKeyPress>& presses) override;
+    void gaze_came(const GazeYield& gaze) override;
     void markers(const std::vector<RecordedMarker>& markers) override;
     void consent(const RecordedConsent& consent) override;
     void answer_recorded(const RecordedAnswer& answer) override;

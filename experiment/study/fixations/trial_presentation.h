@@ -19,10 +19,10 @@ struct RecordedAccuracy {
 std::vector<RecordedAccuracy> validations_of(const SessionRecord& record);
 
 struct TrialPresentation {
-    /// Whether the session knows of a stimulus: imported recordings do not.
-    bool has_stimulus = true;
-    SessionTime onset; ///< the trial's begin where no presentation is recorded
-    /// Until the answer, or as planned, where its end is not recorded; nothing: as long as was recorded.
+    bool has_stimulus = true; ///< the trial has a ledger, or the session knows of stimuli
+    SessionTime onset;        ///< the trial's begin where no presentation is recorded
+    /// Until the answer, or as planned, where its end is not recorded. Nothing without a stimulus where the
+    /// trial has neither end nor answer.
     std::optional<double> duration_s;
     std::optional<RecordedAccuracy> validation; ///< the last before the trial
 };

@@ -1,6 +1,7 @@
 #include "experiment/study/read/gaze_quality.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "experiment/statistics/bootstrap.h"
@@ -17,25 +18,75 @@ std::optional<double> median_of(std::vector<double> values) {
     return quantile_of_sorted(values, 0.5);
 }
 
+constexpr int least_samples = 5;
+
+/// Squares of what is left of gaze around the line of least squares along each axis of the screen, over
+/// stretches of a fixation; `freedom` is what they are to be divided by.
+class ScatterAroundMotion {
+  public:
+    /// In the order of their times.
+    void add(double at_s, glm::dvec2 at_deg) {
+        if (count_ >= least_samples && at_s - first_s_ >= stretch_s)
+            end_stretch();
+        if (count_++ == 0)
+            first_s_ = at_s, first_deg_ = at_deg;
+        const double t = at_s - first_s_;
+        const glm::dvec2 d = at_deg - first_deg_;
+        t_ += t;
+        tt_ += t * t;
+        d_ += d;
+        dd_ += d * d;
+        td_ += t * d;
+    }
+
+    /// The root of the sum of both axes' variances; nothing of fewer samples than five.
+    std::optional<double> sd_deg() {
+        end_stretch();
+        return freedom_ > 0.0 ? std::optional(std::sqrt(std::max(squares_, 0.0) / freedom_)) : std::nullopt;
+    }
+
+  private:
+    /// Too short for the turn of an object, or the eye's own drift, to leave the line, and long against the
+    /// noise of a sample.
+    static constexpr double stretch_s = 0.2;
+
+    void end_stretch() {
+        if (count_ >= least_samples) {
+            const double n = count_, spread = tt_ - t_ * t_ / n;
+            const glm::dvec2 with_time = td_ - t_ * d_ / n;
+            const glm::dvec2 left = dd_ - d_ * d_ / n - with_time * with_time / spread;
+            squares_ += left.x + left.y;
+            freedom_ += n - 2.0; // a line has a place and a slope
+        }
+        count_ = 0;
+        t_ = tt_ = 0.0;
+        d_ = dd_ = td_ = glm::dvec2(0.0);
+    }
+
+    double squares_ = 0.0, freedom_ = 0.0;
+    int count_ = 0;
+    double first_s_ = 0.0, t_ = 0.0, tt_ = 0.0;
+    glm::dvec2 first_deg_{0.0}, d_{0.0}, dd_{0.0}, td_{0.0};
+};
+
 void add_precision(std::span<const PlacedSample> samples, const ScreenGeometry& screen,
                    std::vector<double>& rms, std::vector<double>& sd) {
-    constexpr int least_samples = 5;
+    if (samples.empty())
+        return;
     // Within a fixation the screen is as good as flat: pixels are linear in angle to a part in a thousand.
     const double deg_per_px = 1.0 / screen.px_per_deg_at_centre();
     double squares = 0.0;
     int steps = 0, count = 0;
-    glm::dvec2 sum{0.0}, sum_of_squares{0.0}, first{0.0};
+    ScatterAroundMotion scatter;
     const PlacedSample* before = nullptr;
     for (const PlacedSample& sample : samples) {
         if (!sample.has_gaze) {
             before = nullptr;
             continue;
         }
-        const glm::dvec2 at = glm::dvec2(sample.gaze.x_px, sample.gaze.y_px) * deg_per_px;
-        if (count == 0)
-            first = at;
-        sum += at - first;
-        sum_of_squares += (at - first) * (at - first);
+        const double at_s =
+            std::chrono::duration<double>(sample.sampled_at - samples.front().sampled_at).count();
+        scatter.add(at_s, glm::dvec2(sample.gaze.x_px, sample.gaze.y_px) * deg_per_px);
         ++count;
         if (before) {
             const double angle = screen.angle_between(before->gaze, sample.gaze).value;
@@ -47,9 +98,8 @@ void add_precision(std::span<const PlacedSample> samples, const ScreenGeometry& 
     if (count < least_samples || steps == 0)
         return;
     rms.push_back(std::sqrt(squares / steps));
-    const glm::dvec2 mean = sum / static_cast<double>(count);
-    const glm::dvec2 variance = sum_of_squares / static_cast<double>(count) - mean * mean;
-    sd.push_back(std::sqrt(std::max(variance.x + variance.y, 0.0)));
+    if (const std::optional<double> scattered = scatter.sd_deg())
+        sd.push_back(*scattered);
 }
 
 } // namespace

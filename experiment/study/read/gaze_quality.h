@@ -10,11 +10,13 @@
 
 namespace overt {
 
-/// Precision within each fixation, then the median over fixations of at least five samples: RMS-S2S is the
-/// root mean square of the visual angles between successive samples, SD the root of the sum of the variances
-/// (1 / N) along both axes of the screen in degrees. Pursuit is in both, as the stimuli turn. The rate is
-/// that of the median interval between time stamps. Samples are lost where they have no gaze; those within
-/// the events' blinks are counted apart. Accuracy, drift and refreshes are not set here.
+/// Precision within each fixation, then the median over fixations of at least five samples. RMS-S2S is the
+/// root mean square of the visual angles between successive samples. SD is the root of the sum of both axes'
+/// variances, in degrees, around the motion of the eye: around the line of least squares through stretches of
+/// 0.2 s, or of five samples if they take longer, divided by N - 2 for each of these. An eye that follows a
+/// turning object scatters as one that rests on a still one. The rate is that of the median interval between
+/// time stamps. Samples are lost where they have no gaze; those within the events' blinks are counted apart.
+/// Accuracy, drift and refreshes are not set here.
 StudyQuality gaze_quality(std::span<const PlacedSample> samples, std::span<const GazeEvent> events,
                           const ScreenGeometry& screen);
 

@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
-#include "experiment/study/read/reporting.h"
+#include "experiment/study/read/session_setup.h"
 
 namespace overt {
 
@@ -67,7 +67,8 @@ class Doubles {
 
 } // namespace
 
-std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> sessions) {
+std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> sessions,
+                                       const std::optional<ChosenThresholds>& detect_events) {
     std::vector<OpenSession> open;
     const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
     const std::size_t readers = (processors + sessions.size() - 1) / sessions.size();
@@ -80,7 +81,12 @@ std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> se
         one.path = std::filesystem::weakly_canonical(session);
         for (std::size_t i = 0; i < readers; ++i) {
             one.readers.push_back(std::make_unique<SessionRecord>(session));
-            one.readers.back()->detect_events_of_imports();
+            if (i > 0)
+                one.readers.back()->detect_events_as(*one.readers.front());
+            else if (detect_events)
+                one.readers.front()->detect_events(*detect_events);
+            else
+                one.readers.front()->detect_events_of_imports();
             one.keys.push_back(std::make_unique<TrialKeys>(*one.readers.back()));
         }
         doubles.add(one.record());
@@ -98,8 +104,6 @@ StudySession describe_session(const OpenSession& open, const std::filesystem::pa
     session.observer = header.schedule.observer.label;
     session.number = header.session_number;
     session.protocol = header.protocol.title.empty() ? header.protocol.name : header.protocol.title;
-    session.tracker = header.tracker.name;
-    session.is_simulated = header.tracker.name.find("simulated") != std::string::npos;
     for (const RecordedObserverField& field : record.observer_fields())
         session.form.push_back({field.id, field.value});
     session.is_complete = record.is_complete();

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,10 +25,11 @@ struct OpenSession {
     const SessionRecord& record() const { return *readers.front(); }
 };
 
-/// Each with so many readers that all of them together keep the processors busy. Throws InputError if a
-/// folder is no session, or if any session is given twice: by its path, as a copy, which its record tells, or
-/// as two imports of one recording; RecordError for a damaged one.
-std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> sessions);
+/// Each with so many readers that all of them together keep the processors busy. `detect_events`: as in
+/// StudyOptions. Throws InputError if a folder is no session, or if any session is given twice: by its path,
+/// as a copy, which its record tells, or as two imports of one recording; RecordError for a damaged one.
+std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> sessions,
+                                       const std::optional<ChosenThresholds>& detect_events);
 
 /// What the study says of a session that was named by `path`; of its events, see
 /// SessionRecord::event_origins().

@@ -26,7 +26,8 @@ class StudyReader {
   public:
     StudyReader(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
                 const StudyOptions& options, const StudyProgress& progress)
-        : surface_for_(surface_for), options_(options), progress_(progress), open_(open_sessions(sessions)) {
+        : surface_for_(surface_for), options_(options), progress_(progress),
+          open_(open_sessions(sessions, options.detect_events)) {
         for (std::size_t i = 0; i < open_.size(); ++i)
             add_session(i, sessions[i]);
         name_same_observers();
@@ -165,7 +166,7 @@ class StudyReader {
                     read_trial(record, trial, *open.keys[reader], open.validations,
                                {lookup, surface.geometry != nullptr, ways ? &*ways : nullptr, surface.scale,
                                 light_of(light, record.header(), trial)},
-                               options_, t < 1);
+                               options_);
                 const std::scoped_lock lock(progress_mutex);
                 progress_(what, ++done, trials);
             }
@@ -339,6 +340,11 @@ class StudyReader {
             }
             results().session_quality.push_back(quality_of_all(own));
         }
+        const std::string no_angles = sentence_on({SessionRecord::EventOrigin::From::no_angles, {}});
+        for (const StudySession& session : results().sessions) {
+            if (session.events.find(no_angles) != std::string::npos)
+                results().remarks.push_back(fmt::format("{}: {}", session.folder, no_angles));
+        }
         if (any_both_eyes)
             results().remarks.emplace_back(
                 "Of binocular recordings the eye that the session names is taken.");
@@ -367,10 +373,9 @@ class StudyReader {
                               folders.size() == 1 ? "knows" : "know");
         results().remarks.push_back(
             named +
-            ": their fixations with their places on the screen, the quality of their gaze and their trials "
-            "are in the tables fixations, quality and trials, and their saccades and blinks in the exports. "
-            "Their gaze has no places on a surface, so that none of it is in maps, in shares of parts, or "
-            "in comparisons.");
+            ": fixations with their places on the screen, the quality of gaze, and trials are in the "
+            "tables fixations, quality and trials; saccades and blinks are in the exports. The gaze has "
+            "no places on a surface, so that none of it is in maps, in shares of parts or in comparisons.");
     }
 
     const SurfaceFor& surface_for_;

@@ -17,7 +17,7 @@ namespace overt {
 namespace {
 
 /// Another one for each change of what follows it.
-constexpr std::string_view shard_magic = "overt shard of a study, version 2\n";
+constexpr std::string_view shard_magic = "overt shard of a study, version 3\n";
 constexpr std::size_t hash_length = 64;
 
 // What is in a shard, once for writing and reading. A member that is added breaks the build here.
@@ -53,8 +53,8 @@ template <class Archive> void fields(Archive& archive, StudyTracePoint& point) {
     archive(time_s, gaze, pupil);
 }
 template <class Archive> void fields(Archive& archive, StudyTraceEvent& event) {
-    auto& [kind, onset_s, duration_s] = event;
-    archive(kind, onset_s, duration_s);
+    auto& [kind, onset_s, duration_s, amplitude_deg, peak_velocity_deg_s] = event;
+    archive(kind, onset_s, duration_s, amplitude_deg, peak_velocity_deg_s);
 }
 template <class Archive> void fields(Archive& archive, StudyTrace& trace) {
     auto& [trial, points, events] = trace;
@@ -221,7 +221,7 @@ bool is_shard(const std::filesystem::path& folder) {
 std::vector<StudyParameter> reading_parameters(const StudyOptions& options) {
     static const std::vector<std::string> of_reading{"sigma",      "shortest-fixation", "least-on-surface",
                                                      "reach",      "most-lost",         "most-accuracy",
-                                                     "most-drift", "most-missed"};
+                                                     "most-drift", "most-missed",       "detect-events"};
     std::vector<StudyParameter> parameters = parameters_of(options);
     std::erase_if(parameters, [](const StudyParameter& one) {
         return std::ranges::find(of_reading, one.name) == of_reading.end();

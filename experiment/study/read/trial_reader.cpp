@@ -43,7 +43,7 @@ StudyTrace trace_of(std::span<const PlacedSample> samples, std::span<const GazeE
                     const std::optional<ClockMap>& clock_map, SessionTime onset, double presentation_s,
                     double rate_hz) {
     StudyTrace trace;
-    const auto step = static_cast<std::size_t>(std::max(1.0, std::ceil(rate_hz / 250.0 - 1e-6)));
+    const auto step = static_cast<std::size_t>(std::max(1.0, std::ceil(rate_hz / most_trace_hz - 1e-6)));
     bool had_gaze = true;
     std::size_t since = step;
     for (const PlacedSample& sample : samples) {
@@ -62,7 +62,8 @@ StudyTrace trace_of(std::span<const PlacedSample> samples, std::span<const GazeE
             const double begin = to_seconds(clock_map->to_session(event.start).time - onset);
             const double duration = std::chrono::duration<double>(event.duration).count();
             if (begin + duration > 0.0 && begin < presentation_s)
-                trace.events.push_back({event.kind, begin, duration});
+                trace.events.push_back(
+                    {event.kind, begin, duration, event.amplitude_deg, event.peak_velocity_deg_s});
         }
     }
     return trace;
@@ -70,18 +71,17 @@ StudyTrace trace_of(std::span<const PlacedSample> samples, std::span<const GazeE
 
 /// The first rule that a trial breaks, as a sentence; empty: none.
 std::string exclusion_of(const StudyQuality& quality, const ExclusionRules& rules) {
-    if (rules.most_lost_share && quality.lost_share() > *rules.most_lost_share)
+    const std::optional<ExclusionRule> rule = broken_rule(quality, rules);
+    if (rule == ExclusionRule::lost_share)
         return fmt::format("{:.1f} % of the samples were lost outside of blinks.",
                            100.0 * quality.lost_share());
-    if (rules.most_accuracy_deg && quality.accuracy_deg && *quality.accuracy_deg > *rules.most_accuracy_deg)
+    if (rule == ExclusionRule::accuracy)
         return fmt::format("The validation before it had a mean error of {:.2f} deg.", *quality.accuracy_deg);
-    if (rules.most_drift_deg && quality.drift_deg && *quality.drift_deg > *rules.most_drift_deg)
+    if (rule == ExclusionRule::drift)
         return fmt::format("The drift check found an error of {:.2f} deg.", *quality.drift_deg);
-    // A rule that cannot be looked at is not kept.
-    if (rules.most_missed_refreshes && !quality.missed_refreshes)
-        return "How many refreshes were missed is unproven.";
-    if (rules.most_missed_refreshes && *quality.missed_refreshes > *rules.most_missed_refreshes)
-        return fmt::format("{} refreshes were missed.", *quality.missed_refreshes);
+    if (rule == ExclusionRule::missed_refreshes)
+        return quality.missed_refreshes ? fmt::format("{} refreshes were missed.", *quality.missed_refreshes)
+                                        : "How many refreshes were missed is unproven.";
     return {};
 }
 
@@ -89,7 +89,7 @@ std::string exclusion_of(const StudyQuality& quality, const ExclusionRules& rule
 
 ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, const TrialKeys& keys,
                      std::span<const RecordedAccuracy> validations, const TrialSurface& surface,
-                     const StudyOptions& options, bool with_trace) {
+                     const StudyOptions& options) {
     const SessionHeader& header = record.header();
     const std::optional<TrialLedger> ledger = record.ledger(trial);
     const TrialPresentation presentation = presentation_of(header, trial, ledger.has_value(), validations);
@@ -98,6 +98,8 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
     StudyTrial& of = read.trial;
     of.number = trial.trial.index + 1;
     of.label = fmt::format("observer {}, trial {}", header.schedule.observer.label, of.number);
+    of.presentation_s = presentation.duration_s.value_or(0.0);
+
     const double accuracy_deg = presentation.validation ? presentation.validation->mean_deg : 0.0;
     const PlacedSamples placed =
         placed_samples(record, trial, ledger, surface.lookup, onset, header.tracker.eye,
@@ -115,8 +117,8 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                      [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
 
     const std::optional<ClockMap> clock_map = record.clock_map(trial);
-    of.presentation_s = presentation.duration_s ? *presentation.duration_s
-                                                : recorded_s(placed.samples, events, clock_map, onset);
+    if (!presentation.duration_s)
+        of.presentation_s = recorded_s(placed.samples, events, clock_map, onset);
 
     of.quality = gaze_quality(placed.samples, events, header.display.screen);
     if (presentation.validation) {
@@ -140,9 +142,8 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
 
     if (ledger)
         of.turns = turns_of(*ledger, onset, header.poses.angles);
-    if (with_trace)
-        read.trace = trace_of(placed.samples, events, clock_map, onset, of.presentation_s,
-                              of.quality.rate_hz.value_or(0.0));
+    read.trace = trace_of(placed.samples, events, clock_map, onset, of.presentation_s,
+                          of.quality.rate_hz.value_or(0.0));
 
     // The cone is as wide as the validation says; few directions do for a share of some per cent.
     constexpr int cone_directions = 64;

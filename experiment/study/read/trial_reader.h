@@ -14,7 +14,7 @@ namespace overt {
 struct ReadTrial {
     StudyTrial trial; ///< session and sculpture are not set
     std::vector<StudyFixation> fixations;
-    StudyTrace trace; ///< empty if it was not asked for
+    StudyTrace trace;
     std::int64_t samples = 0;
     bool had_both_eyes = false;
 };
@@ -30,6 +30,6 @@ struct TrialSurface {
 /// `validations` by their times. Throws RecordError.
 ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, const TrialKeys& keys,
                      std::span<const RecordedAccuracy> validations, const TrialSurface& surface,
-                     const StudyOptions& options, bool with_trace);
+                     const StudyOptions& options);
 
 } // namespace overt

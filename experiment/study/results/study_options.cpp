@@ -16,7 +16,47 @@ std::string same_observers(const StudyOptions& options) {
 
 std::string number_or_none(const auto& limit) { return limit ? fmt::format("{}", *limit) : "none"; }
 
+std::string words_of(const std::optional<ChosenThresholds>& detect_events) {
+    if (!detect_events)
+        return "no";
+    std::string words;
+    for (std::size_t i = 0; i < event_thresholds.size(); ++i)
+        if (const std::optional<double>& value = detect_events->values[i])
+            words += fmt::format("{}{} {}", words.empty() ? "" : ", ", event_thresholds[i].key, *value);
+    return words.empty() ? "usual thresholds" : words;
+}
+
 } // namespace
+
+std::vector<ExclusionRule> rules_of(const ExclusionRules& rules) {
+    std::vector<ExclusionRule> set;
+    if (rules.most_lost_share)
+        set.push_back(ExclusionRule::lost_share);
+    if (rules.most_accuracy_deg)
+        set.push_back(ExclusionRule::accuracy);
+    if (rules.most_drift_deg)
+        set.push_back(ExclusionRule::drift);
+    if (rules.most_missed_refreshes)
+        set.push_back(ExclusionRule::missed_refreshes);
+    return set;
+}
+
+std::optional<ExclusionRule> broken_rule(const StudyQuality& quality, const ExclusionRules& rules) {
+    const auto is_beyond = [](const auto& value, const auto& limit) {
+        return limit && value && *value > *limit;
+    };
+    if (rules.most_lost_share && quality.lost_share() > *rules.most_lost_share)
+        return ExclusionRule::lost_share;
+    if (is_beyond(quality.accuracy_deg, rules.most_accuracy_deg))
+        return ExclusionRule::accuracy;
+    if (is_beyond(quality.drift_deg, rules.most_drift_deg))
+        return ExclusionRule::drift;
+    // A rule that cannot be looked at is not kept.
+    if (rules.most_missed_refreshes &&
+        (!quality.missed_refreshes || *quality.missed_refreshes > *rules.most_missed_refreshes))
+        return ExclusionRule::missed_refreshes;
+    return std::nullopt;
+}
 
 std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
     const ExclusionRules& rules = options.exclude;
@@ -50,6 +90,10 @@ std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
          "Trials with a larger error at the drift check are excluded."},
         {"most-missed", number_or_none(rules.most_missed_refreshes), "refreshes",
          "Trials with more missed refreshes are excluded."},
+        {"detect-events", words_of(options.detect_events), "",
+         "Whether fixations, saccades and blinks were found anew in the samples of all sessions, and the "
+         "thresholds that were chosen for it; others go with each recording's rate and noise. no: those on "
+         "record, and found where an imported recording has none."},
         {"same-observer", same_observers(options), "",
          "Labels of observers that stand for another observer's, whose sessions are then counted as one "
          "person's."},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiment/base/enum_names.h"
+#include "experiment/events/event_thresholds.h"
 #include "experiment/statistics/bootstrap.h"
 #include "experiment/statistics/permutation.h"
 #include "experiment/study/results/study_results.h"
@@ -34,6 +35,13 @@ struct ExclusionRules {
     std::optional<int> most_missed_refreshes;
 };
 
+/// Those that have a limit.
+std::vector<ExclusionRule> rules_of(const ExclusionRules& rules);
+
+/// The first rule that a trial breaks; nothing: it counts. A trial without a validation or a drift check
+/// keeps the limits of these; one whose missed refreshes are unproven does not.
+std::optional<ExclusionRule> broken_rule(const StudyQuality& quality, const ExclusionRules& rules);
+
 struct StudyOptions {
     std::vector<std::string> by{"task", "sculpture", "material"};
     std::string compare = "material"; ///< the column whose levels are compared within observers
@@ -45,6 +53,9 @@ struct StudyOptions {
     /// Nothing: the mean error of the validation before the trial, and 0 if there was none.
     std::optional<double> reach_deg;
     ExclusionRules exclude;
+    /// Fixations, saccades and blinks are found anew in all sessions, by these thresholds. Nothing: those on
+    /// record, and found in imports that have none.
+    std::optional<ChosenThresholds> detect_events;
     /// Labels that stand for the same observer as another, and that one's.
     std::vector<std::pair<std::string, std::string>> same_observer;
     double time_step_s = 1.0; ///< of the time course

@@ -22,6 +22,7 @@
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/statistics/estimate.h"
+#include "experiment/study/results/session_setup.h"
 
 namespace overt {
 
@@ -42,17 +43,16 @@ struct StudyParameter {
 
 /// One session as it was read.
 struct StudySession {
-    std::string folder;   ///< its name, without folders above
-    std::string observer; ///< label
-    int number = 1;       ///< of this observer's sessions
-    std::string protocol; ///< title
-    std::string tracker;  ///< its name, or the file that was imported
-    bool is_simulated = false;
+    std::string folder;         ///< its name, without folders above
+    std::string observer;       ///< label
+    int number = 1;             ///< of this observer's sessions
+    std::string protocol;       ///< title
     std::vector<StudyKey> form; ///< what the observer filled in
     std::string events;         ///< a sentence: whose fixations, saccades and blinks these are
     bool is_complete = false;
-    int trials = 0;              ///< that count, before exclusions of this analysis
-    std::vector<StudyKey> setup; ///< items of the reporting guideline that the record knows
+    int trials = 0; ///< that count, before exclusions of this analysis
+    SessionSetup setup;
+    bool is_simulated() const { return setup.gaze.is_simulated(); }
 };
 
 /// An observer of the sessions that were given, and whether N has them. One counts whose gaze there is in a
@@ -69,6 +69,11 @@ struct StudyObserver {
 struct ReportingItem {
     std::string topic, item, value;
     bool is_recorded = false; ///< else the value says what to add
+};
+
+/// Whole sentences on one topic of the methods: see methods_text.h.
+struct MethodsParagraph {
+    std::string topic, text;
 };
 
 /// A sculpture with all sessions that showed the same mesh.
@@ -103,6 +108,9 @@ enum class NotCounted : std::uint8_t {
     trial_excluded,     ///< its trial is
     no_stimulus,        ///< the session knows of no stimulus: an imported recording
 };
+
+/// What a trial is excluded for, in the order in which it is asked (ExclusionRules).
+enum class ExclusionRule : std::uint8_t { lost_share, accuracy, drift, missed_refreshes };
 
 /// How probable a fixation's measured place is, per square pixel, if the head was looked at, and if something
 /// else of the sculpture was: the tracker's error lies between the two (part_evidence.h).
@@ -155,6 +163,9 @@ struct StudyFixation {
     bool counted() const { return why == NotCounted::counted; }
 };
 
+/// Samples a second of a trace: enough to see a saccade.
+inline constexpr double most_trace_hz = 125.0;
+
 /// One gaze sample of a trace.
 struct StudyTracePoint {
     double time_s = 0.0;             ///< since the presentation's onset
@@ -165,9 +176,10 @@ struct StudyTracePoint {
 struct StudyTraceEvent {
     GazeEvent::Kind kind = GazeEvent::Kind::fixation; ///< fixation, saccade or blink
     double onset_s = 0.0, duration_s = 0.0;
+    std::optional<double> amplitude_deg{}, peak_velocity_deg_s{}; ///< of a saccade, where its event has them
 };
 
-/// Gaze of a trial, thinned to at most 250 samples a second.
+/// Gaze of a trial, thinned to at most `most_trace_hz`.
 struct StudyTrace {
     int trial = 0; ///< index into StudyResults::trials
     std::vector<StudyTracePoint> points;
@@ -188,9 +200,9 @@ struct StudyQuality {
     std::optional<double> worst_accuracy_deg; ///< its largest
     std::optional<double> drift_deg;          ///< gaze error at the drift check
     std::optional<double> rms_s2s_deg;        ///< of successive samples within fixations, median over these
-    std::optional<double> sd_deg;             ///< standard deviation within fixations, median over these
-    std::optional<double> rate_hz;            ///< from the samples' own time stamps
-    double samples = 0.0, lost = 0.0;         ///< numbers of samples; lost ones outside of blinks
+    std::optional<double> sd_deg;  ///< of samples around the eye's motion within fixations, median over these
+    std::optional<double> rate_hz; ///< from the samples' own time stamps
+    double samples = 0.0, lost = 0.0; ///< numbers of samples; lost ones outside of blinks
     double lost_in_blinks = 0.0;
     int blinks = 0;
     int refreshes = 0;
@@ -289,9 +301,13 @@ struct DistributionRow {
 /// A similarity of two maps beside what to compare it with.
 struct SimilarityEstimate {
     Estimate value;
-    Estimate ceiling; ///< of halves of the fixations of the same condition: what equal distributions give
-    Estimate null;    ///< with the conditions' labels permuted within observers
-    std::optional<double> p; ///< of the permutation: how often chance gives as small a similarity
+    /// Of random halves, as many fixations in each: one of either level, and both of the same level. Only
+    /// these two can be held against each other: a similarity grows with the number of fixations.
+    Estimate between_halves, within_halves;
+    Estimate null; ///< of all fixations, dealt out again over the levels within observers
+    /// How often dealing out gives as small a similarity. Takes fixations as exchangeable, which they are not
+    /// where trials differ in their error of calibration: then it is too small. PairRow::maps_p is the test.
+    std::optional<double> p;
 };
 
 /// Table 1: two levels of a factor compared within observers, then averaged.
@@ -423,6 +439,8 @@ struct StudyGlance {
     std::vector<std::pair<NotCounted, int>> not_counted; ///< reasons that occur, and how often
     double counted_s = 0.0;                              ///< of fixation
     bool any_simulated = false;
+    int without_gaze = 0;                                     ///< excluded trials in which none was recorded
+    std::vector<std::pair<ExclusionRule, int>> excluded_by{}; ///< others, by the first rule that they break
 };
 
 struct StudyResults {
@@ -452,7 +470,8 @@ struct StudyResults {
     std::vector<TimeCourseRow> time_course;
     std::vector<StudyQuality> session_quality; ///< by session
     std::vector<ReportingItem> reporting;
-    std::vector<StudyTrace> traces;
+    std::vector<MethodsParagraph> methods;
+    std::vector<StudyTrace> traces; ///< of each trial with samples, in the order of the trials
 };
 
 /// A few words for tables and sentences.

@@ -227,15 +227,24 @@ RowLayout<PairRow> pairs_layout(const StudyResults& results) {
             return [member, which](const Row& row) { return row.*member.*which; };
         };
         to.estimate(name, what + " of both maps, mean over observers", "", part(&SimilarityEstimate::value));
-        to.estimate(
-            name + "_ceiling",
-            "The same of random halves of one level's fixations, at the full number of fixations: what "
-            "equal distributions give",
-            "", part(&SimilarityEstimate::ceiling));
-        to.estimate(name + "_null", "The same with the levels of fixations exchanged at random", "",
+        to.estimate(name + "_between_halves",
+                    "The same of a random half of either level's fixations, as many in each as the level "
+                    "with fewer has in a half",
+                    "", part(&SimilarityEstimate::between_halves));
+        to.estimate(name + "_within_halves",
+                    "The same of two random halves of one and the same level, of as many fixations: the "
+                    "ceiling of " +
+                        name +
+                        "_between_halves, somewhat too high where fixations of a trial share "
+                        "an error of calibration",
+                    "", part(&SimilarityEstimate::within_halves));
+        to.estimate(name + "_null", "Of all fixations, dealt out again at random over the levels", "",
                     part(&SimilarityEstimate::null));
-        to.number(name + "_p", "How often exchange gives as little", "",
-                  [member](const Row& row) { return (row.*member).p; });
+        to.number(
+            name + "_p",
+            "How often dealing out gives as little; takes fixations as exchangeable and is too small where "
+            "trials differ in their error of calibration: maps_p is the test",
+            "", [member](const Row& row) { return (row.*member).p; });
     };
     similarity("cc", "Pearson's correlation", &Row::cc);
     similarity("sim_mit", "Similarity, maps scaled from minimum to maximum first", &Row::sim_mit);
@@ -316,8 +325,10 @@ RowLayout<QualityRow> quality_layout() {
               of_quality(&Quality::drift_deg));
     to.number("rms_s2s_deg", "Precision: root mean square of steps between samples in fixations, median",
               "deg", of_quality(&Quality::rms_s2s_deg));
-    to.number("sd_deg", "Precision: standard deviation in fixations, median", "deg",
-              of_quality(&Quality::sd_deg));
+    to.number("sd_deg",
+              "Precision: standard deviation in fixations, median; around the motion of the eye, a line "
+              "through each 0.2 s, so that following a turning object is not taken for noise",
+              "deg", of_quality(&Quality::sd_deg));
     to.number("rate_hz", "Sampling rate, by the median interval of time stamps", "Hz",
               of_quality(&Quality::rate_hz));
     to.number("samples", "Samples of the eye", "", of_quality(&Quality::samples));

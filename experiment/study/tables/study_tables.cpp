@@ -10,6 +10,7 @@
 #include "experiment/study/tables/mixed_models.h"
 #include "experiment/study/tables/study_layout.h"
 #include "experiment/study/tables/study_layouts.h"
+#include "experiment/study/tables/study_setup_json.h"
 
 namespace overt {
 
@@ -93,6 +94,10 @@ std::string study_json(const StudyResults& results) {
               {"remarks", results.remarks},
               {"sculptures", Json::array()},
               {"head_fractions", Json::array()}};
+    json.update(study_facts_json(results));
+    json["methods"] = Json::array();
+    for (const MethodsParagraph& paragraph : results.methods)
+        json["methods"].push_back({{"topic", paragraph.topic}, {"text", paragraph.text}});
     for (const auto& [why, count] : glance.not_counted)
         json["not_counted"][std::string(name_of(why))] = count;
     for (const StudyObserver& one : results.observers) {
@@ -102,17 +107,20 @@ std::string study_json(const StudyResults& results) {
         given.update({{"sessions", one.sessions}, {"trials", one.trials}, {"fixations", one.fixations}});
         json["observers_given"].push_back(std::move(given));
     }
-    for (const StudySession& session : results.sessions)
+    for (const StudySession& session : results.sessions) {
         json["sessions"].push_back({{"folder", session.folder},
                                     {"observer", session.observer},
                                     {"session", session.number},
                                     {"protocol", session.protocol},
-                                    {"tracker", session.tracker},
-                                    {"simulated", session.is_simulated},
+                                    {"tracker", session.setup.gaze.tracker},
+                                    {"simulated", session.is_simulated()},
                                     {"form", keys_json(session.form)},
                                     {"events", session.events},
                                     {"complete", session.is_complete},
                                     {"trials", session.trials}});
+        if (!session.setup.imported_file.empty())
+            json["sessions"].back()["imported_file"] = session.setup.imported_file;
+    }
     for (const StudyParameter& parameter : results.parameters)
         json["parameters"].push_back({{"name", parameter.name},
                                       {"value", parameter.value},

@@ -138,6 +138,21 @@ TEST_CASE("where simulated observers mean to look comes back as head fractions",
     }
     const TsvFile trials(out / "trials.tsv");
     CHECK(trials.size() == 3 * small_trials);
+    // The page has a trace of each trial, with the amplitude and the peak velocity of each saccade.
+    const std::string page = text_of(out / "report.html"),
+                      begin = "<script type=\"application/json\" id=\"data\">";
+    const std::size_t from = page.find(begin) + begin.size();
+    const auto data = nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+    CHECK(data.at("traces").size() == 3 * small_trials);
+    int saccades = 0, with_peak = 0;
+    for (const auto& trace : data.at("traces")) {
+        for (const auto& event : trace.at("events")) {
+            saccades += event[0] == "s";
+            with_peak += event[0] == "s" && event[3].is_number() && event[4].is_number();
+        }
+    }
+    CHECK(saccades > 3 * small_trials);
+    CHECK(with_peak == saccades);
     // Maps keep what fixations put into them: ms of a trial.
     double fixated_s = 0.0;
     for (std::size_t row = 0; row < trials.size(); ++row)

@@ -142,7 +142,7 @@ TEST_CASE("a study says what it lacks and reckons what it can", "[session]") {
         }
         CHECK(compared > 10);
     }
-    SECTION("a folder that is no session, or one that is named twice, is an error") {
+    SECTION("a folder without a session is an error; a session that is named twice is taken once") {
         const auto refused = [&](const std::vector<std::string>& sessions) {
             std::vector<std::string> arguments{"analyze", "--out", (folder / "x").string()};
             arguments.insert(arguments.end(), sessions.begin(), sessions.end());
@@ -150,8 +150,18 @@ TEST_CASE("a study says what it lacks and reckons what it can", "[session]") {
             CHECK(run.exit_code == 2);
             return run.err;
         };
-        CHECK(refused({folder.string()}).find(folder.filename().string()) != std::string::npos);
-        CHECK(refused({study.sessions[0], study.sessions[0] + "/"}).find("twice") != std::string::npos);
+        fs::create_directory(folder / "empty");
+        const std::string said = refused({(folder / "empty").string()});
+        CHECK(said.find("empty: this folder holds no session") != std::string::npos);
+        CHECK(said.find("session.sqlite") != std::string::npos);
+        const ProgramRun once = study.experiment.overt({"analyze", study.sessions[0], study.sessions[0] + "/",
+                                                        "--json", "--out", (folder / "once").string()});
+        CHECK(once.exit_code == 0);
+        CHECK(once.err.find("taken once") != std::string::npos);
+        const auto number = [](const ProgramRun& run) {
+            return nlohmann::json::parse(run.out).at("sessions").size();
+        };
+        CHECK(number(once) == 1);
     }
 }
 

@@ -199,8 +199,8 @@ TEST_CASE("the fixations of a simulated observer come back from its session", "[
     CHECK(fixations.f1() > 0.95);
     // Of a saccade of less than a degree hardly half is faster than 30 deg/s.
     CHECK(saccades.f1() > 0.7);
-    CHECK(fixations.median_onset_error_ms() <= 4.0);
-    CHECK(fixations.median_offset_error_ms() <= 4.0);
+    CHECK(fixations.median_onset_error_ms().value() <= 4.0);
+    CHECK(fixations.median_offset_error_ms().value() <= 4.0);
 }
 
 TEST_CASE("the share of gaze on the head comes back as the tasks had it", "[session]") {

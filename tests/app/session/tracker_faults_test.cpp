@@ -114,6 +114,43 @@ TEST_CASE("an eye that is not found is a loss of gaze, by which the protocol may
     CHECK(std::ranges::count_if(samples, [](const GazeSample& sample) { return !sample.gaze; }) >= 900);
 }
 
+TEST_CASE("a trial without gaze says so where it counts, and comes again where the protocol repeats for it",
+          "[session]") {
+    struct Case {
+        std::string faults;
+        double share; ///< of its gaze that came, of a second and two leads
+    };
+    for (const Case& with : {Case{fault("no-eye", "trial = 1\nat_s = 0\ns = 30"), 0.0},
+                             Case{fault("gap", "trial = 1\nat_s = 0.02\ns = 30"), 0.02},
+                             Case{fault("garbage", "trial = 1\nat_s = 0.02\ns = 30"), 0.02}}) {
+        CAPTURE(with.faults);
+        const Faulted faulted(with.faults);
+        CHECK(faulted.run.exit_code == 0);
+        CHECK_THAT(faulted.run.err, Contains("eye tracker: gaze lost (trial 1)"));
+        const SessionRecord record = faulted.record();
+        REQUIRE(record.trials().size() == 2);
+        CHECK(record.trials()[0].counts);
+        CHECK(record.trials()[0].outcome.failure == "gaze lost");
+        REQUIRE(record.trials()[0].outcome.gaze);
+        CHECK(record.trials()[0].outcome.gaze->share() == Approx(with.share).margin(0.02));
+        CHECK(record.trials()[1].outcome.gaze->share() > 0.7); // but for blinks
+        const ProgramRun shown = faulted.experiment.overt({"show", faulted.experiment.session().string()});
+        CHECK_THAT(shown.out, Contains("completed, gaze lost") && Contains("what went wrong: eye tracker"));
+        CHECK_THAT(shown.out, Contains("THE EYE TRACKER'S FAULTS WERE SIMULATED"));
+        CHECK_THAT(shown.out, !Contains("THE DISPLAY'S FAULTS"));
+    }
+    // The rule for lost gaze sees samples that never came, as it sees those without an eye.
+    SmallExperiment repeats(
+        with(small_protocol, "[screens]\n", "[repeat]\ngaze_lost = \"now\"\n\n[screens]\n"));
+    const std::string file =
+        repeats.folder().file("faults.toml", fault("gap", "trial = 1\nat_s = 0.1\ns = 30")).string();
+    REQUIRE(repeats.run({"--trials", "2", "--no-pictures", "--faults", file}).exit_code == 0);
+    const SessionRecord record(repeats.session());
+    REQUIRE(record.trials().size() == 3);
+    CHECK_FALSE(record.trials()[0].counts);
+    CHECK(record.trials()[0].outcome.failure == "gaze lost");
+}
+
 TEST_CASE("a tracker that is lost ends the attempt, is connected and calibrated, and the trial comes again",
           "[session]") {
     struct Case {
@@ -135,8 +172,13 @@ TEST_CASE("a tracker that is lost ends the attempt, is connected and calibrated,
         const SessionRecord record = faulted.record();
         REQUIRE(record.trials().size() == 3);
         CHECK_FALSE(record.trials()[0].counts);
+        CHECK(record.trials()[0].outcome.failure == "eye tracker lost");
         CHECK(record.trials()[1].counts);
         CHECK(record.trials()[2].counts);
+        CHECK_THAT(faulted.run.err, Contains("eye tracker: ") && Contains("eye tracker lost (trial 1)"));
+        const ProgramRun shown = faulted.experiment.overt({"show", faulted.experiment.session().string()});
+        CHECK_THAT(shown.out,
+                   Contains("  eye tracker lost  ") && !Contains("rejected") && !Contains("DISPLAY"));
     }
 }
 

@@ -13,6 +13,9 @@ window.addEventListener('load', () => setTimeout(() => {
     const small = document.createElement('canvas');
     small.width = small.height = 64;
     const pen = small.getContext('2d');
+    // The views are transparent where nothing is: by day the page behind them is white.
+    pen.fillStyle = '#fff';
+    pen.fillRect(0, 0, 64, 64);
     pen.drawImage(canvas, 0, 0, 64, 64);
     const bytes = pen.getImageData(0, 0, 64, 64).data;
     let filled = 0, sum = 0;
@@ -81,6 +84,58 @@ window.addEventListener('load', () => setTimeout(() => {
   step('only the running fixation', () => by('all_fixations').click(), overlay);
   step('copy', () => by('copy_methods').click(), () => 0);
   seen.steps.pop();
+  seen.traces = {trials: by('trial').options.length, without: 0, said: by('traces_shown').textContent};
+  for (let i = 0; i < by('trial').options.length; ++i) { choose('trial', i); seen.traces.without += by('trace').querySelector('svg') ? 0 : 1; }
+  by('all_traces_box').open = true;
+  by('all_traces_box').dispatchEvent(new Event('toggle'));
+  step('a trace of all', () => by('all_traces').firstChild.click(), trial);
+
+  choose('unit5', 0);
+  // Tables: sorting, the filter, and the file of what is shown.
+  const figure5 = by('table_figure_5'), heads = [...figure5.querySelectorAll('thead th')], named = name => heads.findIndex(h => h.textContent.startsWith(name));
+  const column = at => [...figure5.querySelectorAll('tbody tr')].map(row => row.children[at].firstChild.textContent);
+  const wss = named('mean WSS'), var_z = named('Var z');
+  const press = at => heads[at].querySelector('button').click();
+  const sorts = () => heads.map(h => h.getAttribute('aria-sort')).join();
+  seen.factors = heads.map(h => h.textContent);
+  seen.focusable = heads.every(h => h.querySelector('button').tabIndex === 0);
+  seen.sorted = {before: column(var_z), sorts: [sorts()]};
+  press(var_z); seen.sorted.up = column(var_z); seen.sorted.sorts.push(sorts());
+  press(var_z); seen.sorted.down = column(var_z); seen.sorted.sorts.push(sorts());
+  press(var_z); seen.sorted.after = column(var_z); seen.sorted.sorts.push(sorts());
+  press(named('material'));
+  const filter = figure5.querySelector('input');
+  filter.value = 'ROUGH free';
+  filter.dispatchEvent(new Event('input'));
+  seen.filtered = {rows: column(named('material')), said: figure5.querySelector('output').textContent};
+  const kept = {make: URL.createObjectURL, click: HTMLAnchorElement.prototype.click};
+  let file = null;
+  URL.createObjectURL = blob => { file = blob; return '#'; };
+  HTMLAnchorElement.prototype.click = function() { seen.file = this.download; };
+  [...figure5.querySelectorAll('.tools button')].pop().click();
+  URL.createObjectURL = kept.make;
+  HTMLAnchorElement.prototype.click = kept.click;
+  file.text().then(text => { seen.csv = text; });
+  filter.value = '';
+  filter.dispatchEvent(new Event('input'));
+
+  // What does not fit: a page wider than its window, texts of charts that leave them or lie on each other.
+  seen.too_wide = document.documentElement.scrollWidth - document.documentElement.clientWidth;
+  seen.texts_apart = [];
+  let texts_of_charts = 0;
+  for (const svg of document.querySelectorAll('svg[role=img]')) {
+    const page = svg.getBoundingClientRect(), texts = [...svg.querySelectorAll('text')].map(t => ({t: t.textContent, r: t.getBoundingClientRect()}));
+    texts_of_charts += texts.length;
+    texts.forEach(({t, r}, i) => {
+      if (r.left < page.left - 1 || r.right > page.right + 1 || r.top < page.top - 1 || r.bottom > page.bottom + 1) seen.texts_apart.push(`'${t}' leaves its chart`);
+      for (const other of texts.slice(0, i)) {
+        const across = Math.min(r.right, other.r.right) - Math.max(r.left, other.r.left), down = Math.min(r.bottom, other.r.bottom) - Math.max(r.top, other.r.top);
+        if (across > 1 && down > 2) seen.texts_apart.push(`'${t}' lies on '${other.t}'`);
+      }
+    });
+  }
+  seen.texts_of_charts = texts_of_charts;
+  seen.stuck = getComputedStyle(heads[0]).position;
   step('play', () => by('play').click(), () => by('play').textContent);
   setTimeout(() => {
     seen.played = Number(by('time').value);
@@ -92,5 +147,6 @@ window.addEventListener('load', () => setTimeout(() => {
     note.id = 'seen';
     note.textContent = JSON.stringify(seen);
     document.body.append(note);
+    if (parent !== window) parent.postMessage(note.textContent, '*');
   }, 600);
 }, 300));

@@ -70,8 +70,12 @@ class ButtonLog final : public SessionLog {
     void buttons(const std::vector<RecordedButton>& more) override {
         all.insert(all.end(), more.begin(), more.end());
     }
+    void key_presses(const std::vector<RecordedKeyPress>& more) override {
+        presses.insert(presses.end(), more.begin(), more.end());
+    }
     void trial_started(const Trial&, SessionTime) override {}
     void trial_finished(const Trial&, const TrialOutcome&) override {}
+    std::vector<RecordedKeyPress> presses;
     std::vector<RecordedButton> all;
     std::vector<std::string> events;
 };
@@ -173,6 +177,17 @@ TEST_CASE("a press at a box answers with its own time and words, and is recorded
     CHECK(down.is_down);
     CHECK_FALSE(devices.log.all[1].is_down);
     CHECK(devices.log.all[2].meaning.empty());
+    // Of presses, not of releases, also what stood on the screen, beside the keys of keyboards.
+    REQUIRE(devices.log.presses.size() == 2);
+    const RecordedKeyPress& pressed = devices.log.presses[0];
+    CHECK(pressed.at == press->pressed_at);
+    CHECK(pressed.device == "pad");
+    CHECK(pressed.name == "B");
+    CHECK(pressed.screen == SessionPhase::response_screen);
+    CHECK(pressed.trial == 4);
+    CHECK(pressed.meaning == "answer silver");
+    CHECK(devices.log.presses[1].name == "G");
+    CHECK(devices.log.presses[1].meaning.empty());
 
     // A key that answers after all is the keyboard's answer.
     devices.panel.await_response({}, devices.clock.now());

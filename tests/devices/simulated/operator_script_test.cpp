@@ -22,6 +22,16 @@ TEST_CASE("an operator's key is read with its phase, trial, time and answer", "[
     for (const char* wrong : {"", "=", "+=", "rest+1=", "rest+1=pause,", "rest+1=pause,0", "rest@x+1=pause",
                               "rest+-1=pause", "rest+nan=pause", "@1+1=pause"})
         CHECK_THROWS_AS(read_operator_key(wrong, 4), InputError);
+    const ScriptedOperatorKey pressed = read_operator_key("response screen+1=press left shift", 4);
+    CHECK(pressed.pressed == "left shift");
+    CHECK(pressed.key != ResponsePress::Key::next);
+    for (const char* const goes_on : {"7", "å", "space", "enter", ","}) {
+        CAPTURE(goes_on);
+        const ScriptedOperatorKey key = read_operator_key(std::string("rest+1=press ") + goes_on, 4);
+        CHECK(key.pressed == goes_on);
+        CHECK(key.key == ResponsePress::Key::next);
+    }
+    CHECK_THROWS_AS(read_operator_key("rest+1=press ", 4), InputError);
     // A digit that is no reason would be waited at for ever.
     CHECK_THROWS_AS(read_operator_key("rest+1=skip,5", 4), InputError);
     CHECK_THROWS_AS(read_operator_key("rest+1=abort,1", 4), InputError);

@@ -147,6 +147,20 @@ TEST_CASE("what is not to be repeated counts, however it went, but for a rejecte
         return queue.tell(result);
     };
     CHECK(verdict_on({.missed_refreshes = 99, .gaze_lost_share = 1.0}).counts);
+    // Of gaze there was none: that is said, though the protocol repeats nothing for it.
+    CHECK(verdict_on({.gaze_lost_share = 1.0}).failure == TrialFailure::gaze_lost);
+    CHECK(verdict_on({.gaze_lost_share = 1.0}).comes_again == RepeatWhen::never);
+    CHECK(verdict_on({.gaze_lost_share = 0.9}).failure == TrialFailure::none);
+    // What a device broke is no rejection, and never counts.
+    for (const AttemptResult& broken :
+         {AttemptResult{.is_tracker_lost = true}, AttemptResult{.has_clock_jumped = true},
+          AttemptResult{.is_broken_off = true}}) {
+        CHECK(verdict_on(broken).failure > TrialFailure::rejected);
+        CHECK_FALSE(verdict_on(broken).counts);
+        CHECK(verdict_on(broken).comes_again == protocol.repeat.rejected);
+    }
+    CHECK(verdict_on({.is_repeated = true, .is_tracker_lost = true}).failure == TrialFailure::tracker_lost);
+    CHECK(verdict_on({.is_repeated = true, .is_tracker_lost = true}).comes_again == RepeatWhen::now);
     protocol.repeat.missed_refreshes = RepeatWhen::now;
     protocol.repeat.missed_refreshes_limit = 2;
     CHECK(verdict_on({.missed_refreshes = 2}).failure == TrialFailure::none);

@@ -51,8 +51,8 @@ TEST_CASE("errors of begins and ends are told of events with a partner", "[unit]
     CHECK(agreement.matched() == 2);
     CHECK(agreement.in_reference() == 3);
     CHECK(agreement.detected() == 3);
-    CHECK(agreement.median_onset_error_ms() == 3.0);
-    CHECK(agreement.median_offset_error_ms() == 3.0);
+    CHECK(agreement.median_onset_error_ms().value() == 3.0);
+    CHECK(agreement.median_offset_error_ms().value() == 3.0);
 }
 
 TEST_CASE("kappa is agreement beyond chance", "[unit]") {

@@ -109,14 +109,13 @@ class BlinkingTracker final : public EyeTracker {
         if (held_ > 0) {
             const std::size_t count = std::min(into.size(), held_);
             for (TrackerItem& item : into.first(count))
-                item = GazeSample{.sampled_at = tracker_time(++samples_), .gaze = {}};
+                item = GazeSample{.sampled_at = time_of(++samples_), .gaze = {}};
             held_ -= count;
             arrived += static_cast<int>(count);
             return count;
         }
         ++arrived;
-        GazeSample sample{.sampled_at =
-                              doubles ? tracker_time(samples_ += arrived % 2) : tracker_time(++samples_),
+        GazeSample sample{.sampled_at = doubles ? time_of(samples_ += arrived % 2) : time_of(++samples_),
                           .gaze = {}};
         if (std::find(blind.begin(), blind.end(), recording_) == blind.end())
             sample.gaze = ScreenPoint{1.0, 2.0};
@@ -159,6 +158,8 @@ class BlinkingTracker final : public EyeTracker {
         fails_at.reset();
         throw DeviceError("it is gone");
     }
+    /// About as often as it is asked.
+    static TrackerTime time_of(std::int64_t sample) { return tracker_time(4000 * sample); }
     std::int64_t samples_ = 0;
     int recording_ = -1;
     std::size_t held_ = 0;
@@ -226,6 +227,7 @@ class NotingLog final : public SessionLog {
         times.push_back(event.at);
     }
     void consent(const RecordedConsent& consent) override { consents.push_back(consent); }
+    void gaze_came(const GazeYield& gaze) override { yields.push_back(gaze); }
     void observer_fields(const std::vector<RecordedObserverField>& filled) override { fields = filled; }
     void trial_started(const Trial& trial, SessionTime) override { started.push_back(trial.index); }
     void trial_finished(const Trial&, const TrialOutcome& outcome) override {
@@ -249,6 +251,7 @@ class NotingLog final : public SessionLog {
     std::vector<bool> completed;
     std::vector<TrialOutcome> outcomes;
     std::vector<RecordedConsent> consents;
+    std::vector<GazeYield> yields;
     std::vector<RecordedCalibration> calibrations;
     std::vector<RecordedObserverField> fields;
 };

@@ -32,11 +32,11 @@ RecordedCalibration of_both_eyes() {
     return calibration;
 }
 
-struct Recorded {
+struct RecordedSetups {
     test::TemporaryFolder root;
     std::filesystem::path session;
 
-    Recorded() {
+    RecordedSetups() {
         SessionHeader header = eye_session_header();
         header.tracker.both_eyes = true;
         header.schedule.observer.label = "AB7";
@@ -81,7 +81,7 @@ struct Recorded {
 } // namespace
 
 TEST_CASE("a calibration comes back from the record as it went in", "[unit]") {
-    const Recorded recorded;
+    const RecordedSetups recorded;
     const SessionRecord record(recorded.session);
     const std::vector<RecordedCalibration> all = record.calibrations(1);
     REQUIRE(all.size() == 1);
@@ -120,7 +120,7 @@ TEST_CASE("of each eye a validation has its own mean and largest error", "[unit]
 
 TEST_CASE("inputs, buttons, gaps and the tracker's own events stand among the trial's gaze events",
           "[unit]") {
-    const Recorded recorded;
+    const RecordedSetups recorded;
     const SessionRecord record(recorded.session);
     std::vector<GazeEvent> events;
     record.read_gaze_events(record.trials().at(0), [&](const GazeEvent& event) { events.push_back(event); });
@@ -150,7 +150,7 @@ TEST_CASE("inputs, buttons, gaps and the tracker's own events stand among the tr
 }
 
 TEST_CASE("ASC and BIDS tell of each eye's validation and its targets", "[unit]") {
-    const Recorded recorded;
+    const RecordedSetups recorded;
     const SessionRecord record(recorded.session);
     const test::TemporaryFolder out;
     export_asc(record, out.path() / "asc");

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <nlohmann/json.hpp>
 
 #include "experiment/record/asc/asc_export.h"
 #include "experiment/record/asc/asc_import.h"
@@ -87,6 +88,10 @@ std::vector<GazeEvent> expected_events(std::size_t trial, const EventSettings& s
     return detect(planted_samples(trial), settings, GazeAngles(header_with_trials().display.screen));
 }
 
+double measured_noise_deg_s(const SessionRecord::EventOrigin& origin) {
+    return nlohmann::json::parse(origin.detection.parameters).at("measured_speed_deg_s").get<double>();
+}
+
 /// Its other files are not there, which is not what is asked.
 std::set<std::string> damaged_tables(const fs::path& session) {
     std::set<std::string> tables;
@@ -125,20 +130,21 @@ TEST_CASE("a session records the events of its trials, with who found them and h
     CHECK(damaged_tables(session) == std::set<std::string>{table});
 }
 
-TEST_CASE("a session without events has them found when it is read, by the default settings, and says so",
+TEST_CASE("a session without events has them found when it is read, by its rate and noise, and says so",
           "[unit]") {
     const test::TemporaryFolder root;
     const fs::path session = record_session(root.path(), std::nullopt);
     const SessionRecord record(session);
+    const SessionRecord::EventOrigin origin = record.event_origin(1);
+    CHECK(origin.from == From::reading);
+    CHECK(origin.settings == usual_settings(GazeNoise{1.0, measured_noise_deg_s(origin)}));
     for (const std::size_t trial : {0u, 1u})
-        CHECK(eye_events(record, trial) == expected_events(trial, {}));
-    CHECK(record.event_origin(1).from == From::reading);
-    CHECK(record.event_origin(1).detection == detection_by({}));
-    CHECK_THAT(record.event_origins(), Contains("when they were exported"));
+        CHECK(eye_events(record, trial) == expected_events(trial, origin.settings));
+    CHECK_THAT(record.event_origins(), Contains("afterwards, in the recorded samples"));
     // Of earlier programs' sessions, which had no such table.
     SQLite::Database((session / session_file_name).string(), SQLite::OPEN_READWRITE)
         .exec("DROP TABLE event_detection; DROP TABLE gaze_event; DROP TABLE gaze_source");
-    CHECK(eye_events(SessionRecord(session), 1) == expected_events(1, {}));
+    CHECK(eye_events(SessionRecord(session), 1) == expected_events(1, origin.settings));
 }
 
 TEST_CASE("events stand in the tables, in BIDS and in ASC, and those of ASC come back", "[unit]") {
@@ -234,7 +240,8 @@ TEST_CASE("events of an imported recording without any are found only when that 
     record.detect_events_of_imports();
     CHECK(record.event_origin(1).from == From::reading);
     // Places have three decimals in ASC.
-    const std::vector<GazeEvent> found = eye_events(record, 0), expected = expected_events(0, {});
+    const std::vector<GazeEvent> found = eye_events(record, 0),
+                                 expected = expected_events(0, record.event_origin(1).settings);
     CHECK(agreement(GazeEvent::Kind::fixation, expected, found).f1() == 1.0);
     CHECK(agreement(GazeEvent::Kind::saccade, expected, found).f1() == 1.0);
 }

@@ -91,7 +91,8 @@ inline void add_trial(StudyResults& study, int number) {
         if (i % 7 == 3)
             fixation.why = NotCounted::too_short;
         trace.events.push_back({GazeEvent::Kind::fixation, fixation.onset_s, fixation.duration_s});
-        trace.events.push_back({GazeEvent::Kind::saccade, fixation.onset_s + fixation.duration_s, 0.04});
+        trace.events.push_back({GazeEvent::Kind::saccade, fixation.onset_s + fixation.duration_s, 0.04,
+                                2.0 + i, 100.0 + 20.0 * i});
         study.fixations.push_back(fixation);
         for (int k = 0; k < 100; ++k) {
             const double moved = std::clamp((0.004 * k - fixation.duration_s) / 0.04, 0.0, 1.0);
@@ -129,9 +130,9 @@ inline StudyResults made_up_study() {
     StudySession session;
     session.folder = "sub-01_ses-01";
     session.observer = "01";
-    session.tracker = "simulated";
+    session.setup.gaze.origin = GazeOrigin::simulated;
+    session.setup.gaze.tracker = "simulated";
     session.events = "Fixations are those that the tracker told.";
-    session.is_simulated = true;
     study.sessions.push_back(session);
     study.session_quality.push_back({});
     study.sculptures = {made_up::sculpture("ball", 50.0), made_up::sculpture("globe", 80.0)};
@@ -191,7 +192,11 @@ inline StudyResults made_up_study() {
     pair.b = "smooth";
     pair.wss_difference_mm2 = Estimate::of(11.4, Interval{-3.0, 26.0});
     pair.cc.value = Estimate::of(0.35, Interval{0.3, 0.4});
-    pair.cc.ceiling = Estimate::of(0.36);
+    pair.cc.between_halves = Estimate::of(0.27);
+    pair.cc.within_halves = Estimate::of(0.29, Interval{0.25, 0.33});
+    pair.maps_cc = 0.71;
+    pair.maps_p = 0.0004;
+    pair.maps_p_holm = 0.0012;
     pair.sim_mit.value = Estimate::none("no visible vertex");
     study.pairs.push_back(pair);
     DifferenceMap difference;
@@ -222,6 +227,7 @@ inline StudyResults made_up_study() {
         {{{"material", "rough"}}, Estimate::none("no counted fixation saw the surface move"), {}, 0, 0});
     study.reporting.push_back({"1 eye tracker", "eyes measured", "right <i>", true});
     study.reporting.push_back({"4 recording environment", "room", "not recorded: describe both", false});
+    study.methods.push_back({"Stimuli", "What was <i>shown</i> & asked is {{DATA}}. It was so."});
     study.exposures.push_back({0, "all", 31400.0, 1.0, 0.35, 4.0, 1.0, 0.5, 1.0});
     study.exposures.push_back({0, "head", 3140.0, 0.1, 0.2, 5.0, 0.12, std::nullopt, 0.4});
     for (int trial = 0; trial < 4; ++trial)

@@ -52,10 +52,15 @@ TEST_CASE("a tracker that is gone at any step is asked for, connected and calibr
         CHECK(sitting.log.count("eye tracker regained") == 1);
         CHECK(sitting.log.count("presentation broken off") == 0);
         const auto started = step == Step::set_up ? std::vector<int>{0, 1} : std::vector<int>{0, 0, 1};
-        // An attempt that could not begin counts as rejected, and comes again at the end of its block.
+        // An attempt that could not begin comes again, and says why: nobody rejected it.
         std::vector<int> sorted = sitting.log.started;
         std::ranges::sort(sorted);
         CHECK(sorted == started);
+        const auto is_lost = [](const TrialOutcome& outcome) {
+            return outcome.failure == "eye tracker lost";
+        };
+        CHECK(std::ranges::count_if(sitting.log.outcomes, is_lost) == (step == Step::set_up ? 0 : 1));
+        CHECK(std::ranges::count(sitting.log.outcomes, std::string("rejected"), &TrialOutcome::failure) == 0);
 
         Sitting ended(short_protocol(""));
         ended.tracker.fails_at = step;
@@ -65,6 +70,9 @@ TEST_CASE("a tracker that is gone at any step is asked for, connected and calibr
         CHECK(result.reason == "the eye tracker was lost");
         CHECK(ended.tracker.reconnections == 0);
         CHECK(ended.log.flips == 0);
+        // The session is over, and its last attempt says by what.
+        if (step != Step::set_up)
+            CHECK(ended.log.outcomes.back().failure == "eye tracker lost");
     }
 }
 
@@ -75,6 +83,7 @@ TEST_CASE("an attempt in which the tracker's clock jumps does not count, and is 
     CHECK(sitting.run().completed_trials == 2);
     REQUIRE(sitting.log.completed.size() == 3);
     CHECK_FALSE(sitting.log.completed[0]);
+    CHECK(sitting.log.outcomes[0].failure == "eye tracker's clock jumped");
     check_jump(sitting, 250.0, "in the trial");
 
     Sitting between(short_protocol(""));

@@ -1,3 +1,5 @@
+#include <set>
+
 #include <catch2/catch.hpp>
 
 #include "experiment/base/whole_file.h"
@@ -61,4 +63,13 @@ TEST_CASE("ticks are round numbers within the axis", "[unit]") {
         CHECK(ticks.back() > 0.7 * high);
     }
     CHECK(tick_values(2.0, 2.0, 5) == std::vector<double>{2.0});
+    // However small or large they are, no two of an axis have the same text.
+    for (const double high : {3e-14, 0.013, 950.0, 123456.0, 4e12}) {
+        std::set<std::string> texts;
+        const std::vector<double> ticks = tick_values(-high, high, 6);
+        for (const double tick : ticks)
+            texts.insert(tick_text(tick));
+        CHECK(texts.size() == ticks.size());
+        CHECK(texts.contains("0"));
+    }
 }

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "devices/host/clocks.h"
+#include "experiment/ports/session_log.h"
 #include "tests/support/virtual_screen.h"
 
 // Last: it defines words.
@@ -86,6 +87,125 @@ TEST_CASE("the operator's keys are kept while something is prepared, the observe
     // Each is given once.
     panel.await_key({});
     CHECK(keys_of(panel).empty());
+}
+
+namespace {
+
+class PressLog final : public SessionLog {
+  public:
+    void flip(const FlipRecord&) noexcept override {}
+    void missed(const MissedRefresh&) noexcept override {}
+    void sample(int, const GazeSample&) noexcept override {}
+    void clock_pair(const ClockPair&) noexcept override {}
+    void event(const SessionEvent&) override {}
+    void key_presses(const std::vector<RecordedKeyPress>& more) override {
+        all.insert(all.end(), more.begin(), more.end());
+    }
+    void trial_started(const Trial&, SessionTime) override {}
+    void trial_finished(const Trial&, const TrialOutcome&) override {}
+    std::vector<RecordedKeyPress> all;
+};
+
+/// Looks at the keys until there is nothing left.
+std::vector<RecordedKeyPress> recorded(WindowResponsePanel& panel) {
+    keys_of(panel);
+    PressLog log;
+    panel.write_down(log);
+    return log.all;
+}
+
+using Names = std::vector<std::string>;
+Names names_of_presses(const std::vector<RecordedKeyPress>& presses) {
+    Names names;
+    for (const RecordedKeyPress& press : presses)
+        names.push_back(press.name);
+    return names;
+}
+
+} // namespace
+
+TEST_CASE("every key that is pressed while an answer is awaited is recorded, by its name", "[gl]") {
+    const auto screen = test::VirtualScreen::start(640, 480, 24);
+    WindowWithKeyboard typed_at;
+    WindowResponsePanel panel = typed_at.panel();
+    test::Keyboard& keyboard = typed_at.keyboard;
+    const Trial trial{4, 0, {}};
+    panel.entered(SessionPhase::response_screen, 4);
+    panel.await_response(trial, {});
+    for (const KeySym symbol : {XK_7, XK_3, XK_space, XK_Return, XK_KP_Enter, XK_F9, XK_Shift_L, XK_Home})
+        keyboard.type(symbol);
+    keyboard.type(XK_a, ShiftMask);
+    const std::vector<RecordedKeyPress> presses = recorded(panel);
+    CHECK(names_of_presses(presses) ==
+          Names{"7", "3", "space", "enter", "keypad enter", "f9", "left shift", "home", "a"});
+    REQUIRE(presses.size() == 9);
+    for (const RecordedKeyPress& press : presses) {
+        CHECK(press.device == "keyboard");
+        CHECK(press.screen == SessionPhase::response_screen);
+        CHECK(press.trial == 4);
+        CHECK(press.code);
+        CHECK(press.uncertainty >= SessionDuration::zero());
+    }
+    CHECK(presses[0].text == "7");
+    CHECK(presses[0].meaning == "next");
+    CHECK(presses[5].meaning.empty());
+    CHECK(presses[6].modifiers.empty());
+    CHECK(presses[8].modifiers == "shift");
+    CHECK(presses[8].text == "A");
+    CHECK(recorded(panel).empty());
+}
+
+TEST_CASE("a key that is held is one press, and answers only once", "[gl]") {
+    const auto screen = test::VirtualScreen::start(640, 480, 24);
+    WindowWithKeyboard typed_at;
+    WindowResponsePanel panel = typed_at.panel();
+    panel.entered(SessionPhase::response_screen, 0);
+    panel.await_response(Trial{}, {});
+    typed_at.keyboard.hold(XK_7, 5);
+    CHECK(keys_of(panel) == std::vector{Key::next});
+    CHECK(names_of_presses(recorded(panel)) == Names{"7"});
+    // One that GLFW knows by no number of its own.
+    typed_at.keyboard.hold_code(93 + 8, 4);
+    const std::vector<RecordedKeyPress> unknown = recorded(panel);
+    REQUIRE(unknown.size() == 1);
+    CHECK(unknown[0].code == 93 + 8);
+    CHECK_FALSE(unknown[0].name.empty());
+}
+
+TEST_CASE(
+    "keys of forms, decisions and set-ups are not recorded, and those before a screen are of the one before",
+    "[gl]") {
+    const auto screen = test::VirtualScreen::start(640, 480, 24);
+    WindowWithKeyboard typed_at;
+    WindowResponsePanel panel = typed_at.panel();
+    test::Keyboard& keyboard = typed_at.keyboard;
+    panel.entered(SessionPhase::set_up, -1);
+    panel.await_entry({});
+    keyboard.type(XK_s);
+    CHECK(recorded(panel).empty());
+    panel.entered(SessionPhase::task_screen, 1);
+    panel.await_key({});
+    panel.await_decision(false, {});
+    keyboard.type(XK_y);
+    CHECK(recorded(panel).empty());
+    panel.await_key({});
+    keyboard.type(XK_1);
+    CHECK(recorded(panel).at(0).screen == SessionPhase::task_screen);
+    // While the stimulus is shown, and before the response screen is lit.
+    panel.entered(SessionPhase::stimulus, 1);
+    keyboard.type(XK_2);
+    const RecordedKeyPress early = recorded(panel).at(0);
+    CHECK(early.screen == SessionPhase::stimulus);
+    CHECK(early.meaning.empty());
+    panel.entered(SessionPhase::response_screen, 1);
+    keyboard.type(XK_3);
+    panel.await_response(Trial{}, {});
+    keyboard.type(XK_4);
+    const std::vector<RecordedKeyPress> presses = recorded(panel);
+    CHECK(names_of_presses(presses) == Names{"3", "4"});
+    REQUIRE(presses.size() == 2);
+    CHECK(presses[0].screen == SessionPhase::stimulus);
+    CHECK(presses[1].screen == SessionPhase::response_screen);
 }
 
 TEST_CASE("every key that a protocol may name is one of the window's", "[unit]") {

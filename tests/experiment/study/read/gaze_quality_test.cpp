@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -73,7 +74,43 @@ TEST_CASE("precision is the median over fixations of five samples and more, and 
                             event_of(GazeEvent::Kind::saccade, samples, 15, 16)};
     const StudyQuality quality = gaze_quality(samples, events, screen);
     CHECK(*quality.rms_s2s_deg == Approx(0.2).epsilon(0.01));
-    CHECK(*quality.sd_deg == Approx(0.1).epsilon(0.01)); // half of the way to and fro
+    // Half of the way to and fro, around a line through 16 samples.
+    CHECK(*quality.sd_deg == Approx(0.1 * std::sqrt(16.0 / 14.0)).epsilon(0.01));
+}
+
+TEST_CASE("an eye that follows a turning object scatters as one that rests on a still one", "[unit]") {
+    // A point of an object that turns by 25 degrees to each side in 2 s goes to and fro by up to 3 deg/s.
+    const auto precision = [](double rate_hz, double speed_deg_s, double noise_deg) {
+        constexpr double swing_s = 2.03;
+        const int count = static_cast<int>(60.0 * rate_hz), of_one = static_cast<int>(0.8 * rate_hz);
+        std::vector<PlacedSample> samples = samples_at(rate_hz, count);
+        RandomStream random(6, "gaze noise");
+        std::vector<GazeEvent> fixations;
+        const double px = screen.px_per_deg_at_centre();
+        for (int i = 0; i < count; ++i) {
+            const double turn = 2.0 * std::numbers::pi * i / (rate_hz * swing_s);
+            const double way_deg = speed_deg_s * swing_s / (2.0 * std::numbers::pi) * std::sin(turn);
+            ScreenPoint& gaze = samples[static_cast<std::size_t>(i)].gaze;
+            gaze.x_px += px * (way_deg + noise_deg * random.normal());
+            gaze.y_px += px * noise_deg * random.normal();
+            if (i % of_one == 0 && i + of_one <= count)
+                fixations.push_back(event_of(GazeEvent::Kind::fixation, samples, i, i + of_one - 1));
+        }
+        return gaze_quality(samples, fixations, screen);
+    };
+    const double rate_hz = GENERATE(60.0, 250.0, 1000.0);
+    INFO(rate_hz << " Hz");
+    const StudyQuality still = precision(rate_hz, 0.0, 0.05), turning = precision(rate_hz, 3.0, 0.05);
+    // Planted: 0.05 degrees along both axes. The median of 75 fixations of n samples is known to 1.25 /
+    // sqrt(75) of the scatter of one, 1 / sqrt(4 n).
+    const double error = 3.0 * 1.25 / std::sqrt(75.0) / std::sqrt(4.0 * 0.8 * rate_hz) + 0.005;
+    CHECK(*still.sd_deg == Approx(0.05 * std::sqrt(2.0)).epsilon(error));
+    CHECK(*turning.sd_deg == Approx(0.05 * std::sqrt(2.0)).epsilon(error));
+    // What the motion adds is small even where there is no noise to speak of.
+    CHECK(*precision(rate_hz, 3.0, 0.001).sd_deg < 0.02);
+    // Steps from sample to sample stay as they are: the motion is in them.
+    CHECK(*turning.rms_s2s_deg > *still.rms_s2s_deg);
+    CHECK(*turning.rms_s2s_deg < 1.03 * std::hypot(0.1, 3.0 / std::sqrt(2.0) / rate_hz));
 }
 
 TEST_CASE("lost samples are counted within blinks and apart from them", "[unit]") {

@@ -1,4 +1,4 @@
-#include "experiment/study/read/reporting.h"
+#include "experiment/study/methods/reporting.h"
 
 #include <algorithm>
 
@@ -20,7 +20,8 @@ TEST_CASE("what an article has to report is named item by item, with its value o
     StudyResults results;
     for (const std::string model : {"EyeLink 1000", "EyeLink 1000", "GP3 HD"}) {
         StudySession& session = results.sessions.emplace_back();
-        session.setup = {{"manufacturer, model", model}, {"nominal rate", "1000 Hz"}};
+        session.observer = session.setup.gaze.tracker = model;
+        session.setup.gaze.rate_hz = 1000.0;
         session.events = "Fixations are those that the tracker told.";
         session.form = {{"age", "31"}, {"hand", "left"}};
     }
@@ -41,8 +42,8 @@ TEST_CASE("what an article has to report is named item by item, with its value o
     CHECK(item_of(items, "manufacturer, model").value == "EyeLink 1000 (2 sessions); GP3 HD (1 session)");
     CHECK(item_of(items, "nominal rate").value == "1000 Hz");
     CHECK(item_of(items, "accuracy (mean error of the validation)").value ==
-          "0.4 deg (median over 3 trials; 0.3 to 0.5 deg)");
-    CHECK(item_of(items, "data loss, blinks apart").value == "2 % (median over 3 trials; 2 to 2 %)");
+          "0.400 deg (median over 3 trials; 0.300 to 0.500 deg)");
+    CHECK(item_of(items, "data loss, blinks apart").value == "2.00 % (the same in 3 trials)");
     CHECK(item_of(items, "trials").value ==
           "1 of 4 trials excluded; rules: a validation with a mean error above 1 deg");
     CHECK(item_of(items, "participants").value ==
@@ -50,13 +51,18 @@ TEST_CASE("what an article has to report is named item by item, with its value o
     CHECK(item_of(items, "fixations, saccades, blinks").value ==
           "Fixations are those that the tracker told.");
     for (const char* const missing :
-         {"head stabilisation", "room and its light", "precision (SD)", "eyes measured",
-          "firmware of the tracker", "from vertical blank to light", "technique", "questions asked",
-          "calibration"}) {
+         {"head stabilisation", "room and its light", "precision (SD)", "firmware of the tracker",
+          "from vertical blank to light", "technique", "questions asked", "calibration"}) {
         INFO(missing);
         CHECK_FALSE(item_of(items, missing).is_recorded);
         CHECK(item_of(items, missing).value.starts_with("not recorded: "));
     }
+    for (StudyTrial& trial : results.trials)
+        trial.quality.sd_deg = 0.07;
+    // What is taken out of the scatter is said.
+    CHECK(item_of(reporting_items(results, options), "precision (SD)").value ==
+          "0.0700 deg (the same in 3 trials); around the eye's own motion, a line through each 0.2 s of a "
+          "fixation");
     // Each of the nine aspects is there, in their order.
     char last = '0';
     for (const ReportingItem& item : items) {

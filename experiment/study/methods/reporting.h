@@ -3,13 +3,9 @@
 
 #include <vector>
 
-#include "experiment/record/read/session_record.h"
 #include "experiment/study/results/study_options.h"
 
 namespace overt {
-
-/// How a session was set up: items of reporting_items() with what is recorded of them.
-std::vector<StudyKey> setup_of(const SessionRecord& record);
 
 /// The aspects that Holmqvist et al. (2022, Behavior Research Methods 55, 364-416, table 7) strongly
 /// recommend to report of every study, on which the minimum reporting guideline rests (Dunn et al. 2023), in

@@ -1,0 +1,26 @@
+/// The topics of the text on methods, one file each. Each function gives whole sentences, or nothing.
+#pragma once
+
+#include <string>
+
+#include "experiment/study/results/study_options.h"
+#include "experiment/study/results/study_results.h"
+
+namespace overt {
+
+/// Who took part, which trials there are, and which were excluded by which rules.
+std::string observers_text(const StudyResults& results, const ExclusionRules& rules);
+/// The display and the eye tracker.
+std::string apparatus_text(const StudyResults& results);
+/// What was shown and asked.
+std::string stimuli_text(const StudyResults& results);
+/// Calibration, accuracy, precision, losses, missed refreshes.
+std::string gaze_quality_text(const StudyResults& results);
+/// Whose fixations, saccades and blinks these are.
+std::string events_text(const StudyResults& results);
+/// From samples to places on the surface, and which fixations count.
+std::string places_text(const StudyResults& results, const StudyOptions& options);
+/// Maps, comparisons, tests and intervals.
+std::string statistics_text(const StudyResults& results, const StudyOptions& options);
+
+} // namespace overt

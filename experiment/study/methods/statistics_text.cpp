@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include "experiment/study/methods/methods_topics.h"
+#include "experiment/study/methods/sentences.h"
+
+namespace overt {
+
+namespace {
+
+void add_maps(std::string& text, const StudyResults& results, const StudyOptions& options) {
+    const std::optional<MapCounts> counts = map_counts(results);
+    if (!counts)
+        return;
+    const std::string least_mm = as_measured(counts->least_sigma_mm, 1),
+                      most_mm = as_measured(counts->most_sigma_mm, 1);
+    const char* const kernel =
+        options.kernel == MapKernel::geodesic ? "the weight of each fixation spread along the surface as "
+                                                "heat, which gives a Gaussian along the "
+                                                "surface"
+        : options.kernel == MapKernel::euclidean
+            ? "the weight of each fixation was spread as a Gaussian in space over the vertices of the surface"
+            : "the weight of each fixation was spread as a Gaussian in space over a grid of voxels";
+    std::string clause =
+        fmt::format("in {} of the time of fixation, and as many of the number of fixations, {} "
+                    "with a standard deviation of {} {}",
+                    as_counted(counts->maps, "map"), kernel, as_set(options.sigma.value),
+                    options.sigma.is_mm ? "mm" : "deg");
+    if (!options.sigma.is_mm)
+        clause += least_mm == most_mm
+                      ? fmt::format("; that is {} mm of the object", most_mm)
+                      : fmt::format("; that is {} to {} mm of the object, by the depths of the fixations",
+                                    least_mm, most_mm);
+    add_sentence(text, clause);
+}
+
+void add_head(std::string& text, const StudyResults& results) {
+    const auto has = [](auto what) {
+        return [what](const HeadFractionRow& row) { return std::invoke(what, row).value.has_value(); };
+    };
+    if (!std::ranges::any_of(results.head_fractions, has(&HeadFractionRow::by_count)))
+        return;
+    add_sentence(text, "shares of fixations on the head are means over observers of their own shares");
+    if (std::ranges::any_of(results.head_fractions, has(&HeadFractionRow::corrected)))
+        add_sentence(text,
+                     "the corrected shares have the eye tracker's error taken out: they are those under "
+                     "which the measured places are most probable, given the error of the validation "
+                     "before each trial");
+}
+
+void add_pairs(std::string& text, const StudyResults& results) {
+    const auto compared =
+        std::ranges::find_if(results.pairs, [](const PairRow& row) { return row.absent.empty(); });
+    if (compared == results.pairs.end())
+        return;
+    add_sentence(text, fmt::format("levels of {} were compared within observers, on each object that an "
+                                   "observer saw in both, and averaged over objects and then over observers",
+                                   compared->column));
+    const auto any = [&](std::optional<double> PairRow::*p) {
+        return std::ranges::any_of(results.pairs, [p](const PairRow& row) { return (row.*p).has_value(); });
+    };
+    const char* const differences = any(&PairRow::head_p)  ? "WSS, in deg2, and of shares on the head"
+                                    : any(&PairRow::wss_p) ? "WSS, in deg2,"
+                                                           : nullptr;
+    if (differences)
+        add_sentence(text, fmt::format("differences of {} were tested by flipping the signs of observers' "
+                                       "differences",
+                                       differences));
+    if (any(&PairRow::maps_p))
+        add_sentence(text, "whether maps differ was tested by the correlation of the maps of all observers "
+                           "together, with the two levels of an observer swapped, whole maps at once "
+                           "(maps_p)");
+    if (differences || any(&PairRow::maps_p))
+        add_sentence(
+            text,
+            "each p is given as it is and after Holm's correction for the rows of the table, where rows over "
+            "all groups are corrected apart");
+}
+
+void add_intervals(std::string& text, const StudyResults& results, const StudyOptions& options) {
+    const double percent = 100.0 * options.confidence;
+    if (results.glance.observers < 3) {
+        add_sentence(text, "there are no intervals over observers, for which it takes at least three");
+        return;
+    }
+    add_sentence(text, fmt::format("intervals are of {} % and over observers", as_set(percent)));
+    add_sentence(text, fmt::format("they are bootstraps (BCa) with {} draws, and of means of fewer than six "
+                                   "observers Student's",
+                                   as_count(options.resamples)));
+}
+
+} // namespace
+
+std::string statistics_text(const StudyResults& results, const StudyOptions& options) {
+    std::string text;
+    if (results.glance.counted == 0)
+        return text;
+    add_maps(text, results, options);
+    add_head(text, results);
+    add_pairs(text, results);
+    add_intervals(text, results, options);
+    add_sentence(text, fmt::format("all that was drawn at random follows from the seed {}", options.seed));
+    return text;
+}
+
+} // namespace overt
