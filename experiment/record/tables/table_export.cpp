@@ -1,4 +1,3 @@
-#include "experiment/record/no_stimulus.h"
 #include "experiment/record/tables/table_export.h"
 
 #include <algorithm>
@@ -130,7 +129,8 @@ Eye TableExport::eye_of_unnamed(std::span<const GazeEvent> events, int sitting) 
 void TableExport::join_samples(const TrialRecord& trial) {
     std::vector<GazeEvent> events;
     record_.read_gaze_events(trial, [&](const GazeEvent& event) { events.push_back(event); });
-    const TrialPresentation presentation = presentation_of(header_, trial, validations_);
+    const std::optional<TrialLedger> ledger = record_.ledger(trial);
+    const TrialPresentation presentation = presentation_of(header_, trial, ledger.has_value(), validations_);
     const std::optional<ClockMap> clock_map = record_.clock_map(trial);
     FixationContext context{analysis_,
                             {},
@@ -140,7 +140,7 @@ void TableExport::join_samples(const TrialRecord& trial) {
                             header_.poses.angles,
                             scale_,
                             lookup_ != nullptr,
-                            !knows_no_stimulus(header_),
+                            presentation.has_stimulus,
                             dynamic_cast<const CoordinateMaps*>(lookup_) != nullptr,
                             ways_ ? &*ways_ : nullptr,
                             lookup_};
@@ -148,7 +148,7 @@ void TableExport::join_samples(const TrialRecord& trial) {
                                Degrees{presentation.validation ? presentation.validation->mean_deg : 0.0});
     Aside& aside = aside_[trial.id];
     TableWriter samples = aside_writer(tables_.samples.table(), trial);
-    aside.samples = sample_rows_.write(samples, trial, record_.ledger(trial), lookup_, fixations);
+    aside.samples = sample_rows_.write(samples, trial, ledger, lookup_, fixations);
     samples.close();
     TableWriter rows = aside_writer(tables_.gaze_events.table(), trial);
     write_gaze_events(rows, tables_.gaze_events, record_, trial, events, fixations.finish());

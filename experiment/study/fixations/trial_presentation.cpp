@@ -16,17 +16,18 @@ std::vector<RecordedAccuracy> validations_of(const SessionRecord& record) {
     return validations;
 }
 
-TrialPresentation presentation_of(const SessionHeader& header, const TrialRecord& trial,
+TrialPresentation presentation_of(const SessionHeader& header, const TrialRecord& trial, bool has_ledger,
                                   std::span<const RecordedAccuracy> validations) {
     const TrialOutcome& outcome = trial.outcome;
     const bool has_onset = trial.reached(outcome.presentation_onset);
     TrialPresentation of;
+    of.has_stimulus = has_ledger || !knows_no_stimulus(header);
     of.onset = has_onset ? outcome.presentation_onset : trial.started;
     if (has_onset && trial.reached(outcome.presentation_end))
         of.duration_s = to_seconds(outcome.presentation_end - of.onset);
     else if (trial.has_outcome() && outcome.responded_at > of.onset)
         of.duration_s = to_seconds(outcome.responded_at - of.onset);
-    else if (!knows_no_stimulus(header))
+    else if (of.has_stimulus)
         of.duration_s = header.animation.duration_s;
     const auto validation = std::find_if(validations.rbegin(), validations.rend(),
                                          [&](const auto& one) { return one.at <= trial.started; });

@@ -19,15 +19,16 @@ struct RecordedAccuracy {
 std::vector<RecordedAccuracy> validations_of(const SessionRecord& record);
 
 struct TrialPresentation {
-    SessionTime onset;       ///< the trial's begin where no presentation is recorded
-    /// Until the answer, or as planned, where its end is not recorded. Nothing if the session knows of no
-    /// stimulus and the trial of neither end nor answer.
+    bool has_stimulus = true; ///< the trial has a ledger, or the session knows of stimuli
+    SessionTime onset;        ///< the trial's begin where no presentation is recorded
+    /// Until the answer, or as planned, where its end is not recorded. Nothing without a stimulus where the
+    /// trial has neither end nor answer.
     std::optional<double> duration_s;
     std::optional<RecordedAccuracy> validation; ///< the last before the trial
 };
 
-/// `validations` by their times.
-TrialPresentation presentation_of(const SessionHeader& header, const TrialRecord& trial,
+/// `has_ledger`: whether the trial has a TrialLedger. `validations` by their times.
+TrialPresentation presentation_of(const SessionHeader& header, const TrialRecord& trial, bool has_ledger,
                                   std::span<const RecordedAccuracy> validations);
 
 } // namespace overt

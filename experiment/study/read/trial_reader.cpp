@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "experiment/record/no_stimulus.h"
 #include "experiment/study/read/gaze_quality.h"
 
 namespace overt {
@@ -93,7 +92,7 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                      const StudyOptions& options) {
     const SessionHeader& header = record.header();
     const std::optional<TrialLedger> ledger = record.ledger(trial);
-    const TrialPresentation presentation = presentation_of(header, trial, validations);
+    const TrialPresentation presentation = presentation_of(header, trial, ledger.has_value(), validations);
     const SessionTime onset = presentation.onset;
     ReadTrial read;
     StudyTrial& of = read.trial;
@@ -117,9 +116,8 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
     std::stable_sort(events.begin(), events.end(),
                      [](const GazeEvent& a, const GazeEvent& b) { return a.start < b.start; });
 
-    const bool has_stimulus = ledger || !knows_no_stimulus(header);
     const std::optional<ClockMap> clock_map = record.clock_map(trial);
-    if (!has_stimulus && !presentation.duration_s)
+    if (!presentation.duration_s)
         of.presentation_s = recorded_s(placed.samples, events, clock_map, onset);
 
     of.quality = gaze_quality(placed.samples, events, header.display.screen);
@@ -163,7 +161,7 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                                   header.poses.angles,
                                   surface.scale,
                                   surface.lookup != nullptr,
-                                  has_stimulus,
+                                  presentation.has_stimulus,
                                   surface.has_mesh,
                                   surface.ways,
                                   surface.lookup,

@@ -386,8 +386,8 @@ TEST_CASE("an imported session can be exported as tables", "[unit]") {
         table,
         Contains(
             "\n07\t1\t1\tfixation\ttracker\tleft\t1.030000000\t1.038000000\t0.010000000\t5030000\t5038000\t"
-            "512.800\t394.500\tn/a\tn/a\t1063.0000\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\tno frame "
-            "lit\tn/a\n"));
+            "512.800\t394.500\tn/a\tn/a\t1063.0000\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\tno stimulus "
+            "known\tn/a\n"));
     CHECK_THAT(table, Contains("\n07\t1\t2\tsaccade\ttracker\tleft\t") &&
                           Contains("\t512.800\t-39.500\t509.200\t380.400\tn/a\t0.460\t57.000\tn/a\tn/a\tn/"
                                    "a\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\n"));
