@@ -6,7 +6,7 @@
 namespace overt {
 
 VertexMaps::VertexMaps(const Mesh& mesh, const ObjectScale& scale, const KernelWidth& sigma, int most_threads)
-    : fine_(mesh, scale.mm_per_unit), coarse_(fine_, coarse_nodes) {
+    : fine_(mesh, scale.mm_per_unit), coarse_(fine_, coarse_nodes, scale.shown_size) {
     const SurfaceGeometry geometry(coarse_.mesh());
     areas_ = geometry.vertex_areas_mm2();
     const double sigma_mm = overt::sigma_mm(sigma, scale, scale.axis_depth);

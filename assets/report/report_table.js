@@ -56,7 +56,7 @@ function csv_field(value) {
 // Of rows among all of a table. Estimates take three columns: the value, and both ends of its interval.
 function csv_of(columns, rows, all) {
   const wide = columns.map(column => all.some(row => is_estimate(column.of(row))));
-  const head = columns.flatMap((column, i) => (wide[i] ? [column.name, column.name + ', low', column.name + ', high'] : [column.name]));
+  const head = columns.flatMap((column, i) => (wide[i] ? [column.name, column.name + ' low', column.name + ' high'] : [column.name]));
   const exact = (column, value) => (typeof value === 'number' && column.scale ? Number(scaled(column, value).toPrecision(9)) : value);
   const lines = rows.map(row => columns.flatMap((column, i) => {
     const cell = column.of(row);

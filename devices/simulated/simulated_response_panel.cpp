@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "experiment/ports/session_log.h"
 
 namespace overt {

@@ -20,8 +20,11 @@ constexpr double usual_acceleration_deg_s2 = 8000.0;
 constexpr double calm_noise_deg_s = 8.0, calm_interval_ms = 2.0;
 constexpr double most_acceleration_deg_s2 = 1e6; // which no eye reaches
 
-/// To steps that read well, and are far finer than thresholds are known.
-double rounded(double value, double step) { return step * std::round(value / step); }
+/// To the decimals that read well, and are far finer than thresholds are known; -2: to hundreds.
+double rounded(double value, int decimals) {
+    const double power = std::pow(10.0, std::abs(decimals));
+    return decimals < 0 ? power * std::round(value / power) : std::round(value * power) / power;
+}
 
 } // namespace
 
@@ -33,7 +36,7 @@ EventSettings ChosenThresholds::over(EventSettings usual) const {
 }
 
 void GazeNoiseMeter::Counts::add(double value) {
-    const double step = std::clamp(value / step_, 0.0, static_cast<double>(counts_.size() - 1));
+    const double step = std::clamp(std::round(value / step_), 0.0, static_cast<double>(counts_.size() - 1));
     ++counts_[static_cast<std::size_t>(step)];
     ++all_;
 }
@@ -45,7 +48,7 @@ std::optional<double> GazeNoiseMeter::Counts::median() const {
     std::size_t i = 0;
     while (2 * (before + counts_[i]) < all_)
         before += counts_[i++];
-    return step_ * (static_cast<double>(i) + 0.5);
+    return step_ * static_cast<double>(i);
 }
 
 GazeNoiseMeter::GazeNoiseMeter(const GazeAngles& angles)
@@ -89,7 +92,7 @@ std::optional<GazeNoise> GazeNoiseMeter::measured() const {
     const std::optional<double> interval_ms = intervals_ms_.median(), speed_deg_s = speeds_deg_s_.median();
     if (!interval_ms || !speed_deg_s)
         return std::nullopt;
-    return GazeNoise{rounded(*interval_ms, 0.01), rounded(*speed_deg_s, 0.1)};
+    return GazeNoise{rounded(*interval_ms, 2), rounded(*speed_deg_s, 1)};
 }
 
 EventSettings usual_settings(const GazeNoise& noise) {
@@ -97,12 +100,11 @@ EventSettings usual_settings(const GazeNoise& noise) {
     const double fast_deg_s =
         std::clamp(raised_velocity_deg_s - noise.speed_deg_s, least_velocity_deg_s, most_velocity_deg_s);
     const double seen = std::min(1.0, widest_interval_ms / noise.interval_ms);
-    settings.velocity_deg_s =
-        rounded(std::max(fast_deg_s * seen, least_times_noise * noise.speed_deg_s), 0.1);
+    settings.velocity_deg_s = rounded(std::max(fast_deg_s * seen, least_times_noise * noise.speed_deg_s), 1);
     const double calm_deg_s = calm_noise_deg_s * std::max(1.0, noise.interval_ms / calm_interval_ms);
     const double excess = std::max(1.0, noise.speed_deg_s / calm_deg_s);
     settings.acceleration_deg_s2 =
-        rounded(std::min(usual_acceleration_deg_s2 * std::pow(excess, 4), most_acceleration_deg_s2), 100.0);
+        rounded(std::min(usual_acceleration_deg_s2 * std::pow(excess, 4), most_acceleration_deg_s2), -2);
     return settings;
 }
 

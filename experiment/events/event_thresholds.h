@@ -73,7 +73,7 @@ class GazeNoiseMeter {
     std::optional<GazeNoise> measured() const;
 
   private:
-    /// Counts of values in steps of one size; those beyond the last step count to it.
+    /// Counts of values by the nearest step of one size; those beyond the last step count to it.
     class Counts {
       public:
         Counts(double step, double most) : step_(step), counts_(static_cast<std::size_t>(most / step) + 1) {}

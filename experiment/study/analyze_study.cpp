@@ -48,7 +48,10 @@ void glance_at(StudyResults& results, const ExclusionRules& rules) {
     std::map<ExclusionRule, int> excluded_by;
     for (const StudyTrial& trial : results.trials) {
         glance.excluded_trials += trial.excluded;
-        if (const std::optional<ExclusionRule> rule = broken_rule(trial.quality, rules))
+        const std::optional<ExclusionRule> rule = broken_rule(trial.quality, rules);
+        if (!trial.has_gaze)
+            ++glance.without_gaze;
+        else if (rule)
             ++excluded_by[*rule];
     }
     glance.excluded_by.assign(excluded_by.begin(), excluded_by.end());

@@ -26,9 +26,12 @@ std::vector<unsigned> indices_of(const SurfaceGeometry& geometry) {
 
 } // namespace
 
-CoarseSurface::CoarseSurface(const SurfaceGeometry& fine, std::size_t most_nodes) : fine_(fine) {
+CoarseSurface::CoarseSurface(const SurfaceGeometry& fine, std::size_t most_nodes, double size) : fine_(fine) {
     const std::span<const glm::dvec3> nodes = fine.node_positions_mm();
-    std::vector<glm::vec3> positions(nodes.begin(), nodes.end());
+    std::vector<glm::vec3> positions;
+    positions.reserve(nodes.size());
+    for (const glm::dvec3& node : nodes)
+        positions.emplace_back(size * node);
     std::vector<unsigned> indices = indices_of(fine);
     if (nodes.size() > most_nodes && !indices.empty()) {
         // A closed surface has twice as many triangles as nodes.
@@ -45,7 +48,7 @@ CoarseSurface::CoarseSurface(const SurfaceGeometry& fine, std::size_t most_nodes
         if (vertex == no_vertex) {
             vertex = static_cast<std::uint32_t>(node_of_vertex_.size());
             node_of_vertex_.push_back(indices[i]);
-            mesh_.positions.push_back(positions[indices[i]]);
+            mesh_.positions.emplace_back(nodes[indices[i]]);
             places_.push_back({static_cast<std::uint32_t>(i / 3), glm::dvec3(0.0)});
             places_.back().barycentric[static_cast<int>(i % 3)] = 1.0;
         }

@@ -17,8 +17,10 @@ namespace overt {
 /// and 15,000 nodes 1.5 % (0.995), in an eighth and a fourteenth of the time (measured once).
 class CoarseSurface {
   public:
-    /// `fine` must live as long as this. At most about `most_nodes`; all of them if there are no more.
-    CoarseSurface(const SurfaceGeometry& fine, std::size_t most_nodes);
+    /// `fine` must live as long as this. At most about `most_nodes`; all of them if there are no more. Which
+    /// are kept hangs on rounding where several are as good: they are chosen at `size` times the surface's
+    /// size, so that surfaces of one shape, chosen at one size, keep the same ones in whatever unit they are.
+    CoarseSurface(const SurfaceGeometry& fine, std::size_t most_nodes, double size = 1.0);
 
     /// In millimetres. The parts are left out.
     const Mesh& mesh() const { return mesh_; }

@@ -65,6 +65,7 @@ std::vector<RowLayout<GazeEventRow>::Column> surface_columns(const SessionHeader
          {std::pair{NotCounted::counted, "it counts, and has a place"},
           std::pair{NotCounted::began_before_onset, "it was under way when the presentation began"},
           std::pair{NotCounted::no_frame_lit, "no frame is known to have been lit during it"},
+          std::pair{NotCounted::no_stimulus, "the session knows of no stimulus, as an imported recording"},
           std::pair{NotCounted::not_on_surface,
                     "fewer than half of its samples met the sculpture, or missed it "
                     "by no more than the error that the validation found"},

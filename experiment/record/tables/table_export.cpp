@@ -111,7 +111,7 @@ void TableExport::begin_sculpture(int sculpture, const SurfaceLookup* lookup) {
     ways_.reset();
     const auto* maps = dynamic_cast<const CoordinateMaps*>(lookup);
     if (maps && scale_)
-        ways_.emplace(maps->mesh(), scale_->mm_per_unit);
+        ways_.emplace(maps->mesh(), *scale_);
 }
 
 Eye TableExport::eye_of_unnamed(std::span<const GazeEvent> events, int sitting) const {

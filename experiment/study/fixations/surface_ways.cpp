@@ -10,11 +10,11 @@ SurfaceWays::SurfaceWays(const SurfaceGeometry& fine, const CoarseSurface& coars
     field_.emplace(coarse_geometry);
 }
 
-SurfaceWays::SurfaceWays(const Mesh& mesh, double mm_per_unit) : mesh_(&mesh), mm_per_unit_(mm_per_unit) {}
+SurfaceWays::SurfaceWays(const Mesh& mesh, const ObjectScale& scale) : mesh_(&mesh), scale_(scale) {}
 
 void SurfaceWays::make() {
-    const SurfaceGeometry fine(*mesh_, mm_per_unit_);
-    const CoarseSurface coarse(fine, coarse_nodes);
+    const SurfaceGeometry fine(*mesh_, scale_.mm_per_unit);
+    const CoarseSurface coarse(fine, coarse_nodes, scale_.shown_size);
     vertex_near_.resize(fine.vertex_count());
     for (std::uint32_t vertex = 0; vertex < vertex_near_.size(); ++vertex)
         vertex_near_[vertex] = coarse.vertex_near(fine.node_of(vertex));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiment/maps/surface_point.h"
+#include "experiment/scene/object_scale.h"
 #include "experiment/surface/coarse_surface.h"
 #include "experiment/surface/geodesic_field.h"
 
@@ -22,8 +23,8 @@ class SurfaceWays {
     /// On surfaces that are there; all of them must outlive this. `coarse_geometry` is that of `coarse`.
     SurfaceWays(const SurfaceGeometry& fine, const CoarseSurface& coarse,
                 const SurfaceGeometry& coarse_geometry);
-    /// On surfaces of its own, made of the mesh, which must outlive this; `mm_per_unit` as in ObjectScale.
-    SurfaceWays(const Mesh& mesh, double mm_per_unit);
+    /// On surfaces of its own, made of the mesh, which must outlive this.
+    SurfaceWays(const Mesh& mesh, const ObjectScale& scale);
     SurfaceWays(const SurfaceWays&) = delete;
     SurfaceWays& operator=(const SurfaceWays&) = delete;
 
@@ -42,7 +43,7 @@ class SurfaceWays {
     const CoarseSurface* coarse_ = nullptr;
     // Its own: of the fine one, which is large, only what is asked for is kept.
     const Mesh* mesh_ = nullptr;
-    double mm_per_unit_ = 1.0;
+    ObjectScale scale_;
     std::vector<std::uint32_t> vertex_near_; ///< by vertex of the mesh
     std::vector<SurfacePlace> places_;       ///< by vertex of the coarse surface
     std::optional<SurfaceGeometry> coarse_geometry_;

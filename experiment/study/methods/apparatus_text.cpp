@@ -107,9 +107,9 @@ std::string gaze_clause(const StudySession& session) {
 
 std::string program_clause(const StudySession& session) {
     const std::string& version = session.setup.program_version;
-    return fmt::format("{} with overt{}",
-                       session.setup.gaze.origin == GazeOrigin::imported ? "recordings were imported"
-                                                                         : "sessions were run",
+    return fmt::format("{} by overt{}",
+                       session.setup.gaze.origin == GazeOrigin::imported ? "the recording was imported"
+                                                                         : "presentation and recording were",
                        version.empty() ? ", in a version that is not on record" : " " + version);
 }
 

@@ -25,13 +25,12 @@ std::string calibrator_of(const std::string& method, bool is_simulated) {
 }
 
 void add_calibrations(std::string& text, const StudyResults& results) {
-    const ObserverCounts observers = observer_counts(results);
     int times = 0, beyond = 0;
     std::vector<std::string> methods;
     for (const SessionSetup::Calibrations& one : calibrations_of(results)) {
         times += one.times;
         beyond += one.beyond_limits;
-        const std::string by = calibrator_of(one.method, observers.simulated == observers.all);
+        const std::string by = calibrator_of(one.method, one.is_simulated);
         methods.push_back(fmt::format("{}{}{}", as_counted(one.times, "time"), by.empty() ? "" : " ", by));
     }
     if (times == 0) {
@@ -94,11 +93,11 @@ std::string gaze_quality_text(const StudyResults& results) {
         add_sentence(text, "the precision of gaze is not known");
     if (!rms.empty())
         add_sentence(text,
-                     fmt::format("precision within fixations was, from sample to sample (RMS-S2S), {}", rms));
+                     fmt::format("precision within fixations was {} from sample to sample (RMS-S2S)", rms));
     if (!sd.empty())
         add_sentence(text,
                      fmt::format("as standard deviation within fixations (SD), around the eye's own motion "
-                                 "(a line through each 0.2 s), it was {}",
+                                 "(a line through each fifth of a second), it was {}",
                                  sd));
     if (!rate.empty())
         add_sentence(text, fmt::format("the sampling rate by the time stamps was {}", rate));

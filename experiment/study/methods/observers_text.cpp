@@ -64,7 +64,7 @@ std::string limit_of(ExclusionRule rule, const ExclusionRules& rules) {
         return fmt::format("the drift check before it found an error above {} deg",
                            as_set(*rules.most_drift_deg));
     case ExclusionRule::missed_refreshes:
-        return fmt::format("more than {} of its refreshes were missed, or it is not proven how many were",
+        return fmt::format("more than {} of its refreshes were missed, or their number is not proven",
                            *rules.most_missed_refreshes);
     }
     return {};
@@ -84,6 +84,22 @@ std::string_view reason_of(ExclusionRule rule) {
     return {};
 }
 
+/// Observers and trials of whom there is nothing to analyse.
+void add_those_without_gaze(std::string& text, const StudyResults& results) {
+    const int without = results.glance.without_gaze;
+    if (without > 0)
+        add_sentence(text, fmt::format("{} {} excluded, since no gaze was recorded in {}",
+                                       share_of(without, results.glance.trials, "trial"),
+                                       without == 1 ? "was" : "were", without == 1 ? "it" : "them"));
+    const ObserverCounts observers = observer_counts(results);
+    if (results.glance.observers == 0)
+        add_sentence(text, "of no observer there is a trial to analyse");
+    else if (results.glance.observers < observers.all)
+        add_sentence(text,
+                     fmt::format("the results are of {}, since of the others there is no trial to analyse",
+                                 share_of(results.glance.observers, observers.all, "observer")));
+}
+
 void add_exclusions(std::string& text, const StudyResults& results, const ExclusionRules& rules) {
     const std::vector<ExclusionRule> set = rules_of(rules);
     if (set.empty())
@@ -92,7 +108,7 @@ void add_exclusions(std::string& text, const StudyResults& results, const Exclus
     for (const ExclusionRule rule : set)
         limits += fmt::format("{}{}", limits.empty() ? "if " : ", or if ", limit_of(rule, rules));
     add_sentence(text, fmt::format("a trial was to be excluded {}", limits));
-    const int excluded = results.glance.excluded_trials;
+    const int excluded = results.glance.excluded_trials - results.glance.without_gaze;
     if (excluded == 0) {
         add_sentence(text, "this excluded no trial");
         return;
@@ -113,7 +129,7 @@ std::string observers_text(const StudyResults& results, const ExclusionRules& ru
     std::string text;
     add_sentence(text, who_took_part(results));
     if (results.glance.any_simulated)
-        add_sentence(text, observer_counts(results).simulated == results.glance.observers
+        add_sentence(text, observer_counts(results).simulated == observer_counts(results).all
                                ? "nothing here was measured of people"
                                : "the gaze of simulated observers is no measurement of people");
     const int incomplete = incomplete_sessions(results);
@@ -123,6 +139,7 @@ std::string observers_text(const StudyResults& results, const ExclusionRules& ru
     for (const FormField& field : form_fields(results))
         add_sentence(text, what_the_form_says(field));
     add_exclusions(text, results, rules);
+    add_those_without_gaze(text, results);
     return text;
 }
 

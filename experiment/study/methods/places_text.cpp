@@ -36,6 +36,8 @@ std::string not_counted_words(NotCounted why, int count) {
                                     : " with too few samples each on the object");
     case NotCounted::no_surface:
         return number + " for which there is no map of a surface";
+    case NotCounted::no_stimulus:
+        return number + " in trials whose stimulus is not on record";
     case NotCounted::trial_excluded:
         return number + " of excluded trials";
     }

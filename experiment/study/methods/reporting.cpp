@@ -143,10 +143,8 @@ std::vector<ReportingItem> reporting_items(const StudyResults& results, const St
     const auto over_trials = [&](const char* topic, TrialMeasureOf which) {
         const TrialMeasure& of = trial_measure(which);
         const std::optional<Spread> spread = spread_over_trials(results, of);
-        std::string value = spread ? as_spread(*spread, of.unit, of.decimals) : std::string();
-        if (spread && which == TrialMeasureOf::sd)
-            value += "; around the eye's own motion, a line through each 0.2 s of a fixation";
-        add(topic, std::string(of.item), std::move(value), of.if_missing);
+        add(topic, std::string(of.item), spread ? as_spread(*spread, of.unit, of.decimals) : std::string(),
+            of.if_missing);
     };
     of_sessions(
         "1 eye tracker", "manufacturer, model",

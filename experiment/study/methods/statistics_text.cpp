@@ -58,16 +58,18 @@ void add_pairs(std::string& text, const StudyResults& results) {
     const auto any = [&](std::optional<double> PairRow::*p) {
         return std::ranges::any_of(results.pairs, [p](const PairRow& row) { return (row.*p).has_value(); });
     };
-    if (any(&PairRow::wss_p))
-        add_sentence(
-            text,
-            "differences of WSS, in deg2, and of shares on the head were tested by flipping the signs of "
-            "observers' differences");
+    const char* const differences = any(&PairRow::head_p)  ? "WSS, in deg2, and of shares on the head"
+                                    : any(&PairRow::wss_p) ? "WSS, in deg2,"
+                                                           : nullptr;
+    if (differences)
+        add_sentence(text, fmt::format("differences of {} were tested by flipping the signs of observers' "
+                                       "differences",
+                                       differences));
     if (any(&PairRow::maps_p))
         add_sentence(text, "whether maps differ was tested by the correlation of the maps of all observers "
                            "together, with the two levels of an observer swapped, whole maps at once "
                            "(maps_p)");
-    if (any(&PairRow::wss_p) || any(&PairRow::maps_p))
+    if (differences || any(&PairRow::maps_p))
         add_sentence(
             text,
             "each p is given as it is and after Holm's correction for the rows of the table, where rows over "

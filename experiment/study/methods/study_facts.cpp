@@ -3,6 +3,10 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
+
+#include "experiment/statistics/bootstrap.h"
 
 namespace overt {
 
@@ -47,16 +51,17 @@ void add_once(std::vector<NamedThing>& to, NamedThing thing) {
         to.push_back(std::move(thing));
 }
 
-/// What the trials' column names, with the title that their session's list has for it.
+/// What the trials' column names, with the title and in the order of their session's list.
 std::vector<NamedThing> named_in_trials(const StudyResults& results, const char* column,
                                         std::vector<NamedThing> SessionSetup::*list) {
+    std::set<std::pair<int, std::string>> named; ///< by session
+    for (const StudyTrial& trial : results.trials)
+        named.emplace(trial.session, trial.key(column));
     std::vector<NamedThing> things;
-    for (const StudyTrial& trial : results.trials) {
-        const std::string& id = trial.key(column);
-        for (const NamedThing& known : results.sessions[static_cast<std::size_t>(trial.session)].setup.*list)
-            if (known.id == id)
+    for (std::size_t session = 0; session < results.sessions.size(); ++session)
+        for (const NamedThing& known : results.sessions[session].setup.*list)
+            if (named.contains({static_cast<int>(session), known.id}))
                 add_once(things, known);
-    }
     return things;
 }
 
@@ -69,8 +74,8 @@ const std::array<TrialMeasure, 8> trial_measures{{
      "there was no drift check"},
     {"rms_s2s_deg", "precision (RMS-S2S)", "deg", 4, quality_of<&StudyQuality::rms_s2s_deg>,
      "there are no fixations, or degrees are not known"},
-    {"sd_deg", "precision (SD around the motion of the eye, a line through each 0.2 s)", "deg", 4, quality_of<&StudyQuality::sd_deg>,
-     "there are no fixations, or degrees are not known"},
+    {"sd_deg", "precision (SD around the motion of the eye, a line through each 0.2 s)", "deg", 4,
+     quality_of<&StudyQuality::sd_deg>, "there are no fixations, or degrees are not known"},
     {"lost_percent", "data loss, blinks apart", "%", 2, percent_of<&StudyQuality::lost>,
      "there are no samples"},
     {"lost_in_blinks_percent", "data loss in blinks", "%", 2, percent_of<&StudyQuality::lost_in_blinks>,
@@ -141,9 +146,11 @@ std::vector<SessionSetup::Calibrations> calibrations_of(const StudyResults& resu
     std::vector<SessionSetup::Calibrations> all;
     for (const StudySession& session : results.sessions) {
         for (const SessionSetup::Calibrations& one : session.setup.calibrations) {
-            auto found = std::ranges::find(all, one.method, &SessionSetup::Calibrations::method);
+            auto found = std::ranges::find_if(all, [&](const SessionSetup::Calibrations& known) {
+                return known.method == one.method && known.is_simulated == one.is_simulated;
+            });
             if (found == all.end())
-                found = all.insert(all.end(), {one.method, 0, 0});
+                found = all.insert(all.end(), {one.method, 0, 0, one.is_simulated});
             found->times += one.times;
             found->beyond_limits += one.beyond_limits;
         }
@@ -191,12 +198,14 @@ std::vector<FormField> form_fields(const StudyResults& results) {
 }
 
 std::vector<NamedThing> sculptures_shown(const StudyResults& results) {
-    std::vector<NamedThing> shown;
-    for (const StudyTrial& trial : results.trials) {
+    std::set<int> in_trials;
+    for (const StudyTrial& trial : results.trials)
         // Imported recordings have one that stands for nothing.
-        if (results.sessions[static_cast<std::size_t>(trial.session)].setup.stimuli.frame_count == 0)
-            continue;
-        const StudySculpture& sculpture = results.sculptures[static_cast<std::size_t>(trial.sculpture)];
+        if (results.sessions[static_cast<std::size_t>(trial.session)].setup.stimuli.frame_count > 0)
+            in_trials.insert(trial.sculpture);
+    std::vector<NamedThing> shown;
+    for (const int index : in_trials) {
+        const StudySculpture& sculpture = results.sculptures[static_cast<std::size_t>(index)];
         add_once(shown, {sculpture.id, sculpture.title});
     }
     return shown;

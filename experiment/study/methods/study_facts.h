@@ -87,7 +87,7 @@ struct MapCounts {
 /// Nothing if there is none.
 std::optional<MapCounts> map_counts(const StudyResults& results);
 
-/// Set-ups of the tracker of all sessions, by method.
+/// Set-ups of the tracker of all sessions, by method; those of simulated gaze apart.
 std::vector<SessionSetup::Calibrations> calibrations_of(const StudyResults& results);
 
 /// What observers said of themselves in one field of the form; an observer with several sessions counts once
@@ -100,7 +100,7 @@ struct FormField {
 };
 std::vector<FormField> form_fields(const StudyResults& results);
 
-/// What was shown and asked in the trials: ids with titles, in their order of appearance.
+/// What was shown and asked in the trials: ids with titles, in the order of the protocols.
 std::vector<NamedThing> sculptures_shown(const StudyResults& results);
 std::vector<NamedThing> materials_shown(const StudyResults& results);
 std::vector<NamedThing> tasks_asked(const StudyResults& results);

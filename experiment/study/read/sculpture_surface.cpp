@@ -38,7 +38,8 @@ void add_surface(const SurfaceLookup* lookup, const std::string& fault, StudyScu
         else
             surface.geometry = std::make_unique<SurfaceGeometry>(*sculpture.mesh);
         if (surface.scale) {
-            surface.coarse = std::make_unique<CoarseSurface>(*surface.geometry, coarse_nodes);
+            surface.coarse =
+                std::make_unique<CoarseSurface>(*surface.geometry, coarse_nodes, surface.scale->shown_size);
             surface.coarse_geometry = std::make_unique<SurfaceGeometry>(surface.coarse->mesh());
         }
         surface.areas_mm2 = surface.geometry->vertex_areas_mm2();

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "experiment/base/plain_text.h"
+#include "experiment/record/no_stimulus.h"
 
 namespace overt {
 
@@ -116,7 +117,7 @@ std::vector<SessionSetup::Calibrations> calibrations_of(const SessionRecord& rec
         for (const RecordedCalibration& one : record.calibrations(sitting)) {
             auto found = std::ranges::find(all, one.method, &SessionSetup::Calibrations::method);
             if (found == all.end())
-                found = all.insert(all.end(), {one.method, 0, 0});
+                found = all.insert(all.end(), {one.method, 0, 0, false});
             ++found->times;
             found->beyond_limits += !one.is_within_limits;
         }
@@ -134,11 +135,7 @@ SessionSetup setup_of(const SessionRecord& record) {
     if (source)
         setup.imported_file = source->file;
     setup.display = display_of(header);
-    // An imported recording's session has frames and sculptures that stand for nothing. A recording that was
-    // imported into a session of overt's own has that one's.
-    const bool shows_nothing_known =
-        setup.gaze.origin == GazeOrigin::imported && header.protocol.text.empty();
-    if (!shows_nothing_known) {
+    if (!knows_no_stimulus(header)) {
         setup.stimuli = stimuli_of(header);
         for (const RecordedMaterial& material : header.materials)
             setup.materials.push_back({material.id, plain_line_of(material.title)});
@@ -146,6 +143,8 @@ SessionSetup setup_of(const SessionRecord& record) {
             setup.tasks.push_back({task.id, plain_line_of(task.question)});
     }
     setup.calibrations = calibrations_of(record);
+    for (SessionSetup::Calibrations& one : setup.calibrations)
+        one.is_simulated = setup.gaze.is_simulated();
     setup.program_version = header.program.version;
     return setup;
 }

@@ -373,10 +373,9 @@ class StudyReader {
                               folders.size() == 1 ? "knows" : "know");
         results().remarks.push_back(
             named +
-            ": their fixations with their places on the screen, the quality of their gaze and their trials "
-            "are in the tables fixations, quality and trials, and their saccades and blinks in the exports. "
-            "Their gaze has no places on a surface, so that none of it is in maps, in shares of parts, or "
-            "in comparisons.");
+            ": fixations with their places on the screen, the quality of gaze, and trials are in the "
+            "tables fixations, quality and trials; saccades and blinks are in the exports. The gaze has "
+            "no places on a surface, so that none of it is in maps, in shares of parts or in comparisons.");
     }
 
     const SurfaceFor& surface_for_;

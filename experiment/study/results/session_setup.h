@@ -93,6 +93,7 @@ struct SessionSetup {
         std::string method;
         int times = 0;
         int beyond_limits = 0; ///< of these: accepted though worse than the protocol allows
+        bool is_simulated = false;
         friend bool operator==(const Calibrations&, const Calibrations&) = default;
     };
     std::vector<Calibrations> calibrations;

@@ -439,7 +439,8 @@ struct StudyGlance {
     std::vector<std::pair<NotCounted, int>> not_counted; ///< reasons that occur, and how often
     double counted_s = 0.0;                              ///< of fixation
     bool any_simulated = false;
-    std::vector<std::pair<ExclusionRule, int>> excluded_by{}; ///< trials by the first rule that they break
+    int without_gaze = 0;                                     ///< excluded trials in which none was recorded
+    std::vector<std::pair<ExclusionRule, int>> excluded_by{}; ///< others, by the first rule that they break
 };
 
 struct StudyResults {

@@ -100,8 +100,10 @@ FactsJson setup_json(const StudyResults& results) {
     FactsJson calibrations = FactsJson::array();
     int times = 0;
     for (const SessionSetup::Calibrations& one : calibrations_of(results)) {
-        calibrations.push_back(
-            {{"method", one.method}, {"times", one.times}, {"beyond_limits", one.beyond_limits}});
+        calibrations.push_back({{"method", one.method},
+                                {"times", one.times},
+                                {"beyond_limits", one.beyond_limits},
+                                {"simulated", one.is_simulated}});
         times += one.times;
     }
     return {{"gaze", shared_json(results, of_setup(&SessionSetup::gaze), gaze_json)},
@@ -143,6 +145,8 @@ FactsJson study_facts_json(const StudyResults& results) {
     json["refreshes"] = refreshes.refreshes;
     if (refreshes.missed)
         json["missed_refreshes"] = *refreshes.missed;
+    json["observers_who_took_part"] = observer_counts(results).all;
+    json["trials_without_gaze"] = results.glance.without_gaze;
     json["simulated_observers"] = observer_counts(results).simulated;
     json["incomplete_sessions"] = incomplete_sessions(results);
     json["exclusions"] = FactsJson::object();

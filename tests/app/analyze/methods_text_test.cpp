@@ -111,7 +111,7 @@ TEST_CASE("the text on methods tells imported gaze from simulated, and what an i
                    Contains("Gaze of the right eye was imported from a recording, at 1000 Hz, of an eye "
                             "tracker, EyeLink") &&
                    Contains("What was shown is not on record.") && Contains("are not on record") &&
-                   Contains("Recordings were imported with overt") && !Contains("simulated") &&
+                   Contains("The recording was imported by overt") && !Contains("simulated") &&
                    !Contains("sculptures were shown"));
     CHECK_THAT(methods_of(study_of(study.experiment, {own})),
                Contains("1 simulated observer") && Contains("of simulated gaze") && !Contains("EyeLink"));
@@ -121,7 +121,8 @@ TEST_CASE("the text on methods tells imported gaze from simulated, and what an i
     CHECK_THAT(both, Contains("3 observers, of whom 2 were simulated, took part in 3 sessions") &&
                          Contains("In 2 of 3 sessions, gaze of the right eye was simulated at 1000 Hz.") &&
                          Contains("In 1 of 3 sessions, gaze of the right eye was imported") &&
-                         Contains("What was shown in 1 of 3 sessions is not on record."));
+                         Contains("What was shown in 1 of 3 sessions is not on record.") &&
+                         Contains("Gaze was calibrated 2 times by the simulated eye tracker."));
 }
 
 TEST_CASE("the text on methods of one sculpture without a head says nothing of heads", "[session]") {

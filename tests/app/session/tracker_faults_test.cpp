@@ -133,7 +133,7 @@ TEST_CASE("a trial without gaze says so where it counts, and comes again where t
         CHECK(record.trials()[0].outcome.failure == "gaze lost");
         REQUIRE(record.trials()[0].outcome.gaze);
         CHECK(record.trials()[0].outcome.gaze->share() == Approx(with.share).margin(0.02));
-        CHECK(record.trials()[1].outcome.gaze->share() > 0.9);
+        CHECK(record.trials()[1].outcome.gaze->share() > 0.7); // but for blinks
         const ProgramRun shown = faulted.experiment.overt({"show", faulted.experiment.session().string()});
         CHECK_THAT(shown.out, Contains("completed, gaze lost") && Contains("what went wrong: eye tracker"));
         CHECK_THAT(shown.out, Contains("THE EYE TRACKER'S FAULTS WERE SIMULATED"));

@@ -46,3 +46,16 @@ TEST_CASE("a surface that is coarse enough stays as it is", "[unit]") {
     for (std::uint32_t node = 0; node < fine.node_count(); ++node)
         CHECK(coarse.fine_node_of(coarse.vertex_near(node)) == node);
 }
+
+TEST_CASE("a surface in another unit keeps the same nodes where they are chosen at the same size", "[unit]") {
+    const Mesh mesh = icosphere(100.0, 5);
+    const SurfaceGeometry in_mm(mesh, 1.0), in_tenths(mesh, 0.104103770465);
+    const CoarseSurface shown(in_tenths, 700), own(in_mm, 700, 0.104103770465);
+    REQUIRE(own.vertex_count() == shown.vertex_count());
+    REQUIRE(own.vertex_count() < 1000);
+    for (std::uint32_t v = 0; v < own.vertex_count(); ++v) {
+        REQUIRE(own.fine_node_of(v) == shown.fine_node_of(v));
+        REQUIRE(own.mesh().positions[v] == mesh.positions[own.fine_node_of(v)]);
+    }
+    CHECK(own.mesh().triangles == shown.mesh().triangles);
+}

@@ -61,7 +61,7 @@ void write_packed(const fs::path& file, const std::string& text, bool with_name 
     out.close();
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
+std::string with_replaced(std::string text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
     REQUIRE(at != std::string::npos);
     return text.replace(at, from.size(), to);
@@ -128,8 +128,8 @@ TEST_CASE("the checker of the rules finds each of them broken", "[unit]") {
         {"COLUMN_UNDESCRIBED", physio + ".json", json_without(physio + ".json", {"pupil_size"})},
         {"HEADER_LINE_OR_BAD_TIME", physio + ".tsv.gz",
          "timestamp\tx_coordinate\ty_coordinate\tpupil_size\n" + samples},
-        {"NOT_A_NUMBER", physio + ".tsv.gz", replaced(samples, "\tn/a\t", "\tNaN\t")},
-        {"NOT_A_NUMBER", physio + ".tsv.gz", replaced(samples, "\tn/a\t", "\t.\t")},
+        {"NOT_A_NUMBER", physio + ".tsv.gz", with_replaced(samples, "\tn/a\t", "\tNaN\t")},
+        {"NOT_A_NUMBER", physio + ".tsv.gz", with_replaced(samples, "\tn/a\t", "\t.\t")},
         {"ROW_LENGTH", physio + ".tsv.gz", samples + "99999999999\t1.0\n"},
         {"TIMESTAMPS_UNSORTED", physio + ".tsv.gz", second_line + samples},
         {"ONSET_SOURCE", gaze_events + ".json", json_with(gaze_events + ".json", "OnsetSource", "n/a")},
@@ -150,12 +150,12 @@ TEST_CASE("the checker of the rules finds each of them broken", "[unit]") {
         {"SCREEN_SIZE", events_file + ".json",
          json_without(events_file + ".json", {"StimulusPresentation", "ScreenSize"})},
         {"COLUMN_UNDESCRIBED", events_file + ".json", json_without(events_file + ".json", {"status"})},
-        {"VALUE_NOT_IN_LEVELS", events_file + ".tsv", replaced(rows, "\tpresentation\t", "\tshow\t")},
-        {"ONSET_DURATION_FIRST", events_file + ".tsv", replaced(rows, "onset\tduration", "duration\tonset")},
+        {"VALUE_NOT_IN_LEVELS", events_file + ".tsv", with_replaced(rows, "\tpresentation\t", "\tshow\t")},
+        {"ONSET_DURATION_FIRST", events_file + ".tsv", with_replaced(rows, "onset\tduration", "duration\tonset")},
         {"EVENTS_UNSORTED", events_file + ".tsv", rows + rows.substr(rows.find('\n') + 1)},
         {"STIMULUS_MISSING", events_file + ".tsv",
-         replaced(rows, "tiny/bust_silver.png", "tiny/nothing.png")},
-        {"EMPTY_CELL", events_file + ".tsv", replaced(rows, "\tn/a\t", "\t\t")}};
+         with_replaced(rows, "tiny/bust_silver.png", "tiny/nothing.png")},
+        {"EMPTY_CELL", events_file + ".tsv", with_replaced(rows, "\tn/a\t", "\t\t")}};
     for (const Case& broken : cases) {
         CAPTURE(broken.rule, broken.file);
         const fs::path file = dataset.beh(broken.file);

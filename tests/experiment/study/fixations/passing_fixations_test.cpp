@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 namespace {
 
 /// Both clocks agree, and the presentation began a second after their zero.
-const ClockMap& clocks() {
+const ClockMap& clocks_of_passing() {
     static const ClockMap map(std::array{ClockPair{SessionTime(0s), TrackerTime(0s), SessionTime(0s)},
                                          ClockPair{SessionTime(100s), TrackerTime(100s), SessionTime(100s)}});
     return map;
@@ -62,7 +62,7 @@ std::vector<GazeEvent> many_events(RandomStream& random) {
 
 TEST_CASE("fixations that are found while samples pass by are those of all samples together", "[unit]") {
     const StudyOptions options;
-    const std::optional<ClockMap> clock_map = clocks();
+    const std::optional<ClockMap> clock_map = clocks_of_passing();
     const std::vector<Degrees> angles{{-10.0}, {0.0}, {10.0}};
     const std::optional<ObjectScale> scale = ObjectScale{0.5, 1000.0, 30.0};
     int with_place = 0, without = 0;

@@ -31,7 +31,7 @@ SessionSetup measured_setup() {
     setup.stimuli.duration_s = 8.0;
     setup.materials = {{"gold", "Smooth gold"}, {"clay", ""}, {"unseen", "Unseen"}};
     setup.tasks = {{"free", "Look as you like."}, {"age", "How old is it?"}};
-    setup.calibrations = {{"tracker, 9 points", 3, 1}, {"polynomial, 13 points", 1, 0}};
+    setup.calibrations = {{"tracker, 9 points", 3, 1, false}, {"polynomial, 13 points", 1, 0, false}};
     setup.program_version = "0.9.1";
     return setup;
 }
@@ -107,7 +107,7 @@ TEST_CASE("methods of measured gaze are told with every value", "[unit]") {
         "which the left is analysed, was measured at 1000 Hz with an eye tracker, EyeLink (EYELINK CL 5.15). "
         "How the head was held, how the eye tracker works and what its software filters, and the room and "
         "its "
-        "light, are not on record. Sessions were run with overt 0.9.1.");
+        "light, are not on record. Presentation and recording were by overt 0.9.1.");
     CHECK(
         study.text("Stimuli") ==
         "1 sculpture (A vase) was shown, in 2 materials (Smooth gold and clay). Pictures had 1024 x 768 "
@@ -123,10 +123,10 @@ TEST_CASE("methods of measured gaze are told with every value", "[unit]") {
         "points). 2 of 8 calibrations were accepted though the validation was beyond the limits of the "
         "protocol. The mean error of the validation before a trial was 0.550 deg (median over 4 trials; "
         "0.400 "
-        "to 0.700 deg). Precision within fixations was, from sample to sample (RMS-S2S), 0.0213 deg (the "
-        "same "
-        "in 4 trials). As standard deviation within fixations (SD), around the eye's own motion (a line through "
-        "each 0.2 s), it was below 0.0001 deg (the same in 4 "
+        "to 0.700 deg). Precision within fixations was 0.0213 deg (the same in 4 trials) "
+        "from sample to sample (RMS-S2S). As standard deviation within fixations (SD), around the eye's own "
+        "motion (a line through "
+        "each fifth of a second), it was below 0.0001 deg (the same in 4 "
         "trials). The sampling rate by the time stamps was 1000 Hz (the same in 4 trials). Of the samples of "
         "a "
         "trial, 1.50 % (the same in 4 trials) had no gaze outside of blinks, and 0 % (the same in 4 trials) "
@@ -224,13 +224,14 @@ TEST_CASE("methods name the rules of exclusion, and how many trials each of them
     MadeStudy study;
     const auto exclude = [&](const ExclusionRules& rules) {
         study.options.exclude = rules;
-        study.results.glance.excluded_trials = 0;
+        study.results.glance.excluded_trials = study.results.glance.without_gaze = 0;
         std::map<ExclusionRule, int> counts;
         for (StudyTrial& trial : study.results.trials) {
             const std::optional<ExclusionRule> rule = broken_rule(trial.quality, rules);
-            trial.excluded = rule.has_value();
+            trial.excluded = rule.has_value() || !trial.has_gaze;
             study.results.glance.excluded_trials += trial.excluded;
-            if (rule)
+            study.results.glance.without_gaze += !trial.has_gaze;
+            if (rule && trial.has_gaze)
                 ++counts[*rule];
         }
         study.results.glance.excluded_by.assign(counts.begin(), counts.end());
@@ -247,11 +248,21 @@ TEST_CASE("methods name the rules of exclusion, and how many trials each of them
     CHECK_THAT(
         exclude({0.25, 0.65, {}, 2}),
         Contains("if more than 25 % of its samples were lost outside of blinks, or if the validation before "
-                 "it had a mean error above 0.65 deg, or if more than 2 of its refreshes were missed, or it "
-                 "is not proven how many were. 3 of 4 trials were excluded, 1 for lost samples, 1 for the "
+                 "it had a mean error above 0.65 deg, or if more than 2 of its refreshes were missed, or "
+                 "their number is not proven. 3 of 4 trials were excluded, 1 for lost samples, 1 for the "
                  "validation and 1 for missed refreshes. A trial that breaks several of these limits is "
                  "counted with the first."));
     CHECK_THAT(exclude({{}, 0.0, {}, {}}), Contains("All 4 trials were excluded."));
+    // A trial without gaze is no case of a rule.
+    study.results.trials[3].has_gaze = false;
+    CHECK_THAT(exclude({{}, {}, {}, {}}),
+               Contains("1 of 4 trials was excluded, since no gaze was recorded in it."));
+    study.results.glance.observers = 1;
+    CHECK_THAT(exclude({{}, {}, {}, {}}),
+               Contains("The results are of 1 of 2 observers, since of the others there "
+                        "is no trial to analyse."));
+    study.results.glance.observers = 2;
+    study.results.trials[3].has_gaze = true;
     // A session without words of its own that could break out of a sentence.
     study.results.sessions[0].form = {{"remark", "I <b>like</b> {it}"}};
     CHECK_THAT(exclude({{}, {}, {}, {}}), Contains("The remark is on record of 1 observer."));
