@@ -128,7 +128,7 @@ TEST_CASE("a concave face of many corners is its own polygon in the map that gaz
     std::vector<Silhouette> found;
     for (const char* file : {"C_tri.ply", "C_ngon.ply", "C_ngon.obj"}) {
         const SmallExperiment experiment(
-            with(with(small_protocol, "width_px = 128\nheight_px = 128", "width_px = 190\nheight_px = 190"),
+            with(with(small_protocol, "width_px = 128\nheight_px = 128", "width_px = 180\nheight_px = 180"),
                  bust_lines, fmt::format("mesh = \"{}\"", (cases / file).string())));
         found.push_back(silhouette_of(experiment, "bust", 0));
     }

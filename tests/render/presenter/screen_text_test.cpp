@@ -79,8 +79,8 @@ TEST_CASE("a paragraph from right to left begins at the right, one from left to 
     for (const std::string& text : {latin, hebrew}) {
         const bool is_latin = text == latin;
         const LinearImage picture = draw_text(text, style_of(false));
-        const int half = picture.size_px.y / 2;
-        const Ink first = ink_of(picture, 0, half), second = ink_of(picture, half);
+        const int middle = picture.size_px.y / 2;
+        const Ink first = ink_of(picture, 0, middle), second = ink_of(picture, middle);
         CAPTURE(is_latin, first.left, first.right, second.left, second.right);
         if (is_latin) {
             CHECK(std::abs(first.left - second.left) < 6);
