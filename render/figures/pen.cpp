@@ -202,7 +202,7 @@ double draw_lines(FigurePen& pen, glm::dvec2 at, const std::vector<std::string>&
     return height;
 }
 
-void save_figure(const std::filesystem::path& folder, const Figure& figure) {
+void save_figure(const std::filesystem::path& folder, const StudyFigure& figure) {
     write_whole_file(
         folder / fmt::format("{}.svg", figure.name),
         without_numbers(drawn(&cairo_svg_surface_create_for_stream, figure.size_mm, figure.draw, false)));

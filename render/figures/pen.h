@@ -69,7 +69,7 @@ inline constexpr double column_mm = 85.0, page_mm = 170.0;
 double draw_lines(FigurePen& pen, glm::dvec2 at, const std::vector<std::string>& lines, double points,
                   TextAlign align = TextAlign::left, FigureColour colour = figure_ink);
 
-struct Figure {
+struct StudyFigure {
     std::string name; ///< of its files, without an ending
     glm::dvec2 size_mm{0.0};
     std::function<void(FigurePen&)> draw;
@@ -78,6 +78,6 @@ struct Figure {
 /// Draws the same figure as `name`.svg and `name`.pdf. Lines and text are vectors in both: the PDF embeds the
 /// fonts, the SVG has the letters as outlines, so that it looks the same wherever it is opened. Throws
 /// RecordError.
-void save_figure(const std::filesystem::path& folder, const Figure& figure);
+void save_figure(const std::filesystem::path& folder, const StudyFigure& figure);
 
 } // namespace overt

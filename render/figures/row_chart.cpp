@@ -310,9 +310,9 @@ class RowPages {
 
 } // namespace
 
-std::vector<Figure> figures_of(const RowChart& chart, const std::string& name) {
+std::vector<StudyFigure> figures_of(const RowChart& chart, const std::string& name) {
     const auto pages = std::make_shared<const RowPages>(chart);
-    std::vector<Figure> figures;
+    std::vector<StudyFigure> figures;
     for (const auto& [begin, end] : pages->pages()) {
         figures.push_back({figures.empty() ? name : fmt::format("{}_{}", name, figures.size() + 1),
                            pages->size_mm(begin, end), [pages, begin = begin, end = end](FigurePen& pen) {

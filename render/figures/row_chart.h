@@ -44,6 +44,6 @@ struct RowChart {
 /// cannot hold the columns. Rows that are more than a page holds go on in figures called `name`_2, `name`_3 …
 /// No text is cut: what is longer than its column is broken into lines. Rows with the same text in their
 /// first column and one below the other show it once.
-std::vector<Figure> figures_of(const RowChart& chart, const std::string& name);
+std::vector<StudyFigure> figures_of(const RowChart& chart, const std::string& name);
 
 } // namespace overt

@@ -20,7 +20,7 @@ void draw_title(FigurePen& pen, double right_mm, const std::string& title) {
     pen.text({right_mm, 0.5 + extent_of(title, title_points).above}, title, title_points, TextAlign::right);
 }
 
-std::vector<Figure> time_course(const StudyResults& results) {
+std::vector<StudyFigure> time_course(const StudyResults& results) {
     double end = 0.0, step = 0.0;
     std::vector<std::string> levels;
     for (const TimeCourseRow& row : results.time_course) {
@@ -64,7 +64,7 @@ std::vector<Figure> time_course(const StudyResults& results) {
              }}};
 }
 
-std::vector<Figure> fixation_durations(const StudyResults& results) {
+std::vector<StudyFigure> fixation_durations(const StudyResults& results) {
     constexpr double bin_ms = 25.0;
     constexpr std::size_t bins = 40;
     std::vector<double> counts(bins, 0.0), durations;
@@ -97,7 +97,7 @@ std::vector<Figure> fixation_durations(const StudyResults& results) {
 }
 
 // Amplitude and peak velocity of saccades, as their events have them.
-std::vector<Figure> main_sequence(const StudyResults& results) {
+std::vector<StudyFigure> main_sequence(const StudyResults& results) {
     std::vector<glm::dvec2> saccades;
     int all = 0;
     for (const StudyTrace& trace : results.traces) {
@@ -143,7 +143,7 @@ std::vector<Figure> main_sequence(const StudyResults& results) {
              }}};
 }
 
-std::vector<Figure> data_quality(const StudyResults& results) {
+std::vector<StudyFigure> data_quality(const StudyResults& results) {
     if (results.session_quality.empty())
         return {};
     struct Panel {
@@ -183,11 +183,11 @@ std::vector<Figure> data_quality(const StudyResults& results) {
 
 } // namespace
 
-std::vector<Figure> study_figures(const StudyResults& results) {
-    std::vector<Figure> figures;
+std::vector<StudyFigure> study_figures(const StudyResults& results) {
+    std::vector<StudyFigure> figures;
     for (const auto make : {head_fraction_figures, distribution_figures, pair_figures, time_course,
                             fixation_durations, main_sequence, data_quality}) {
-        for (Figure& figure : make(results))
+        for (StudyFigure& figure : make(results))
             figures.push_back(std::move(figure));
     }
     return figures;
@@ -196,7 +196,7 @@ std::vector<Figure> study_figures(const StudyResults& results) {
 std::vector<std::string> write_figures(const StudyResults& results, const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder);
     std::vector<std::string> written;
-    for (const Figure& figure : study_figures(results)) {
+    for (const StudyFigure& figure : study_figures(results)) {
         save_figure(folder, figure);
         written.push_back(figure.name);
     }

@@ -62,7 +62,7 @@ std::size_t number_among(std::vector<std::string>& names, const std::string& nam
 
 } // namespace
 
-std::vector<Figure> head_fraction_figures(const StudyResults& results) {
+std::vector<StudyFigure> head_fraction_figures(const StudyResults& results) {
     std::vector<HeadFractionRow> levels, groups;
     for (const HeadFractionRow& row : results.head_fractions) {
         if (row.by_count.value)
@@ -104,7 +104,7 @@ std::vector<Figure> head_fraction_figures(const StudyResults& results) {
     return figures_of(chart, "figure_4");
 }
 
-std::vector<Figure> distribution_figures(const StudyResults& results) {
+std::vector<StudyFigure> distribution_figures(const StudyResults& results) {
     const auto keys_of = [&](const DistributionRow& row) {
         return results.groups[static_cast<std::size_t>(row.group)].keys;
     };
@@ -141,7 +141,7 @@ std::vector<Figure> distribution_figures(const StudyResults& results) {
     return figures_of(chart, "figure_5");
 }
 
-std::vector<Figure> pair_figures(const StudyResults& results) {
+std::vector<StudyFigure> pair_figures(const StudyResults& results) {
     const std::vector<std::string> factors =
         columns_of(results.pairs, [](const PairRow& row) { return row.keys; });
     RowChart chart;

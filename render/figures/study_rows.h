@@ -10,10 +10,10 @@ namespace overt {
 
 /// Figure 4, the shares of fixations on the head: levels of one factor each, or groups where there are no
 /// such.
-std::vector<Figure> head_fraction_figures(const StudyResults& results);
+std::vector<StudyFigure> head_fraction_figures(const StudyResults& results);
 /// Figure 5, how widely each group looked on each sculpture.
-std::vector<Figure> distribution_figures(const StudyResults& results);
+std::vector<StudyFigure> distribution_figures(const StudyResults& results);
 /// Table 1, pairs of conditions.
-std::vector<Figure> pair_figures(const StudyResults& results);
+std::vector<StudyFigure> pair_figures(const StudyResults& results);
 
 } // namespace overt

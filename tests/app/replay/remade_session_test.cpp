@@ -28,7 +28,7 @@ TEST_CASE("of a session in real time all is made again that does not come from d
     const struct {
         std::string sql, named;
     } changes[] = {
-        {"UPDATE schedule SET task = 1 - task WHERE trial = 1", "table schedule, trial 2, task: recorded "},
+        {"UPDATE schedule SET task = (task + 1) % 2 WHERE trial = 1", "table schedule, trial 2, task: recorded "},
         {"UPDATE stimulus SET frames_sha256 = lower(hex(zeroblob(32))) WHERE sculpture = 0 AND material = 1",
          "table stimulus, sculpture 0, material 1, frames_sha256: recorded 000"},
         {"UPDATE sculpture SET axis_x = axis_x + 1 WHERE sculpture = 1",

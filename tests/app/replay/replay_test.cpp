@@ -117,7 +117,7 @@ TEST_CASE("each single change of a record is found and named", "[session]") {
          "table trial, trial 2, answer: recorded a hat"},
         {"UPDATE trial SET responded_ns = responded_ns - 1000 WHERE trial_id = 3",
          "table trial, trial 3, responded_ns: recorded "},
-        {"UPDATE schedule SET task = 1 - task WHERE trial = 0", "table schedule, trial 1, task: recorded "},
+        {"UPDATE schedule SET task = (task + 1) % 2 WHERE trial = 0", "table schedule, trial 1, task: recorded "},
         {"UPDATE stimulus SET frames_sha256 = lower(hex(zeroblob(32))) WHERE sculpture = 1 AND material = 0",
          "table stimulus, sculpture 1, material 0, frames_sha256: recorded 000"},
         {"UPDATE session SET protocol_text = replace(protocol_text, 'duration_s = 1', 'duration_s = 2')",

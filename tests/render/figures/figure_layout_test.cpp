@@ -153,9 +153,9 @@ TEST_CASE("no text of a figure lies on another one, and nothing leaves its page,
             studies.push_back(study_with(factors, levels, name, factors == 1 ? 2.88e-14 : 98765.4321));
     }
     for (std::size_t i = 0; i < studies.size(); ++i) {
-        const std::vector<Figure> figures = study_figures(studies[i]);
+        const std::vector<StudyFigure> figures = study_figures(studies[i]);
         CHECK(figures.size() >= 7);
-        for (const Figure& figure : figures) {
+        for (const StudyFigure& figure : figures) {
             MeasuringPen pen;
             figure.draw(pen);
             INFO("study " << i << ", " << figure.name << ", " << figure.size_mm.x << " x "
@@ -190,7 +190,7 @@ TEST_CASE("names in figures are whole, however long they are", "[unit]") {
         const StudyResults study = study_with(2, 12, name, 5.0);
         for (const std::string of : {"figure_4", "figure_5", "table_1", "time_course"}) {
             std::string all;
-            for (const Figure& figure : study_figures(study)) {
+            for (const StudyFigure& figure : study_figures(study)) {
                 MeasuringPen pen;
                 figure.draw(pen);
                 if (figure.name.starts_with(of))
@@ -206,7 +206,7 @@ TEST_CASE("names in figures are whole, however long they are", "[unit]") {
 
 TEST_CASE("each number of the figures of rows stands below a head that says what it is", "[unit]") {
     // Right of the first number's left edge, all that is right-aligned in a column ends where its head ends.
-    for (const Figure& figure : study_figures(study_with(2, 3, short_name, 1234.5))) {
+    for (const StudyFigure& figure : study_figures(study_with(2, 3, short_name, 1234.5))) {
         if (figure.name != "figure_5" && figure.name != "table_1")
             continue;
         MeasuringPen pen;
@@ -251,7 +251,7 @@ TEST_CASE("56 curves are unlike each other", "[unit]") {
 
 TEST_CASE("the main sequence has all saccades with a recorded peak, and says of how many", "[unit]") {
     const auto title_of = [](const StudyResults& study) {
-        for (const Figure& figure : study_figures(study)) {
+        for (const StudyFigure& figure : study_figures(study)) {
             if (figure.name != "main_sequence")
                 continue;
             MeasuringPen pen;
