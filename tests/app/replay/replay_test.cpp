@@ -166,7 +166,7 @@ TEST_CASE("each single change of a record is found and named", "[session]") {
 TEST_CASE("what cannot be presented again is refused with its place and the remedy", "[session]") {
     const SmallExperiment experiment;
     CHECK_THAT(experiment.overt({"replay", experiment.folder().path().string()}).err,
-               Contains("there is no session file here"));
+               Contains("this folder holds no session"));
     CHECK(experiment.overt({"replay", experiment.protocol().string()}).exit_code == 1);
     REQUIRE(experiment.run({"--trials", "1"}).exit_code == 0);
     const fs::path elsewhere = experiment.folder().path() / "moved";
