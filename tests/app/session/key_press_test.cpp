@@ -40,7 +40,7 @@ std::vector<RecordedKeyPress> on_response_screens(const SessionRecord& record) {
 } // namespace
 
 TEST_CASE("keys pressed at a question for a number are on record with their names and times", "[session]") {
-    const SmallExperiment experiment;
+    const SmallExperiment experiment(Cache::own);
     const ProgramRun run = experiment.run(seven_and_three);
     INFO(run.err);
     REQUIRE(run.exit_code == 0);

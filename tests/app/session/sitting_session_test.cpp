@@ -68,7 +68,7 @@ TEST_CASE("a session is led by an operator's keys, and every trial that is not s
     const auto failures = details_of(record, "trial failed");
     REQUIRE(failures.size() == 4);
     CHECK_THAT(failures[0], Contains("skipped: observer's wish"));
-    CHECK_THAT(failures[1], Contains("rejected") && Contains("end of the block"));
+    CHECK_THAT(failures[1], Contains("broken off") && Contains("end of the block"));
     CHECK_THAT(failures[2], Contains("repeated") && Contains("comes again now"));
     CHECK(count(details_of(record, "operator answered"), "no") == 2);
     CHECK(count(details_of(record, phase_event), "calibration") == 2);
