@@ -76,7 +76,10 @@ void run_quietly(const DisplayFaults& faults) {
     protocol.materials.resize(1);
     Schedule schedule;
     schedule.trials = {{0, 0, {}}, {1, 1, {}}, {2, 0, {}}};
-    const auto session = testing::make_session(root.path(), testing::example_header());
+    SessionHeader header = testing::example_header();
+    header.animation = protocol.animation;
+    header.poses = distinct_poses(protocol.animation);
+    const auto session = testing::make_session(root.path(), header);
     {
         SessionStore store(session / session_file_name, testing::patient());
         const SessionResult result = Session(protocol, schedule, observer.scene().screen.centre(),
