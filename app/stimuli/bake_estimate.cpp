@@ -131,10 +131,6 @@ std::string what_it_takes(const std::optional<FrameQuality>& there, BakeQuality 
     return fmt::format("is refused until `overt bake` has made {} quality.\n", name_of(wanted));
 }
 
-} // namespace
-
-namespace {
-
 constexpr const char* what_live_lacks =
     "drawn by OpenGL without waiting: no light from one part of a surface to "
     "another, no spectra, and an error that is not measured";
