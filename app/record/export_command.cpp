@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -39,22 +40,49 @@ std::filesystem::path folder_at(const std::filesystem::path& session) {
     return path.has_filename() && path.filename() != session_file_name ? path : path.parent_path();
 }
 
+/// The folder that all sessions lie in.
+std::filesystem::path common_folder(std::span<const std::filesystem::path> sessions) {
+    std::filesystem::path common = folder_at(sessions.front()).parent_path();
+    for (const std::filesystem::path& session : sessions) {
+        const std::filesystem::path folder = folder_at(session);
+        while (*folder.lexically_relative(common).begin() == "..")
+            common = common.parent_path();
+    }
+    return common;
+}
+
 /// Where one of the sessions goes.
 std::filesystem::path folder_of(const ExportOptions& options, const ExportFormatEntry& format,
-                                const SessionRecord& record) {
+                                const std::filesystem::path& session) {
+    const std::filesystem::path folder = folder_at(session);
     if (options.out.empty())
-        return record.directory() / ("export_" + options.format);
+        return folder / ("export_" + options.format);
     if (options.sessions.size() == 1 || format.joins_sessions)
         return options.out;
-    // Observers of several protocols have folders of the same names.
-    const std::filesystem::path folder = folder_at(record.directory());
-    const auto namesakes =
-        std::count_if(options.sessions.begin(), options.sessions.end(), [&](const auto& session) {
-            const std::filesystem::path other = folder_at(session);
-            return other.filename() == folder.filename() && other != folder;
-        });
-    return namesakes == 0 ? options.out / folder.filename()
-                          : options.out / folder.parent_path().filename() / folder.filename();
+    // Observers of several protocols, and recordings that were imported, have folders of the same names.
+    const bool has_namesakes = std::ranges::any_of(options.sessions, [&](const auto& other) {
+        return folder_at(other).filename() == folder.filename() && folder_at(other) != folder;
+    });
+    return options.out /
+           (has_namesakes ? folder.lexically_relative(common_folder(options.sessions)) : folder.filename());
+}
+
+/// That each session's folder is free, before the first is written. Throws InputError that names all that
+/// are not.
+void need_free_folders(const ExportOptions& options, const ExportFormatEntry& format) {
+    if (options.overwrite || format.joins_sessions)
+        return;
+    std::vector<std::string> taken;
+    for (const std::filesystem::path& session : options.sessions)
+        if (const std::filesystem::path folder = folder_of(options, format, session);
+            std::filesystem::exists(folder))
+            taken.push_back(folder.string());
+    // Of one alone the export itself says so.
+    if (!taken.empty() && options.sessions.size() > 1)
+        throw InputError(
+            fmt::format("{}: {} already, and nothing was exported. Name another folder with --out, "
+                        "or replace what is there with --overwrite.",
+                        fmt::join(taken, ", "), taken.size() == 1 ? "exists" : "exist"));
 }
 
 /// That events can be found in all that is exported. Throws InputError.
@@ -71,6 +99,7 @@ int run_export(const ExportOptions& given) {
     ExportOptions options = given;
     options.sessions = sessions_in(given.sessions);
     const auto& [entry, format] = options.formats.at(options.format);
+    need_free_folders(options, *entry);
     for (const std::filesystem::path& session : options.sessions) {
         SessionRecord record(session);
         if (const auto thresholds = options.events.detection()) {
@@ -85,7 +114,7 @@ int run_export(const ExportOptions& given) {
                 folder_at(record.directory()).string());
         ProgressBar bar;
         const std::string title = "exporting " + folder_at(record.directory()).filename().string();
-        const std::string said = format->write({record, options.format, folder_of(options, *entry, record),
+        const std::string said = format->write({record, options.format, folder_of(options, *entry, session),
                                                 options.overwrite, [&](int done, int all) {
                                                     bar.update(title, done, all);
                                                     Interruption::check("The export");

@@ -44,4 +44,24 @@ TEST_CASE(
     CHECK(fs::exists(root.path() / "all/faces/sub-01_ses-01/trials.tsv"));
     CHECK(fs::exists(root.path() / "all/scenes/sub-01_ses-01/trials.tsv"));
     CHECK(fs::exists(root.path() / "all/sub-02_ses-01/trials.tsv"));
+    // Nothing is written where a folder of one of them is taken.
+    CHECK(exported({"scenes/sub-01_ses-01", "scenes/sub-02_ses-01"}, "all") == 2);
+    CHECK_FALSE(fs::exists(root.path() / "all/sub-01_ses-01"));
+}
+
+TEST_CASE("sessions whose folders and protocols have the same names are exported to folders apart",
+          "[session]") {
+    const test::TemporaryFolder root;
+    const fs::path file = write_asc(root.path() / "a.asc", asc_text({}));
+    for (const char* of : {"first", "second"}) {
+        AscImportOptions options;
+        options.place.observer_label = "01";
+        options.out = root.path() / "recordings" / of / "imported/sub-01_ses-01";
+        import_asc(file, options);
+    }
+    const std::vector<std::string> arguments{"export", (root.path() / "recordings").string(), "--out",
+                                             (root.path() / "tables").string()};
+    REQUIRE(test::RunningProgram(arguments, {}, root.path() / "said").wait() == 0);
+    CHECK(fs::exists(root.path() / "tables/first/imported/sub-01_ses-01/trials.tsv"));
+    CHECK(fs::exists(root.path() / "tables/second/imported/sub-01_ses-01/trials.tsv"));
 }
