@@ -23,6 +23,7 @@ namespace {
 struct ChannelPlaces {
     int channels = 4; ///< that are read
     std::array<int, 4> of{0, 1, 2, -1};
+    bool are_xyz = false; ///< X, Y and Z of CIE 1931 in their place
 
     bool are_rgba() const { return channels == 4 && of == std::array{0, 1, 2, 3}; }
 };
@@ -37,10 +38,10 @@ int alpha_channel_of(const PictureHeader& header) {
 
 [[noreturn]] void refuse_channels(const PictureHeader& header, const std::filesystem::path& file,
                                   std::string_view what) {
-    throw InputError(
-        fmt::format("{}: {}: it has {} ({}). Save a picture with the channels R, G, B, or Y alone, "
-                    "perhaps with A",
-                    file.string(), what, fmt::join(header.channels, ", "), header.type_name));
+    throw InputError(fmt::format(
+        "{}: {}: it has {} ({}). Save a picture with the channels R, G, B, or X, Y, Z, or Y alone, "
+        "perhaps with A",
+        file.string(), what, fmt::join(header.channels, ", "), header.type_name));
 }
 
 /// By the channels' names, as OpenEXR has them: there what stands first may be depth, or a normal.
@@ -68,6 +69,10 @@ ChannelPlaces named_places_in(const PictureHeader& header, const std::filesystem
     }
     if (layers.size() > 1)
         refuse_channels(header, file, "holds several layers of colours");
+    if (header.channel("X") >= 0 && header.channel("Y") >= 0 && header.channel("Z") >= 0) {
+        places.are_xyz = true;
+        return take({"X", "Y", "Z", "A"});
+    }
     if (header.channel("RY") >= 0 || header.channel("BY") >= 0)
         refuse_channels(header, file, "holds luminance with colour differences");
     if (header.channel("Y") >= 0)
@@ -160,7 +165,10 @@ PictureFile opened(const std::filesystem::path& file) {
 }
 
 /// What turns the file's colours into Rec. 709; nothing if they are that, or nobody said what they are.
-std::optional<glm::mat3> to_rec709(const PictureHeader& header, const std::filesystem::path& file) {
+std::optional<glm::mat3> to_rec709(const PictureHeader& header, const ChannelPlaces& places,
+                                   const std::filesystem::path& file) {
+    if (places.are_xyz)
+        return glm::mat3(glm::inverse(xyz_from_rgb(rec709_primaries)));
     // Some programs write zeros for what they do not know.
     if (!header.primaries || *header.primaries == std::array<double, 8>{})
         return std::nullopt;
@@ -211,7 +219,8 @@ void read_opened(const std::filesystem::path& file, FrameEncoding encoding, File
     }
     if (encoding == FrameEncoding::srgb)
         decode_srgb(into, facts.are_codes);
-    if (const auto matrix = colours == FileColours::as_rec709 ? to_rec709(header, file) : std::nullopt) {
+    if (const auto matrix =
+            colours == FileColours::as_rec709 ? to_rec709(header, places, file) : std::nullopt) {
         for (glm::vec4& pixel : into.pixels)
             pixel = glm::vec4(*matrix * glm::vec3(pixel), pixel.w);
     }
@@ -243,7 +252,9 @@ bool has_alpha(const std::filesystem::path& file) {
 }
 
 bool has_other_primaries(const std::filesystem::path& file) {
-    return to_rec709(opened(file).header(), file).has_value();
+    const PictureFile picture = opened(file);
+    const PictureHeader& header = picture.header();
+    return to_rec709(header, places_in(header, file), file).has_value();
 }
 
 void write_linear_exr(const std::filesystem::path& file, const LinearImage& image,

@@ -331,6 +331,16 @@ TEST_CASE(
     const ExrPart grey{{"Y"}};
     write_parts(file, {grey});
     check_values(read_linear_image(file), grey, {0, 0, 0});
+    // Tristimulus values, as frames are exported, and not a grey of their Y.
+    const ExrPart tristimulus{{"A", "X", "Y", "Z"}};
+    write_parts(file, {tristimulus});
+    check_values(read_linear_image(file), tristimulus, {1, 2, 3});
+    CHECK(has_other_primaries(file));
+    const glm::dvec3 xyz(value_at(1, 1, 1), value_at(2, 1, 1), value_at(3, 1, 1));
+    const glm::dvec3 rec709 = glm::inverse(xyz_from_rgb(rec709_primaries)) * xyz;
+    const LinearImage converted = read_linear_image(file, FrameEncoding::linear, FileColours::as_rec709);
+    for (int channel = 0; channel < 3; ++channel)
+        CHECK(double{converted.at(1, 1)[channel]} == Approx(rec709[channel]).epsilon(1e-5));
 
     CHECK_THAT(refusal_of(light_case("Z_only.exr")),
                Catch::Contains("Z_only.exr") && Catch::Contains("depth and no colours"));
