@@ -14,9 +14,16 @@ std::string number_text(const std::optional<double>& value) {
     if (!value)
         return "n/a";
     const double size = std::abs(*value);
-    return size >= 100.0                 ? fmt::format("{:.0f}", *value)
-           : size >= 0.01 || size == 0.0 ? fmt::format("{:.3g}", *value)
-                                         : fmt::format("{:.1e}", *value);
+    if (size >= 100.0 || size == 0.0)
+        return fmt::format("{:.0f}", *value);
+    if (size >= 0.01)
+        return fmt::format("{:.3g}", *value);
+    // Two digits, written out: densities are small, and powers of ten are hard to compare down a column.
+    constexpr double least = 1e-6;
+    if (size < least)
+        return *value > 0.0 ? "< 0.000001" : "> -0.000001";
+    const int decimals = 1 - static_cast<int>(std::floor(std::log10(size)));
+    return fmt::format("{:.{}f}", *value, decimals);
 }
 
 std::string text_of(const Estimate& estimate) {

@@ -230,6 +230,23 @@ TEST_CASE("each number of the figures of rows stands below a head that says what
     }
 }
 
+TEST_CASE("small numbers in figures are written out, and none is written as 0", "[unit]") {
+    const auto texts_of = [](double value) {
+        std::string all;
+        for (const StudyFigure& figure : study_figures(study_with(2, 3, short_name, value))) {
+            MeasuringPen pen;
+            figure.draw(pen);
+            for (const Box& text : pen.texts)
+                all += text.text + "\n";
+        }
+        return all;
+    };
+    CHECK(texts_of(0.00043).find("0.00043") != std::string::npos);
+    CHECK(texts_of(0.00043).find("4.3e-04") == std::string::npos);
+    CHECK(texts_of(2.9e-5).find("0.000029") != std::string::npos);
+    CHECK(texts_of(2.9e-9).find("< 0.000001") != std::string::npos);
+}
+
 TEST_CASE("56 curves are unlike each other", "[unit]") {
     std::set<std::string> looks;
     for (std::size_t i = 0; i < 56; ++i) {
